@@ -1,0 +1,46 @@
+# What TAMP borrows. Each find is followed by a line for the summary that ends the configure step.
+
+function(tamp_uses name version purpose)
+  set_property(GLOBAL APPEND_STRING PROPERTY tamp_summary "  ${name} ${version}: ${purpose}\n")
+endfunction()
+
+find_program(TAMP_CCACHE ccache)
+if(TAMP_CCACHE)
+  set(CMAKE_C_COMPILER_LAUNCHER ${TAMP_CCACHE})
+  set(CMAKE_CXX_COMPILER_LAUNCHER ${TAMP_CCACHE})
+endif()
+
+set(THREADS_PREFER_PTHREAD_FLAG ON)
+find_package(Threads REQUIRED)
+
+find_package(TBB REQUIRED CONFIG)
+tamp_uses(oneTBB ${TBB_VERSION} "threads and concurrent containers")
+
+find_package(Eigen3 3.4 REQUIRED CONFIG)
+tamp_uses(Eigen ${Eigen3_VERSION} "small vectors and matrices")
+
+find_package(MPI REQUIRED COMPONENTS C)
+tamp_uses(MPI ${MPI_C_VERSION} "messages between ranks (${MPI_C_LIBRARIES})")
+
+# The parallel build, so that ranks can write one file together.
+set(HDF5_PREFER_PARALLEL ON)
+find_package(HDF5 REQUIRED COMPONENTS C)
+if(NOT HDF5_IS_PARALLEL)
+  message(FATAL_ERROR "HDF5 ${HDF5_VERSION} was built without MPI; install libhdf5-openmpi-dev")
+endif()
+tamp_uses(HDF5 ${HDF5_VERSION} "fields and checkpoints (parallel build)")
+
+find_package(fmt REQUIRED CONFIG)
+tamp_uses(fmt ${fmt_VERSION} "text")
+
+find_package(nlohmann_json 3.11 REQUIRED CONFIG)
+tamp_uses(nlohmann-json ${nlohmann_json_VERSION} "scenes and reports")
+
+find_package(CLI11 REQUIRED CONFIG)
+tamp_uses(CLI11 ${CLI11_VERSION} "the command line")
+
+find_package(Catch2 2.13 REQUIRED CONFIG)
+if(Catch2_VERSION VERSION_GREATER_EQUAL 3)
+  message(FATAL_ERROR "the tests are written for Catch2 version 2, this is ${Catch2_VERSION}")
+endif()
+tamp_uses(Catch2 ${Catch2_VERSION} "tests")

@@ -1,0 +1,99 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <span>
+
+#include "components/contact/friction_table.hpp"
+#include "components/tensors.hpp"
+
+/// Frictional contact at one grid node between materials that each carry their own velocity there. In the plane,
+/// masses, impulses and energies are of one metre of thickness.
+namespace tamp::components
+{
+
+/// Below which a material is not taken to be at the node, and a normal not to exist.
+struct ContactThresholds {
+  /// kg
+  double mass = 0;
+  /// Length of G_a - G_b, see below [m^(D-1)]; a small part, such as 1e-9, of (cell size)^(D-1) tells it from
+  /// round-off.
+  double surface_gradient = 0;
+};
+
+/// What contact did at one node.
+struct ContactOutcome {
+  /// Kinetic energy lost, to friction and to the impact itself [J]; never below 0.
+  double dissipated_energy = 0;
+  /// The fastest approach of two materials along their normal before their impulse [m/s]; 0 if none approach.
+  double approach_speed = 0;
+};
+
+/// The impulse on b, and so minus the impulse on a, with which two materials meet.
+template <int D>
+struct ContactImpulse {
+  Vector<D> on_second = Vector<D>::Zero();
+  double dissipated_energy = 0;
+  double approach_speed = 0;
+};
+
+/// Contact of two materials through a unit normal from a to b. If they approach, a normal impulse ends the approach and
+/// a tangential one, at most `friction` times the normal, reduces their sliding but never turns it round. If they rest
+/// or part, nothing: contact never holds bodies together. A mass may be infinite, for a body that the impulse does not
+/// stop, but not both; the velocities are changed by impulse over mass, so finite masses keep their momentum.
+template <int D>
+ContactImpulse<D> collide(double mass_a, double mass_b, const Vector<D>& normal, double friction, Vector<D>& velocity_a,
+                          Vector<D>& velocity_b)
+{
+  const Vector<D> relative = velocity_a - velocity_b;
+  const double approach = relative.dot(normal);
+  if (!(approach > 0)) return {};
+
+  const Vector<D> sliding = relative - approach * normal;
+  const double sliding_speed = sliding.norm();
+  const double held = sliding_speed <= friction * approach ? 1.0 : friction * approach / sliding_speed;
+  const double reduced_mass = 1 / (1 / mass_a + 1 / mass_b);
+
+  ContactImpulse<D> impulse;
+  impulse.on_second = reduced_mass * (approach * normal + held * sliding);
+  // The impulse times the mean of the relative velocities before and after it; each term is 0 or above.
+  impulse.dissipated_energy =
+      0.5 * reduced_mass * (approach * approach + held * (2 - held) * sliding_speed * sliding_speed);
+  impulse.approach_speed = approach;
+  velocity_a -= impulse.on_second / mass_a;
+  velocity_b += impulse.on_second / mass_b;
+  return impulse;
+}
+
+/// Contact between all materials at one node; one entry of each span a material (contact group), in the order of the
+/// friction table. `surface_gradient` of a material is G_a = sum_p V_p grad S_ip, which points out of the material.
+/// Two materials share one normal, along G_a - G_b, so that the impulse on one is exactly minus that on the other.
+/// Pairs a < b are resolved one after another, in that order, each with the velocities that the pairs before it left:
+/// with three or more materials a later pair may leave an earlier one with some approach, which the next step ends. A
+/// pair is left alone, sliding and all, where one of its masses is not above the threshold or where G_a - G_b is too
+/// short to have a direction.
+template <int D>
+ContactOutcome resolve_contact(std::span<const double> mass, std::span<const Vector<D>> surface_gradient,
+                               const FrictionTable& friction, const ContactThresholds& thresholds,
+                               std::span<Vector<D>> velocity)
+{
+  ContactOutcome outcome;
+  for (std::size_t a = 0; a < mass.size(); ++a) {
+    if (!(mass[a] > thresholds.mass)) continue;
+    for (std::size_t b = a + 1; b < mass.size(); ++b) {
+      if (!(mass[b] > thresholds.mass)) continue;
+      const Vector<D> outward = surface_gradient[a] - surface_gradient[b];
+      const double length = outward.norm();
+      if (!(length > thresholds.surface_gradient)) continue;
+      const double coefficient = friction(static_cast<int>(a), static_cast<int>(b));
+      const ContactImpulse<D> impulse =
+          collide<D>(mass[a], mass[b], outward / length, coefficient, velocity[a], velocity[b]);
+      outcome.dissipated_energy += impulse.dissipated_energy;
+      outcome.approach_speed = std::max(outcome.approach_speed, impulse.approach_speed);
+    }
+  }
+  return outcome;
+}
+
+}  // namespace tamp::components

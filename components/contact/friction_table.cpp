@@ -1,0 +1,40 @@
+#include "components/contact/friction_table.hpp"
+
+#include <string>
+
+#include "components/errors.hpp"
+
+namespace tamp::components
+{
+namespace
+{
+
+double checked(double friction)
+{
+  if (!(friction >= 0)) throw BadValue("coefficient of friction " + std::to_string(friction), "0 or above");
+  return friction;
+}
+
+std::size_t n_pairs(int n_groups)
+{
+  if (n_groups < 1) throw BadValue(std::to_string(n_groups) + " contact groups", "1 or more");
+  return static_cast<std::size_t>(n_groups) * static_cast<std::size_t>(n_groups);
+}
+
+}  // namespace
+
+FrictionTable::FrictionTable(int n_groups, double friction)
+    : n_groups_(n_groups), friction_(n_pairs(n_groups), checked(friction))
+{
+}
+
+void FrictionTable::set(int a, int b, double friction)
+{
+  if (a < 0 || b < 0 || a >= n_groups_ || b >= n_groups_ || a == b) {
+    throw BadValue("contact groups " + std::to_string(a) + " and " + std::to_string(b),
+                   "two different groups from 0 to " + std::to_string(n_groups_ - 1));
+  }
+  friction_[place(a, b)] = friction_[place(b, a)] = checked(friction);
+}
+
+}  // namespace tamp::components

@@ -1,0 +1,306 @@
+#include "components/moduli/unloading_table.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <string>
+
+#include "components/errors.hpp"
+#include "components/materials/piecewise_linear.hpp"
+
+namespace tamp::components
+{
+
+namespace
+{
+
+constexpr std::size_t n_elastic_cells = 384;
+constexpr int octave_bits = 6;  // 64 cells in each octave of pressure
+constexpr int cell_shift = 52 - octave_bits;
+
+std::size_t octave_cell(double shifted_pressure)
+{
+  return static_cast<std::size_t>(std::bit_cast<std::uint64_t>(shifted_pressure) >> cell_shift);
+}
+
+double start_of_octave_cell(std::size_t cell)
+{
+  return std::bit_cast<double>(static_cast<std::uint64_t>(cell) << cell_shift);
+}
+
+/// The extension of a curve beyond its end: compliance (1/K) of its last point, until that of the next curve at the
+/// same pressure is smaller; a jump down to the next curve is spread over a quarter of the end pressure.
+void extend_along(std::vector<double>& pressure, std::vector<double>& elastic, double end_compliance,
+                  const MonotoneCubic& next, double last_pressure)
+{
+  constexpr int n_steps = 400;
+  const double start = pressure.back();
+  const double ratio = std::pow(last_pressure / start, 1.0 / n_steps);
+  const double jump = std::max(end_compliance - next.at(start).slope, 0.0);
+  const auto compliance = [&](double p) {
+    return std::min(end_compliance, next.at(p).slope + jump * std::exp(-4 * (p - start) / start));
+  };
+  for (int i = 1; i <= n_steps; ++i) {
+    const double from = pressure.back();
+    const double to = i == n_steps ? last_pressure : from * ratio;
+    const double simpson = compliance(from) + 4 * compliance(0.5 * (from + to)) + compliance(to);
+    pressure.push_back(to);
+    elastic.push_back(elastic.back() + (to - from) / 6 * simpson);
+  }
+}
+
+}  // namespace
+
+UnloadingTable::UnloadingTable(std::span<const double> plastic, std::span<const double> elastic,
+                               std::span<const double> pressure)
+{
+  read_curves(plastic, elastic, pressure);
+  extend_curves();
+  check_curves_do_not_cross();
+  make_surface_grid();
+  make_modulus_grid();
+}
+
+void UnloadingTable::read_curves(std::span<const double> plastic, std::span<const double> elastic,
+                                 std::span<const double> pressure)
+{
+  const std::size_t n = plastic.size();
+  if (elastic.size() != n || pressure.size() != n) throw BadValue("columns of unequal length", "equal lengths");
+  if (n == 0) throw BadValue("no unloading curve", "at least one");
+
+  for (std::size_t start = 0, end = 0; start < n; start = end) {
+    const auto row = static_cast<std::ptrdiff_t>(start);
+    const double strain = plastic[start];
+    const double least = curve_plastic_.empty() ? 0 : curve_plastic_.back();
+    if (!std::isfinite(strain) || strain < 0 || (!curve_plastic_.empty() && strain <= least)) {
+      throw BadValue("plastic strain " + std::to_string(strain), "ascending plastic strains, none negative", row);
+    }
+    while (end < n && plastic[end] == strain) ++end;
+    const std::size_t count = end - start;
+    if (count < 3) throw BadValue("a curve of " + std::to_string(count) + " rows", "at least three rows", row);
+    if (elastic[start] != 0 || pressure[start] != 0) {
+      throw BadValue("an unloading curve that starts at elastic strain " + std::to_string(elastic[start]) +
+                         ", pressure " + std::to_string(pressure[start]),
+                     "elastic strain 0, pressure 0", row);
+    }
+    const auto checked = [&](std::span<const double> column, const char* what) {
+      try {
+        check_strictly_increasing(column.subspan(start, count), what);
+      } catch (const BadValue& bad) {
+        throw BadValue(bad.found, bad.expected, row + bad.row);
+      }
+      return std::vector<double>(column.begin() + row, column.begin() + static_cast<std::ptrdiff_t>(end));
+    };
+    std::vector<double> e = checked(elastic, "elastic strain");
+    MonotoneCubic curve(checked(pressure, "pressure"), std::move(e));
+    if (curve_plastic_.empty() && strain > 0) {
+      curve_plastic_.push_back(0);
+      curve_row_.push_back(row);
+      measured_.push_back(curve);
+    }
+    curve_plastic_.push_back(strain);
+    curve_row_.push_back(row);
+    measured_.push_back(std::move(curve));
+    last_pressure_ = std::max(last_pressure_, pressure[end - 1]);
+  }
+  if (measured_.size() < 2)
+    throw BadValue("one unloading curve, at plastic strain 0", "one at a greater plastic strain");
+}
+
+void UnloadingTable::extend_curves()
+{
+  extended_ = measured_;
+  const std::size_t n = measured_.size();
+  for (std::size_t k = n - 1; k-- > 0;) {
+    const MonotoneCubic& own = measured_[k];
+    if (own.x().back() >= last_pressure_) continue;
+    std::vector<double> pressure(own.x().begin(), own.x().end());
+    std::vector<double> elastic(own.y().begin(), own.y().end());
+    const double end_compliance = own.at(pressure.back()).slope;
+    extend_along(pressure, elastic, end_compliance, extended_[k + 1], last_pressure_);
+    extended_[k] = MonotoneCubic(std::move(pressure), std::move(elastic));
+  }
+}
+
+void UnloadingTable::check_curves_do_not_cross() const
+{
+  constexpr int n_checks = 1000;
+  for (std::size_t k = 0; k + 1 < extended_.size(); ++k) {
+    for (int i = 1; i <= n_checks; ++i) {
+      const double p = last_pressure_ * i * i / (n_checks * n_checks);
+      const double total = curve_plastic_[k] + extended_[k].at(p).value;
+      const double next = curve_plastic_[k + 1] + extended_[k + 1].at(p).value;
+      if (next <= total) {
+        throw BadValue("at pressure " + std::to_string(p) + " a total strain of " + std::to_string(next) +
+                           " after more plastic strain, " + std::to_string(total) + " after less",
+                       "more total strain on the curve of more plastic strain", curve_row_[k + 1]);
+      }
+    }
+  }
+}
+
+UnloadingTable::StrainAtPressure UnloadingTable::strain_at(double pressure, double plastic) const
+{
+  std::vector<double> total(extended_.size());
+  for (std::size_t k = 0; k < total.size(); ++k) total[k] = curve_plastic_[k] + extended_[k].at(pressure).value;
+  const std::vector<double> slopes = monotone_slopes(curve_plastic_, total);
+  const std::size_t k = curve_below(plastic);
+  const CubicValue t = cubic(curve_plastic_[k + 1] - curve_plastic_[k], total[k], slopes[k], total[k + 1],
+                             slopes[k + 1], plastic - curve_plastic_[k]);
+  return {t.value - plastic, t.slope - 1};
+}
+
+void UnloadingTable::make_surface_grid()
+{
+  const std::size_t n_curves = extended_.size();
+  const std::size_t n_lines = (n_curves - 1) * n_lines_a_curve + 1;
+  for (const MonotoneCubic& curve : extended_) last_elastic_ = std::max(last_elastic_, curve.y().back());
+  n_elastic_ = n_elastic_cells + 1;
+  const double spacing = last_elastic_ / static_cast<double>(n_elastic_cells);
+  elastic_per_spacing_ = 1 / spacing;
+  nodes_.resize(n_lines * n_elastic_);
+
+  // Pressures dense enough at both ends of the range to carry each line as a curve.
+  constexpr std::size_t n_pressures = 1500;
+  std::vector<double> pressures(n_pressures);
+  for (std::size_t j = 0; j < n_pressures; ++j) {
+    const double fraction = static_cast<double>(j) / (n_pressures - 1);
+    pressures[j] = last_pressure_ * std::expm1(8.5 * fraction) / std::expm1(8.5);
+  }
+
+  std::vector<double> plastic_of_line(n_lines);
+  for (std::size_t k = 0; k + 1 < n_curves; ++k) {
+    const double width = curve_plastic_[k + 1] - curve_plastic_[k];
+    lines_per_strain_.push_back(n_lines_a_curve / width);
+    for (std::size_t m = 0; m <= n_lines_a_curve; ++m) {
+      plastic_of_line[k * n_lines_a_curve + m] = curve_plastic_[k] + width * static_cast<double>(m) / n_lines_a_curve;
+    }
+  }
+
+  std::vector<std::vector<double>> elastic(n_lines, std::vector<double>(n_pressures));
+  std::vector<std::vector<double>> by_plastic = elastic;
+  for (std::size_t j = 0; j < n_pressures; ++j) {
+    for (std::size_t line = 0; line < n_lines; ++line) {
+      const StrainAtPressure strain = strain_at(pressures[j], plastic_of_line[line]);
+      elastic[line][j] = strain.elastic;
+      by_plastic[line][j] = strain.by_plastic;
+    }
+  }
+
+  for (std::size_t line = 0; line < n_lines; ++line) {
+    const MonotoneCubic pressure_of_elastic(elastic[line], pressures);
+    const PiecewiseLinear by_plastic_of_elastic(elastic[line], by_plastic[line]);
+    Node* const node = &nodes_[line * n_elastic_];
+    const double end = elastic[line].back();
+    for (std::size_t i = 0; i < n_elastic_; ++i) {
+      const double e = spacing * static_cast<double>(i);
+      const CubicValue p = pressure_of_elastic.at(e);
+      // Along a line of equal pressure dp = 0 = K de + coupling d(plastic).
+      node[i] = {p.value, p.slope * spacing, -by_plastic_of_elastic(std::min(e, end)) * p.slope, 0};
+    }
+    for (std::size_t i = 0; i < n_elastic_; ++i) {
+      const std::size_t before = i == 0 ? 0 : i - 1, after = std::min(i + 1, n_elastic_ - 1);
+      node[i].coupling_by_elastic =
+          (node[after].coupling - node[before].coupling) / static_cast<double>(after - before);
+    }
+  }
+
+  least_bulk_modulus_ = at(0, 0).bulk_modulus;
+  for (std::size_t line = 0; line + 1 < n_lines; ++line) {
+    const double half_way = 0.5 * (plastic_of_line[line] + plastic_of_line[line + 1]);
+    for (std::size_t i = 0; i < 2 * n_elastic_; ++i) {
+      const double e = 0.5 * spacing * static_cast<double>(i);
+      for (double ep : {plastic_of_line[line], half_way}) {
+        least_bulk_modulus_ = std::min(least_bulk_modulus_, at(e, ep).bulk_modulus);
+      }
+    }
+  }
+  if (!(least_bulk_modulus_ > 0)) {
+    throw BadValue("a bulk modulus of " + std::to_string(least_bulk_modulus_), "curves with a positive modulus");
+  }
+}
+
+void UnloadingTable::at(std::span<const double> elastic, std::span<const double> plastic,
+                        std::span<ElasticPoint> points) const
+{
+  for (std::size_t i = 0; i < points.size(); ++i) points[i] = at(elastic[i], plastic[i]);
+}
+
+ElasticPoint UnloadingTable::defined_at(double elastic, double plastic) const
+{
+  const double ep = std::clamp(plastic, 0.0, curve_plastic_.back());
+  const double ee = std::max(elastic, 0.0);
+  double low = 0, high = 2 * last_pressure_;
+  while (strain_at(high, ep).elastic < ee) high *= 2;
+  for (int i = 0; i < 200 && high - low > 1e-15 * high; ++i) {
+    const double middle = 0.5 * (low + high);
+    (strain_at(middle, ep).elastic < ee ? low : high) = middle;
+  }
+  const double p = 0.5 * (low + high);
+  const double dp = 1e-5 * (p + 1e-5 * last_pressure_);
+  const double from = std::max(p - dp, 0.0);
+  const double modulus = (p + dp - from) / (strain_at(p + dp, ep).elastic - strain_at(from, ep).elastic);
+  const double coupling = plastic == ep ? -strain_at(p, ep).by_plastic * modulus : 0;
+  return {p + modulus * (elastic - ee), modulus, coupling};
+}
+
+double UnloadingTable::elastic_volumetric_at(double pressure, double plastic) const
+{
+  const ElasticPoint unstrained = at(0, plastic);
+  if (pressure <= 0) return pressure / unstrained.bulk_modulus;
+  const ElasticPoint end = at(last_elastic_, plastic);
+  if (pressure >= end.pressure) return last_elastic_ + (pressure - end.pressure) / end.bulk_modulus;
+  double low = 0, high = last_elastic_;
+  double e = std::min(pressure / unstrained.bulk_modulus, high);
+  for (int i = 0; i < 100; ++i) {
+    const ElasticPoint point = at(e, plastic);
+    const double excess = point.pressure - pressure;
+    (excess < 0 ? low : high) = e;
+    if (std::abs(excess) <= 1e-14 * pressure) break;
+    const double newton = e - excess / point.bulk_modulus;
+    const double next = newton > low && newton < high ? newton : 0.5 * (low + high);
+    if (next == e) break;
+    e = next;
+  }
+  return e;
+}
+
+void UnloadingTable::make_modulus_grid()
+{
+  pressure_shift_ = last_pressure_ / 4096;
+  first_octave_cell_ = octave_cell(pressure_shift_);
+  // The first node lies at or below pressure zero, where a curve is straight.
+  const std::size_t n_cells = octave_cell(last_pressure_ + pressure_shift_) - first_octave_cell_ + 1;
+  for (std::size_t cell = 0; cell <= n_cells; ++cell) {
+    const double p = start_of_octave_cell(first_octave_cell_ + cell) - pressure_shift_;
+    for (const MonotoneCubic& curve : measured_) modulus_.push_back(1 / curve.at(p).slope);
+  }
+}
+
+double UnloadingTable::bulk_modulus_at_pressure(double pressure, double plastic) const
+{
+  const double shifted = std::clamp(pressure, 0.0, last_pressure_) + pressure_shift_;
+  const std::size_t cell = octave_cell(shifted);
+  const double start = start_of_octave_cell(cell), end = start_of_octave_cell(cell + 1);
+  const double t = (shifted - start) / (end - start);
+
+  const double ep = std::clamp(plastic, 0.0, curve_plastic_.back());
+  const std::size_t k = curve_below(ep);
+  const double s = (ep - curve_plastic_[k]) / (curve_plastic_[k + 1] - curve_plastic_[k]);
+
+  const std::size_t n_curves = curve_plastic_.size();
+  const double* const low = &modulus_[(cell - first_octave_cell_) * n_curves + k];
+  const double* const high = low + n_curves;
+  return (1 - t) * ((1 - s) * low[0] + s * low[1]) + t * ((1 - s) * high[0] + s * high[1]);
+}
+
+void UnloadingTable::bulk_modulus_at_pressure(std::span<const double> pressure, std::span<const double> plastic,
+                                              std::span<double> bulk_modulus) const
+{
+  for (std::size_t i = 0; i < bulk_modulus.size(); ++i) {
+    bulk_modulus[i] = bulk_modulus_at_pressure(pressure[i], plastic[i]);
+  }
+}
+
+}  // namespace tamp::components

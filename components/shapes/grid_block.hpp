@@ -1,0 +1,25 @@
+#pragma once
+
+#include <array>
+#include <cassert>
+#include <cstddef>
+
+#include "components/tensors.hpp"
+
+namespace tamp::components {
+
+/// The nodes of a part of a uniform grid, as kernels see them: where they are and how they lie in memory.
+template <int D>
+struct GridBlock {
+  /// Position of the first node [m].
+  Vector<D> origin;
+  double cell_size;
+  std::array<int, D> n_nodes;
+  /// From a node to the next along each axis, in values.
+  std::array<std::ptrdiff_t, D> strides;
+
+  /// Position in cells from the first node.
+  Vector<D> in_cells(const Vector<D>& x) const { return (x - origin) * (1 / cell_size); }
+};
+
+}  // namespace tamp::components

@@ -1,0 +1,91 @@
+#pragma once
+
+#include <cstddef>
+#include <span>
+
+#include "components/shapes/gimp.hpp"
+#include "components/shapes/grid_block.hpp"
+#include "components/shapes/node_sums.hpp"
+#include "components/tensors.hpp"
+
+namespace tamp::components {
+
+/// What particles bring to the grid; all spans of one length.
+template <int D>
+struct ParticleSources {
+  std::span<const Vector<D>> position;
+  std::span<const Vector<D>> velocity;
+  std::span<const double> mass;
+  std::span<const double> volume;
+  std::span<const SymmetricTensor<D>> stress;
+  /// Pressure of artificial viscosity [Pa], compression positive.
+  std::span<const double> viscous_pressure;
+};
+
+/// Adds each particle's mass, momentum, internal force and surface gradient to the nodes it reaches
+/// (PAR-10021867-092020-6, eqs 9, 36, 41). `sums` is the first node of `block`.
+template <class Interpolator, int D = Interpolator::dimension>
+void particles_to_grid(const Interpolator& interpolator, const GridBlock<D>& block, const ParticleSources<D>& from,
+                       NodeSums<D>* sums)
+{
+  using Values = typename NodeSums<D>::Values;
+  for (std::size_t p = 0; p < from.position.size(); ++p) {
+    const double m = from.mass[p];
+    const double volume = from.volume[p];
+    Values with_weight = Values::Zero();
+    with_weight[0] = m;
+    with_weight.template segment<D>(1) = m * from.velocity[p].array();
+    // Column k of -V (sigma - q I) goes with derivative k of the weight, as does the surface gradient's component k.
+    const Matrix<D> force =
+        -volume * (plane_part<D>(from.stress[p]) - from.viscous_pressure[p] * Matrix<D>::Identity());
+    std::array<Values, D> with_slope;
+    for (int k = 0; k < D; ++k) {
+      Values& column = with_slope[static_cast<std::size_t>(k)];
+      column.setZero();
+      column.template segment<D>(1 + D) = force.col(k).array();
+      column[1 + 2 * D + k] = volume;
+    }
+    const auto stencil = interpolator.at(block, from.position[p]);
+    for_each_node<D>(block, stencil, [&](std::ptrdiff_t node, double weight, const Vector<D>& gradient) {
+      Values add = weight * with_weight;
+      for (int k = 0; k < D; ++k) add += gradient[k] * with_slope[static_cast<std::size_t>(k)];
+      sums[node].values += add;
+    });
+  }
+}
+
+/// What the grid gives back to one particle.
+template <int D>
+struct ParticleMotion {
+  /// At the middle of the step [m/s].
+  Vector<D> velocity;
+  Vector<D> velocity_change;
+  /// sum v_i (x) grad S_ip [1/s]; row: component of velocity.
+  Matrix<D> velocity_gradient;
+};
+
+/// Interpolates the motion of the nodes to a particle (PAR-10021867-092020-6, eqs 43, 55).
+template <class Interpolator, int D = Interpolator::dimension>
+ParticleMotion<D> grid_to_particle(const Interpolator& interpolator, const GridBlock<D>& block, const Vector<D>& x,
+                                   const NodeMotion<D>* nodes)
+{
+  using Values = typename NodeMotion<D>::Values;
+  Values moved = Values::Zero();
+  std::array<Values, D> slopes;
+  for (Values& slope : slopes) slope.setZero();
+  const auto stencil = interpolator.at(block, x);
+  for_each_node<D>(block, stencil, [&](std::ptrdiff_t node, double weight, const Vector<D>& gradient) {
+    const Values& values = nodes[node].values;
+    moved += weight * values;
+    for (int k = 0; k < D; ++k) slopes[static_cast<std::size_t>(k)] += gradient[k] * values;
+  });
+  ParticleMotion<D> motion;
+  motion.velocity = moved.template segment<D>(0).matrix();
+  motion.velocity_change = moved.template segment<D>(D).matrix();
+  for (int k = 0; k < D; ++k) {
+    motion.velocity_gradient.col(k) = slopes[static_cast<std::size_t>(k)].template segment<D>(0).matrix();
+  }
+  return motion;
+}
+
+}  // namespace tamp::components

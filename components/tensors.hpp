@@ -1,0 +1,87 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <Eigen/LU>
+
+/// Small tensors of the mechanics. D is the dimension of the method: 2 is plane strain, 3 is space.
+namespace tamp
+{
+
+template <int D>
+using Vector = Eigen::Matrix<double, D, 1>;
+
+template <int D>
+using Matrix = Eigen::Matrix<double, D, D>;
+
+/// Components of a symmetric 3x3 tensor that a D-dimensional scene can hold: the plane-strain one keeps its zz.
+template <int D>
+inline constexpr int n_symmetric = D == 2 ? 4 : 6;
+
+/// A symmetric tensor as (xx, yy, zz, xy) in plane strain and (xx, yy, zz, xy, yz, xz) in space; shear components
+/// are tensor components (half the engineering strain). Tension positive.
+template <int D>
+using SymmetricTensor = Eigen::Matrix<double, n_symmetric<D>, 1>;
+
+template <int Size>
+double trace(const Eigen::Matrix<double, Size, 1>& a)
+{
+  return a[0] + a[1] + a[2];
+}
+
+/// a : b, every off-diagonal component counted twice.
+template <int Size>
+double double_dot(const Eigen::Matrix<double, Size, 1>& a, const Eigen::Matrix<double, Size, 1>& b)
+{
+  double diagonal = 0, shear = 0;
+  for (int i = 0; i < 3; ++i) diagonal += a[i] * b[i];
+  for (int i = 3; i < Size; ++i) shear += a[i] * b[i];
+  return diagonal + 2 * shear;
+}
+
+template <int Size>
+Eigen::Matrix<double, Size, 1> deviator(Eigen::Matrix<double, Size, 1> a)
+{
+  a.template head<3>().array() -= trace(a) / 3;
+  return a;
+}
+
+template <int Size>
+Eigen::Matrix<double, Size, 1> isotropic(double value)
+{
+  Eigen::Matrix<double, Size, 1> a = Eigen::Matrix<double, Size, 1>::Zero();
+  a.template head<3>().setConstant(value);
+  return a;
+}
+
+/// The in-plane (D x D) part of a symmetric tensor as a matrix; plane strain leaves zz out.
+template <int D>
+Matrix<D> plane_part(const SymmetricTensor<D>& a)
+{
+  if constexpr (D == 2) {
+    return (Matrix<2>() << a[0], a[3], a[3], a[1]).finished();
+  } else {
+    return (Matrix<3>() << a[0], a[3], a[5], a[3], a[1], a[4], a[5], a[4], a[2]).finished();
+  }
+}
+
+/// The symmetric tensor with the symmetric part of `m` in the plane and `zz` out of it (ignored in space).
+template <int D>
+SymmetricTensor<D> symmetric_part(const Matrix<D>& m, double zz = 0)
+{
+  SymmetricTensor<D> a;
+  if constexpr (D == 2) {
+    a << m(0, 0), m(1, 1), zz, 0.5 * (m(0, 1) + m(1, 0));
+  } else {
+    a << m(0, 0), m(1, 1), m(2, 2), 0.5 * (m(0, 1) + m(1, 0)), 0.5 * (m(1, 2) + m(2, 1)), 0.5 * (m(0, 2) + m(2, 0));
+  }
+  return a;
+}
+
+/// R a R^T for a rotation R of the D-dimensional space.
+template <int D>
+SymmetricTensor<D> rotated(const SymmetricTensor<D>& a, const Matrix<D>& rotation)
+{
+  return symmetric_part<D>(rotation * plane_part<D>(a) * rotation.transpose(), a[2]);
+}
+
+}  // namespace tamp

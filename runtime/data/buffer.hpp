@@ -1,0 +1,72 @@
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <cstring>
+#include <new>
+#include <utility>
+
+#include "runtime/data/memory_ledger.hpp"
+
+namespace tamp::runtime
+{
+
+/// Bytes of field data on a cache-line boundary, zero where never written, reported to the ledger.
+class Buffer
+{
+ public:
+  static constexpr std::size_t alignment = 64;
+
+  Buffer() = default;
+  Buffer(MemoryLedger& ledger, LedgerEntry& entry) : ledger_(&ledger), entry_(&entry) {}
+  Buffer(Buffer&& other) noexcept { swap(other); }
+  Buffer& operator=(Buffer&& other) noexcept
+  {
+    swap(other);
+    return *this;
+  }
+  ~Buffer() { resize_storage(0); }
+
+  std::byte* data() const { return data_; }
+  std::size_t capacity() const { return capacity_; }
+
+  /// Makes room for `bytes`, keeping what is there. Grows by half at least, so that slow growth stays cheap.
+  void reserve(std::size_t bytes)
+  {
+    if (bytes > capacity_) resize_storage(capacity_ == 0 ? bytes : std::max(bytes, capacity_ + capacity_ / 2));
+  }
+
+  void swap(Buffer& other) noexcept
+  {
+    std::swap(data_, other.data_);
+    std::swap(capacity_, other.capacity_);
+    std::swap(ledger_, other.ledger_);
+    std::swap(entry_, other.entry_);
+  }
+
+ private:
+  void resize_storage(std::size_t bytes)
+  {
+    std::byte* fresh = nullptr;
+    if (bytes > 0) {
+      fresh = static_cast<std::byte*>(::operator new (bytes, std::align_val_t{alignment}));
+      if (capacity_ > 0) std::memcpy(fresh, data_, std::min(capacity_, bytes));
+      if (bytes > capacity_) std::memset(fresh + capacity_, 0, bytes - capacity_);
+    }
+    if (data_ != nullptr) ::operator delete (data_, std::align_val_t{alignment});
+    if (ledger_ != nullptr) {
+      const auto change = static_cast<std::ptrdiff_t>(bytes) - static_cast<std::ptrdiff_t>(capacity_);
+      ledger_->total().add(change);
+      entry_->add(change);
+    }
+    data_ = fresh;
+    capacity_ = bytes;
+  }
+
+  std::byte* data_ = nullptr;
+  std::size_t capacity_ = 0;
+  MemoryLedger* ledger_ = nullptr;
+  LedgerEntry* entry_ = nullptr;
+};
+
+}  // namespace tamp::runtime

@@ -1,0 +1,56 @@
+#pragma once
+
+#include <cstddef>
+
+#include "runtime/data/buffer.hpp"
+#include "runtime/data/label.hpp"
+#include "runtime/grid/index_box.hpp"
+
+namespace tamp::runtime
+{
+
+/// The buffers that a field may have.
+enum class FieldBuffer { previous, current, part };
+
+/// The storage of one label on one patch for one group (or for none: a reduction, a field common to all groups).
+struct Field {
+  const Label* label = nullptr;
+  int patch = 0;
+  int group = 0;
+  /// Storage of a node or cell field: the patch with the widest halo that any task asks of it.
+  IndexBox box;
+  /// Particles of this patch and group; null for other centrings.
+  const std::size_t* n_particles = nullptr;
+  /// Not computed by the step: what it was stays what it is, in one buffer.
+  bool carried = false;
+  /// Read from the step before, so kept from step to step.
+  bool state = false;
+
+  Buffer previous_buffer;
+  Buffer current_buffer;
+  /// What this patch alone has summed, before its neighbours' parts are added.
+  Buffer part_buffer;
+
+  const Buffer& buffer(FieldBuffer which) const
+  {
+    switch (which) {
+      case FieldBuffer::previous:
+        return previous_buffer;
+      case FieldBuffer::current:
+        return carried ? previous_buffer : current_buffer;
+      case FieldBuffer::part:
+        return part_buffer;
+    }
+    return current_buffer;
+  }
+  Buffer& buffer(FieldBuffer which) { return const_cast<Buffer&>(std::as_const(*this).buffer(which)); }
+
+  std::size_t n_values() const
+  {
+    if (n_particles != nullptr) return *n_particles;
+    return label->centring() == Centring::reduction ? 1 : static_cast<std::size_t>(box.size());
+  }
+  std::size_t n_bytes() const { return n_values() * label->value_bytes(); }
+};
+
+}  // namespace tamp::runtime

@@ -1,0 +1,139 @@
+#include "runtime/data/warehouse.hpp"
+
+#include <algorithm>
+#include <stdexcept>
+
+namespace tamp::runtime
+{
+
+namespace
+{
+
+/// One use of each label and group over all graphs: state and computed where any graph says so.
+std::vector<LabelUse> merged_uses(std::span<const TaskGraph* const> graphs)
+{
+  std::vector<LabelUse> merged;
+  for (const TaskGraph* graph : graphs) {
+    for (const LabelUse& use : graph->label_uses()) {
+      const auto same = std::find_if(merged.begin(), merged.end(),
+                                     [&](const LabelUse& m) { return m.label == use.label && m.group == use.group; });
+      if (same == merged.end()) {
+        merged.push_back(use);
+      } else {
+        same->state |= use.state;
+        same->computed |= use.computed;
+        same->accumulated |= use.accumulated;
+      }
+    }
+  }
+  return merged;
+}
+
+}  // namespace
+
+Warehouse::Warehouse(std::span<const TaskGraph* const> graphs)
+    : layout_(&graphs.front()->layout()), n_groups_(graphs.front()->n_groups())
+{
+  const auto n_places = static_cast<std::size_t>(layout_->size() * n_groups_);
+  counts_.assign(n_places, 0);
+  particle_fields_.resize(n_places);
+  int halo = 0;
+  for (const TaskGraph* graph : graphs) halo = std::max(halo, graph->storage_halo());
+  for (const LabelUse& use : merged_uses(graphs)) {
+    // A reduction has a part on every patch and for every group, and the total at (-1, -1).
+    if (use.label->centring() == Centring::reduction) add_field(use, -1, halo);
+    for (const Patch& patch : *layout_) {
+      add_field(use, patch.id, halo);
+      if (use.label->centring() != Centring::reduction) continue;
+      for (int g = 0; g < n_groups_; ++g) {
+        LabelUse part = use;
+        part.group = g;
+        add_field(part, patch.id, halo);
+      }
+    }
+  }
+}
+
+void Warehouse::add_field(const LabelUse& use, int patch, int halo)
+{
+  Field& f = fields_.emplace_back();
+  f.label = use.label;
+  f.patch = patch;
+  f.group = use.group;
+  f.state = use.state;
+  f.carried = use.state && !use.computed;
+  LedgerEntry& entry = ledger_.entry(use.label->name());
+  f.previous_buffer = Buffer(ledger_, entry);
+  f.current_buffer = Buffer(ledger_, entry);
+  f.part_buffer = Buffer(ledger_, entry);
+  const Centring centring = use.label->centring();
+  if (centring == Centring::particle) {
+    const auto place = static_cast<std::size_t>(patch * n_groups_ + use.group);
+    f.n_particles = &counts_[place];
+    particle_fields_[place].push_back(&f);
+  } else {
+    if (centring != Centring::reduction) {
+      const Patch& p = (*layout_)[patch];
+      f.box = grown(centring == Centring::node ? p.nodes : p.cells, halo, layout_->grid().dimension);
+    }
+    if (f.state) f.previous_buffer.reserve(f.n_bytes());
+    if (use.computed || centring == Centring::reduction) f.current_buffer.reserve(f.n_bytes());
+    if (use.accumulated) f.part_buffer.reserve(f.n_bytes());
+  }
+  // A part that no task reduces must not count.
+  if (centring == Centring::reduction) use.label->reduction()->reset(f.current_buffer.data());
+  lookup_[{use.label, patch, use.group}] = &f;
+}
+
+std::size_t Warehouse::forecast_bytes() const
+{
+  std::size_t bytes = 0;
+  for (const Field& f : fields_) {
+    const bool has_current = f.n_particles != nullptr ? !f.carried : f.current_buffer.capacity() > 0;
+    const bool has_part = f.part_buffer.capacity() > 0;
+    bytes += f.n_bytes() * (std::size_t{f.state} + std::size_t{has_current} + std::size_t{has_part});
+  }
+  return bytes;
+}
+
+std::size_t Warehouse::n_particles(int group) const
+{
+  std::size_t n = 0;
+  for (const Patch& patch : *layout_) n += n_particles(patch.id, group);
+  return n;
+}
+
+void Warehouse::set_n_particles(int patch, int group, std::size_t n)
+{
+  counts_[static_cast<std::size_t>(patch * n_groups_ + group)] = n;
+  for (Field* f : particle_fields(patch, group)) {
+    if (f->state) f->previous_buffer.reserve(f->n_bytes());
+    if (!f->carried) f->current_buffer.reserve(f->n_bytes());
+  }
+}
+
+void Warehouse::advance()
+{
+  for (Field& f : fields_) {
+    if (f.state && !f.carried) f.previous_buffer.swap(f.current_buffer);
+  }
+}
+
+Field& Warehouse::field(const Label& label, int patch, int group)
+{
+  const auto found = lookup_.find({&label, patch, group});
+  if (found == lookup_.end()) throw std::out_of_range("no graph uses the label '" + label.name() + "'");
+  return *found->second;
+}
+
+const std::vector<Field*>& Warehouse::particle_fields(int patch, int group) const
+{
+  return particle_fields_[static_cast<std::size_t>(patch * n_groups_ + group)];
+}
+
+const std::size_t& Warehouse::count(int patch, int group) const
+{
+  return counts_[static_cast<std::size_t>(patch * n_groups_ + group)];
+}
+
+}  // namespace tamp::runtime

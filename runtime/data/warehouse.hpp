@@ -1,0 +1,87 @@
+#pragma once
+
+#include <deque>
+#include <map>
+#include <span>
+#include <tuple>
+#include <vector>
+
+#include "runtime/data/field.hpp"
+#include "runtime/data/memory_ledger.hpp"
+#include "runtime/data/views.hpp"
+#include "runtime/graph/task_graph.hpp"
+
+namespace tamp::runtime
+{
+
+/// All field data of this rank's patches: the state at the end of the last step and what the current step makes.
+///
+/// Between steps the host reads and sets the state; during a step only tasks see data, through their arguments.
+class Warehouse
+{
+ public:
+  /// Makes storage for every label that `graphs` use. The first graph is the step that computes the state; others may
+  /// read the state and make results of their own. Node and cell fields exist from here on, particle fields grow with
+  /// `set_n_particles`.
+  explicit Warehouse(std::span<const TaskGraph* const> graphs);
+
+  const PatchLayout& layout() const { return *layout_; }
+  int n_groups() const { return n_groups_; }
+  const MemoryLedger& ledger() const { return ledger_; }
+  /// Bytes that the fields need for the particles there are, before any growth by migration.
+  std::size_t forecast_bytes() const;
+
+  std::size_t n_particles(int patch, int group) const { return count(patch, group); }
+  std::size_t n_particles(int group) const;
+  /// Grows or cuts every particle field of a patch and group; new values are zero bytes.
+  void set_n_particles(int patch, int group, std::size_t n);
+
+  /// The state of a label at the end of the last step.
+  template <class T>
+  std::span<T> state(const ParticleLabel<T>& label, int patch, int group)
+  {
+    Field& f = field(label, patch, group);
+    return {reinterpret_cast<T*>(f.previous_buffer.data()), *f.n_particles};
+  }
+  template <class T, Centring C>
+  GridView<T> grid_state(const TypedLabel<T, C>& label, int patch, int group)
+  {
+    static_assert(C == Centring::node || C == Centring::cell);
+    Field& f = field(label, patch, group);
+    return {reinterpret_cast<T*>(f.previous_buffer.data()), f.box, f.box.strides()};
+  }
+  /// What the last step left in a node or cell field that is no state.
+  template <class T, Centring C>
+  GridView<const T> grid_result(const TypedLabel<T, C>& label, int patch, int group)
+  {
+    Field& f = field(label, patch, group);
+    return {reinterpret_cast<const T*>(f.current_buffer.data()), f.box, f.box.strides()};
+  }
+  template <class T>
+  const T& result(const ReductionLabel<T>& label)
+  {
+    return *reinterpret_cast<const T*>(field(label, -1, -1).current_buffer.data());
+  }
+
+  /// Makes what the step computed the state for the next.
+  void advance();
+
+  /// The field itself, for the executor. Throws std::out_of_range for a label that no graph uses.
+  Field& field(const Label& label, int patch, int group);
+  /// All particle fields of a patch and group; those that are state come with their particles when they migrate.
+  const std::vector<Field*>& particle_fields(int patch, int group) const;
+  const std::size_t& count(int patch, int group) const;
+
+ private:
+  void add_field(const LabelUse& use, int patch, int halo);
+
+  const PatchLayout* layout_;
+  int n_groups_;
+  MemoryLedger ledger_;
+  std::deque<Field> fields_;
+  std::map<std::tuple<const Label*, int, int>, Field*> lookup_;
+  std::vector<std::size_t> counts_;
+  std::vector<std::vector<Field*>> particle_fields_;
+};
+
+}  // namespace tamp::runtime

@@ -1,0 +1,136 @@
+#include "runtime/execute/bound_graph.hpp"
+
+#include <cstring>
+
+#include "runtime/execute/halo.hpp"
+
+namespace tamp::runtime
+{
+
+namespace
+{
+
+FieldBuffer buffer_of(const Access& access)
+{
+  if (access.of_previous_step) return FieldBuffer::previous;
+  return access.mode == Mode::accumulate ? FieldBuffer::part : FieldBuffer::current;
+}
+
+}  // namespace
+
+BoundGraph::BoundGraph(const TaskGraph& graph, Warehouse& warehouse) : graph_(graph), warehouse_(warehouse)
+{
+  for (const Instance& instance : graph.instances()) {
+    bound_.push_back(bind(instance));
+    if (instance.kind == InstanceKind::send_particles && migration_ == nullptr) {
+      migration_ = std::make_unique<Migration>(warehouse, *graph.declaration(instance).accesses.front().label);
+    }
+  }
+}
+
+BoundGraph::Bound BoundGraph::bind(const Instance& instance)
+{
+  Bound bound;
+  if (instance.kind != InstanceKind::body) return bound;
+  const PatchLayout& layout = graph_.layout();
+  const Patch& patch = layout[instance.patch];
+  const auto& accesses = graph_.declaration(instance).accesses;
+  bound.fields.reserve(accesses.size() * static_cast<std::size_t>(graph_.n_groups() + 1));
+  for (const Access& access : accesses) {
+    BoundArgument argument;
+    argument.buffer = buffer_of(access);
+    argument.n_fields = access.every_group ? static_cast<std::size_t>(graph_.n_groups()) : 1;
+    const bool total = access.mode == Mode::read && access.label->centring() == Centring::reduction;
+    argument.fields = bound.fields.data() + bound.fields.size();
+    for (int k = 0; k < static_cast<int>(argument.n_fields); ++k) {
+      const int group = access.every_group ? k : total ? -1 : instance.group;
+      bound.fields.push_back(&warehouse_.field(*access.label, total ? -1 : instance.patch, group));
+    }
+    const IndexBox own = access.label->centring() == Centring::node ? patch.nodes : patch.cells;
+    argument.box = grown(own, access.halo, layout.grid().dimension);
+    bound.uses_particles |= access.label->centring() == Centring::particle;
+    bound.arguments.push_back(argument);
+  }
+  return bound;
+}
+
+void BoundGraph::run(int i, const Step& step)
+{
+  const Instance& instance = graph_.instances()[static_cast<std::size_t>(i)];
+  const Bound& bound = bound_[static_cast<std::size_t>(i)];
+  switch (instance.kind) {
+    case InstanceKind::body: {
+      prepare(instance, bound);
+      const PatchLayout& layout = graph_.layout();
+      graph_.declaration(instance).body({layout, layout[instance.patch], instance.group, step}, bound.arguments.data());
+      break;
+    }
+    case InstanceKind::sum_halo:
+      for (const Label* label : instance.labels) {
+        sum_halo(warehouse_, *label, instance.patch, instance.group, instance.halo);
+      }
+      break;
+    case InstanceKind::fill_halo:
+      fill_halo(warehouse_, *instance.labels.front(), instance.patch, instance.group, instance.halo,
+                instance.of_previous_step ? FieldBuffer::previous : FieldBuffer::current);
+      break;
+    case InstanceKind::combine:
+      combine(*instance.labels.front());
+      break;
+    case InstanceKind::send_particles:
+      migration_->send(instance.patch, instance.group);
+      break;
+    case InstanceKind::receive_particles:
+      migration_->receive(instance.patch, instance.group);
+      break;
+  }
+}
+
+/// What a body may count on: parts start at zero, reductions at their neutral value. In the checked build what is to
+/// be computed starts as not-a-number, so that a value left out shows.
+void BoundGraph::prepare(const Instance& instance, const Bound& bound)
+{
+  const auto& accesses = graph_.declaration(instance).accesses;
+  for (std::size_t a = 0; a < accesses.size(); ++a) {
+    const Access& access = accesses[a];
+    Field& field = *bound.arguments[a].fields[0];
+    if (access.mode == Mode::accumulate) {
+      std::memset(field.part_buffer.data(), 0, field.n_bytes());
+    } else if (access.mode == Mode::reduce) {
+      access.label->reduction()->reset(field.current_buffer.data());
+    } else if (checked_build && access.mode == Mode::compute) {
+      for (std::size_t g = 0; g < bound.arguments[a].n_fields; ++g) {
+        Field& f = *bound.arguments[a].fields[g];
+        if (f.n_bytes() > 0) std::memset(f.buffer(FieldBuffer::current).data(), 0xff, f.n_bytes());
+      }
+    }
+  }
+}
+
+void BoundGraph::combine(const Label& label)
+{
+  Field& total = warehouse_.field(label, -1, -1);
+  label.reduction()->reset(total.current_buffer.data());
+  for (const Patch& patch : graph_.layout()) {
+    for (int g = -1; g < graph_.n_groups(); ++g) {
+      label.reduction()->combine(total.current_buffer.data(),
+                                 warehouse_.field(label, patch.id, g).current_buffer.data());
+    }
+  }
+}
+
+std::size_t BoundGraph::bytes(int instance) const
+{
+  std::size_t sum = 0;
+  for (const Field* f : bound_[static_cast<std::size_t>(instance)].fields) sum += f->n_bytes();
+  return sum;
+}
+
+std::size_t BoundGraph::n_particles(int instance) const
+{
+  const Bound& bound = bound_[static_cast<std::size_t>(instance)];
+  const Instance& self = graph_.instances()[static_cast<std::size_t>(instance)];
+  return bound.uses_particles && self.group >= 0 ? warehouse_.n_particles(self.patch, self.group) : 0;
+}
+
+}  // namespace tamp::runtime

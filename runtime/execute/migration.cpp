@@ -1,0 +1,149 @@
+#include "runtime/execute/migration.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <string>
+
+namespace tamp::runtime
+{
+
+namespace
+{
+
+std::vector<Field*> state_fields(const Warehouse& warehouse, int patch, int group)
+{
+  std::vector<Field*> fields = warehouse.particle_fields(patch, group);
+  std::erase_if(fields, [](const Field* f) { return !f->state; });
+  return fields;
+}
+
+std::byte* value(Field& field, std::size_t particle)
+{
+  return field.buffer(FieldBuffer::current).data() + particle * field.label->value_bytes();
+}
+
+/// Moves the values of all but `leavers` (ascending) together, keeping their order.
+void close_gaps(Field& field, const std::vector<std::size_t>& leavers, std::size_t n_particles)
+{
+  const std::size_t size = field.label->value_bytes();
+  std::size_t kept = leavers.front();
+  for (std::size_t k = 0; k < leavers.size(); ++k) {
+    const std::size_t first = leavers[k] + 1;
+    const std::size_t last = k + 1 < leavers.size() ? leavers[k + 1] : n_particles;
+    std::memmove(value(field, kept), value(field, first), (last - first) * size);
+    kept += last - first;
+  }
+}
+
+void clear(ParticleParcel& parcel)
+{
+  parcel.n_particles = 0;
+  for (auto& bytes : parcel.fields) bytes.clear();
+}
+
+}  // namespace
+
+Migration::Migration(Warehouse& warehouse, const Label& position)
+    : warehouse_(warehouse),
+      position_(position),
+      outboxes_(static_cast<std::size_t>(warehouse.layout().size() * warehouse.n_groups()))
+{
+  for (const Patch& patch : warehouse.layout()) {
+    for (int g = 0; g < warehouse.n_groups(); ++g) {
+      for (const int other : patch.neighbours) box(patch.id, g).to_patch[other];
+    }
+  }
+}
+
+int Migration::destination(const std::byte* position) const
+{
+  const Grid& grid = warehouse_.layout().grid();
+  Index cell{0, 0, 0};
+  for (std::size_t k = 0; k < static_cast<std::size_t>(grid.dimension); ++k) {
+    double x = 0;
+    std::memcpy(&x, position + k * sizeof(double), sizeof(double));
+    const double place = std::floor((x - grid.lower[k]) / grid.cell_size);
+    // The comparison is false for what is not a number, too.
+    if (!(place >= 0 && place < grid.n_cells[k])) return -1;
+    cell[k] = static_cast<int>(place);
+  }
+  return warehouse_.layout().patch_of_cell(cell);
+}
+
+void Migration::pack(ParticleParcel& parcel, std::size_t particle, const std::vector<Field*>& fields) const
+{
+  parcel.fields.resize(fields.size());
+  for (std::size_t k = 0; k < fields.size(); ++k) {
+    const std::byte* first = value(*fields[k], particle);
+    parcel.fields[k].insert(parcel.fields[k].end(), first, first + fields[k]->label->value_bytes());
+  }
+  ++parcel.n_particles;
+}
+
+void Migration::send(int patch, int group)
+{
+  Outbox& out = box(patch, group);
+  for (auto& [destination_patch, parcel] : out.to_patch) clear(parcel);
+  out.leavers.clear();
+  Field& positions = warehouse_.field(position_, patch, group);
+  const std::size_t n = *positions.n_particles;
+  std::vector<Field*> fields;
+  for (std::size_t p = 0; p < n; ++p) {
+    const int to = destination(value(positions, p));
+    if (to == patch) continue;
+    if (fields.empty()) fields = state_fields(warehouse_, patch, group);
+    out.leavers.push_back(p);
+    if (to < 0) {
+      pack(out.lost, p, fields);
+    } else if (const auto parcel = out.to_patch.find(to); parcel != out.to_patch.end()) {
+      pack(parcel->second, p, fields);
+    } else {
+      throw std::runtime_error("a particle moved past a whole patch in one step");
+    }
+  }
+  if (out.leavers.empty()) return;
+  for (Field* f : fields) close_gaps(*f, out.leavers, n);
+  warehouse_.set_n_particles(patch, group, n - out.leavers.size());
+}
+
+void Migration::receive(int patch, int group)
+{
+  std::size_t arrivals = 0;
+  const Patch& self = warehouse_.layout()[patch];
+  for (const int other : self.neighbours) arrivals += box(other, group).to_patch.at(patch).n_particles;
+  if (arrivals == 0) return;
+  std::size_t n = warehouse_.n_particles(patch, group);
+  warehouse_.set_n_particles(patch, group, n + arrivals);
+  const std::vector<Field*> fields = state_fields(warehouse_, patch, group);
+  for (const int other : self.neighbours) {
+    const ParticleParcel& parcel = box(other, group).to_patch.at(patch);
+    if (parcel.n_particles == 0) continue;
+    for (std::size_t k = 0; k < fields.size(); ++k) {
+      std::memcpy(value(*fields[k], n), parcel.fields[k].data(), parcel.fields[k].size());
+    }
+    n += parcel.n_particles;
+  }
+}
+
+std::size_t Migration::n_lost(int group) const
+{
+  std::size_t n = 0;
+  for (const Patch& patch : warehouse_.layout()) n += box(patch.id, group).lost.n_particles;
+  return n;
+}
+
+const std::byte* Migration::field_bytes(const ParticleParcel& parcel, const Label& label, int patch, int group) const
+{
+  if (parcel.n_particles == 0) return nullptr;
+  const std::vector<Field*> fields = state_fields(warehouse_, patch, group);
+  const auto found = std::find_if(fields.begin(), fields.end(), [&](const Field* f) { return f->label == &label; });
+  return parcel.fields[static_cast<std::size_t>(found - fields.begin())].data();
+}
+
+void Migration::clear_lost()
+{
+  for (Outbox& out : outboxes_) clear(out.lost);
+}
+
+}  // namespace tamp::runtime

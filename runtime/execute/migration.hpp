@@ -1,0 +1,72 @@
+#pragma once
+
+#include <cstddef>
+#include <map>
+#include <stdexcept>
+#include <vector>
+
+#include "runtime/data/warehouse.hpp"
+
+namespace tamp::runtime
+{
+
+/// Particles on their way to another patch: the bytes of each state field, one field after the other.
+struct ParticleParcel {
+  std::size_t n_particles = 0;
+  std::vector<std::vector<std::byte>> fields;
+};
+
+/// Moves particles to the patch whose cells they are in. Stayers keep their order; arrivals are appended in the order
+/// of the patch they come from, so that the result is the same whatever the threads.
+class Migration
+{
+ public:
+  /// `position` is the label by whose coordinates (doubles, one for each dimension of the grid) particles are placed.
+  Migration(Warehouse& warehouse, const Label& position);
+
+  /// Packs the particles of a patch and group that have left it and closes the gaps.
+  void send(int patch, int group);
+  /// Takes in what the neighbours packed for this patch.
+  void receive(int patch, int group);
+
+  /// Particles that left the grid since `clear_lost`, in order of patch.
+  std::size_t n_lost(int group) const;
+  /// The values of one state label of the lost particles of a group.
+  template <class T>
+  std::vector<T> lost(const ParticleLabel<T>& label, int group) const
+  {
+    std::vector<T> values;
+    for (const Patch& patch : warehouse_.layout()) {
+      const ParticleParcel& parcel = box(patch.id, group).lost;
+      const T* first = reinterpret_cast<const T*>(field_bytes(parcel, label, patch.id, group));
+      values.insert(values.end(), first, first + parcel.n_particles);
+    }
+    return values;
+  }
+  void clear_lost();
+
+ private:
+  struct Outbox {
+    std::map<int, ParticleParcel> to_patch;
+    ParticleParcel lost;
+    std::vector<std::size_t> leavers;
+  };
+
+  int destination(const std::byte* position) const;
+  void pack(ParticleParcel& parcel, std::size_t particle, const std::vector<Field*>& fields) const;
+  const std::byte* field_bytes(const ParticleParcel& parcel, const Label& label, int patch, int group) const;
+  Outbox& box(int patch, int group)
+  {
+    return outboxes_[static_cast<std::size_t>(patch * warehouse_.n_groups() + group)];
+  }
+  const Outbox& box(int patch, int group) const
+  {
+    return outboxes_[static_cast<std::size_t>(patch * warehouse_.n_groups() + group)];
+  }
+
+  Warehouse& warehouse_;
+  const Label& position_;
+  std::vector<Outbox> outboxes_;
+};
+
+}  // namespace tamp::runtime

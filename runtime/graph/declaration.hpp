@@ -1,0 +1,212 @@
+#pragma once
+
+#include <functional>
+#include <string>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+#include "runtime/data/bound_argument.hpp"
+#include "runtime/data/label.hpp"
+#include "runtime/grid/patch_layout.hpp"
+
+namespace tamp::runtime
+{
+
+/// What a task does with a label. See design: these five are all there are.
+enum class Mode { read, compute, update, accumulate, reduce };
+
+const char* to_string(Mode mode);
+
+/// One label of one task, as the graph sees it.
+struct Access {
+  Mode mode;
+  const Label* label;
+  bool of_previous_step = false;
+  int halo = 0;
+  bool every_group = false;
+};
+
+/// Where in simulated time a step stands.
+struct Step {
+  long index = 0;
+  /// At the start of the step [s].
+  double time = 0;
+  /// Length of the step [s].
+  double size = 0;
+  /// Length of the step before [s]; 0 for the first.
+  double previous_size = 0;
+};
+
+/// What every task body gets before its data.
+struct TaskContext {
+  const PatchLayout& layout;
+  const Patch& patch;
+  /// -1 in a task that runs once a patch for all groups.
+  int group;
+  const Step& step;
+};
+
+/// On what a task runs.
+enum class Domain { patches_and_groups, patches, migration };
+
+/// A task as declared: its name, its data, its body. The graph infers everything else from this.
+struct TaskDeclaration {
+  std::string name;
+  Domain domain = Domain::patches_and_groups;
+  /// Groups it runs for; empty means all.
+  std::vector<int> groups;
+  std::vector<Access> accesses;
+  std::function<void(const TaskContext&, const BoundArgument*)> body;
+
+  void add(const Access& access);
+};
+
+/// Builds a declaration; what has been declared so far becomes, in that order, the arguments of the body.
+///
+///     task("diffuse")
+///         .over_patches_and_groups()
+///         .reads(temperature.previous().halo(1))
+///         .computes(temperature)
+///         .body([](const TaskContext& at, GridView<const double> old, GridView<double> now) { ... });
+template <class... Arguments>
+class TaskBuilder
+{
+ public:
+  explicit TaskBuilder(TaskDeclaration declaration) : declaration_(std::move(declaration)) {}
+
+  TaskBuilder over_patches() && { return std::move(*this).over(Domain::patches, {}); }
+  TaskBuilder over_patches_and_groups(std::vector<int> groups = {}) &&
+  {
+    return std::move(*this).over(Domain::patches_and_groups, std::move(groups));
+  }
+
+  /// Data of this step, or of the one before (`label.previous()`), that others wrote ("requires" in the field).
+  template <class... L>
+  auto reads(const L&... labels) &&
+  {
+    return std::move(*this).template with<Mode::read>(reference(labels)...);
+  }
+  /// Data that this task, and no other, makes.
+  template <class... L>
+  auto computes(const L&... labels) &&
+  {
+    return std::move(*this).template with<Mode::compute>(reference(labels)...);
+  }
+  /// Data changed in place, after the task that made it and in the order of declaration.
+  template <class... L>
+  auto updates(const L&... labels) &&
+  {
+    return std::move(*this).template with<Mode::update>(reference(labels)...);
+  }
+  /// Node or cell data to which every patch adds its part; it starts at zero, and readers get the sum of all parts.
+  template <class... L>
+  auto accumulates(const L&... labels) &&
+  {
+    return std::move(*this).template with<Mode::accumulate>(reference(labels)...);
+  }
+  /// A part of one value over all patches and groups; it starts at the neutral value.
+  template <class... L>
+  auto reduces(const L&... labels) &&
+  {
+    return std::move(*this).template with<Mode::reduce>(reference(labels)...);
+  }
+
+  /// `function(const TaskContext&, views...)`, one view for each declared label, in the order declared.
+  template <class Function>
+  TaskDeclaration body(Function function) &&
+  {
+    declaration_.body = [f = std::move(function)](const TaskContext& context, const BoundArgument* bound) {
+      call(f, context, bound, std::index_sequence_for<Arguments...>{});
+    };
+    return std::move(declaration_);
+  }
+
+ private:
+  template <class... Other>
+  friend class TaskBuilder;
+
+  template <class T, Centring C>
+  static Reference<T, C> reference(const TypedLabel<T, C>& label)
+  {
+    return label;
+  }
+  template <class T, Centring C, bool EveryGroup>
+  static Reference<T, C, EveryGroup> reference(const Reference<T, C, EveryGroup>& r)
+  {
+    return r;
+  }
+
+  TaskBuilder over(Domain domain, std::vector<int> groups) &&
+  {
+    declaration_.domain = domain;
+    declaration_.groups = std::move(groups);
+    return std::move(*this);
+  }
+
+  template <Mode M, class... T, Centring... C, bool... EveryGroup>
+  auto with(const Reference<T, C, EveryGroup>&... r) &&
+  {
+    (declaration_.add({M, r.label, r.of_previous_step, r.halo_width, EveryGroup}), ...);
+    return TaskBuilder<Arguments..., Argument<T, C, M == Mode::read, EveryGroup>...>(std::move(declaration_));
+  }
+
+  template <class Function, std::size_t... I>
+  static void call(const Function& f, const TaskContext& context, const BoundArgument* bound, std::index_sequence<I...>)
+  {
+    f(context, Arguments::view(bound[I])...);
+  }
+
+  TaskDeclaration declaration_;
+};
+
+inline TaskBuilder<> task(std::string name)
+{
+  TaskDeclaration declaration;
+  declaration.name = std::move(name);
+  return TaskBuilder<>(std::move(declaration));
+}
+
+/// The runtime's own task that moves particles to the patch that `position` puts them in, at the end of a step.
+/// `Point` is an array-like of coordinates [m], one for each dimension of the grid. It waits for the whole reduction
+/// `last_check`: until then a task may still fail, and the state before the step must be whole.
+template <class Point, class T>
+TaskDeclaration migration(const ParticleLabel<Point>& position, const ReductionLabel<T>& last_check)
+{
+  TaskDeclaration declaration;
+  declaration.name = "migrate particles";
+  declaration.domain = Domain::migration;
+  declaration.add({Mode::update, &position});
+  declaration.add({Mode::read, &last_check});
+  return declaration;
+}
+
+/// The same for graphs whose tasks do not fail.
+template <class Point>
+TaskDeclaration migration(const ParticleLabel<Point>& position)
+{
+  TaskDeclaration declaration;
+  declaration.name = "migrate particles";
+  declaration.domain = Domain::migration;
+  declaration.add({Mode::update, &position});
+  return declaration;
+}
+
+inline const char* to_string(Mode mode)
+{
+  switch (mode) {
+    case Mode::read:
+      return "reads";
+    case Mode::compute:
+      return "computes";
+    case Mode::update:
+      return "updates";
+    case Mode::accumulate:
+      return "accumulates";
+    case Mode::reduce:
+      return "reduces";
+  }
+  return "";
+}
+
+}  // namespace tamp::runtime

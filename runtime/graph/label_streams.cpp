@@ -1,0 +1,227 @@
+#include "runtime/graph/label_streams.hpp"
+
+#include <algorithm>
+#include <set>
+
+#include "runtime/graph/near_name.hpp"
+
+namespace tamp::runtime
+{
+
+namespace
+{
+
+using Kind = GraphProblem::Kind;
+
+bool contains(const std::vector<const Label*>& labels, const Label* label)
+{
+  return std::find(labels.begin(), labels.end(), label) != labels.end();
+}
+
+bool on_grid(const Label& label)
+{
+  return label.centring() == Centring::node || label.centring() == Centring::cell;
+}
+
+/// Looks through the declarations and their streams, and writes down what does not fit.
+class Inspector
+{
+ public:
+  Inspector(const std::vector<TaskDeclaration>& declarations, const LabelStreams& streams, const PatchLayout& layout,
+            const HostData& host, int n_groups)
+      : declarations_(declarations), streams_(streams), layout_(layout), host_(host), n_groups_(n_groups)
+  {
+  }
+
+  std::vector<GraphProblem> inspect()
+  {
+    for (const TaskDeclaration& declaration : declarations_) {
+      for (const Access& access : declaration.accesses) inspect_declared(declaration, access);
+    }
+    for (const auto& [key, stream] : streams_) {
+      inspect_producers(*key.first, stream);
+      for (const Use& use : stream.readers) inspect_reader(use, stream);
+      for (const Use& use : stream.updaters) inspect_source(use, stream);
+      inspect_use(*key.first, stream);
+    }
+    return std::move(problems_);
+  }
+
+ private:
+  void report(Kind kind, const std::string& task, const Label& label, const std::string& explanation)
+  {
+    // A label of several groups is one mistake, not one a group.
+    if (reported_.insert({static_cast<int>(kind), task, label.name()}).second) {
+      problems_.push_back({kind, task, label.name(), explanation});
+    }
+  }
+  const std::string& name(const Use& use) const
+  {
+    return declarations_[static_cast<std::size_t>(use.declaration)].name;
+  }
+
+  void inspect_declared(const TaskDeclaration& declaration, const Access& access)
+  {
+    const Label& label = *access.label;
+    const Centring centring = label.centring();
+    if (access.mode == Mode::accumulate && !on_grid(label)) {
+      report(Kind::bad_declaration, declaration.name, label, "only node and cell data can be accumulated");
+    }
+    if ((access.mode == Mode::reduce) != (centring == Centring::reduction) && access.mode != Mode::read) {
+      report(Kind::bad_declaration, declaration.name, label, "a reduction label is reduced, and no other is");
+    }
+    if (access.every_group && declaration.domain == Domain::patches_and_groups) {
+      report(Kind::bad_declaration, declaration.name, label, "only a task over patches can use every group's data");
+    }
+    if (access.of_previous_step && access.mode != Mode::read) {
+      report(Kind::bad_declaration, declaration.name, label, "data of the step before can only be read");
+    }
+    if (access.halo > 0 && !on_grid(label)) {
+      report(Kind::bad_declaration, declaration.name, label, "only node and cell data have a halo");
+    }
+    // Particles near one seam may reach nodes across the next: a part would be missed.
+    const int narrowest = layout_.narrowest();
+    const int needed = access.mode == Mode::accumulate ? 2 * access.halo + 1 : access.halo;
+    if (access.halo > 0 && needed > narrowest) {
+      report(Kind::halo_too_narrow, declaration.name, label,
+             "a halo of " + std::to_string(access.halo) + " needs patches at least " + std::to_string(needed) +
+                 " cells wide; the narrowest has " + std::to_string(narrowest));
+    }
+  }
+
+  void inspect_producers(const Label& label, const LabelStream& stream)
+  {
+    for (std::size_t k = 1; k < stream.producers.size(); ++k) {
+      if (label.centring() == Centring::reduction && apart(stream.producers, k)) continue;
+      report(Kind::double_compute, name(stream.producers[k]), label,
+             "already made by task '" + name(stream.producers[0]) + "'");
+    }
+  }
+
+  /// Several tasks may reduce one label as long as each does it for groups of its own.
+  bool apart(const std::vector<Use>& producers, std::size_t k) const
+  {
+    const auto groups = [&](const Use& use) {
+      return groups_of(declarations_[static_cast<std::size_t>(use.declaration)], n_groups_);
+    };
+    const std::vector<int> own = groups(producers[k]);
+    return std::none_of(producers.begin(), producers.begin() + static_cast<std::ptrdiff_t>(k), [&](const Use& other) {
+      const std::vector<int> others = groups(other);
+      return std::find_first_of(own.begin(), own.end(), others.begin(), others.end()) != own.end();
+    });
+  }
+
+  void inspect_source(const Use& use, const LabelStream& stream)
+  {
+    const Label& label = *use.access.label;
+    const bool migrated = declarations_[static_cast<std::size_t>(use.declaration)].domain == Domain::migration;
+    if (use.access.of_previous_step || (migrated && contains(host_.state, &label))) {
+      if (!contains(host_.state, &label)) {
+        report(Kind::missing_producer, name(use), label, "read from the step before, but not among the given state");
+      }
+    } else if (stream.producers.empty()) {
+      report(Kind::missing_producer, name(use), label, supplier_hint(label));
+    }
+  }
+
+  void inspect_reader(const Use& use, const LabelStream& stream)
+  {
+    inspect_source(use, stream);
+    if (use.access.of_previous_step || stream.producers.empty()) return;
+    const Use& source = *stream.version_before(use.declaration);
+    const bool exchangeable = source.access.mode == Mode::compute;
+    if (use.access.halo > source.access.halo && !exchangeable) {
+      report(Kind::halo_too_narrow, name(use), *use.access.label,
+             "reads a halo of " + std::to_string(use.access.halo) + ", but task '" + name(source) + "' supplies " +
+                 std::to_string(source.access.halo));
+    }
+  }
+
+  void inspect_use(const Label& label, const LabelStream& stream)
+  {
+    if (stream.producers.empty() || contains(host_.results, &label) || contains(host_.state, &label)) return;
+    if (stream.readers.empty()) {
+      report(Kind::unused_result, name(stream.producers[0]), label, "made, but never read by a task or the host");
+    }
+  }
+
+  std::string supplier_hint(const Label& label) const
+  {
+    if (contains(host_.state, &label)) {
+      return "no task makes it in this step; the value of the step before is there: previous()?";
+    }
+    std::vector<std::string> made;
+    for (const auto& [key, stream] : streams_) {
+      if (!stream.producers.empty()) made.push_back(key.first->name());
+    }
+    const std::string near = near_name(label.name(), made);
+    return "no task makes it in this step" + (near.empty() ? "" : "; did you mean '" + near + "'?");
+  }
+
+  const std::vector<TaskDeclaration>& declarations_;
+  const LabelStreams& streams_;
+  const PatchLayout& layout_;
+  const HostData& host_;
+  int n_groups_;
+  std::vector<GraphProblem> problems_;
+  std::set<std::tuple<int, std::string, std::string>> reported_;
+};
+
+}  // namespace
+
+const Use* LabelStream::version_before(int declaration) const
+{
+  const Use* version = producers.empty() ? nullptr : &producers.front();
+  for (const Use& updater : updaters) {
+    if (updater.declaration < declaration) version = &updater;
+  }
+  return version;
+}
+
+std::vector<int> groups_of(const TaskDeclaration& declaration, int n_groups)
+{
+  if (declaration.domain == Domain::patches) return {-1};
+  if (!declaration.groups.empty()) return declaration.groups;
+  std::vector<int> all;
+  for (int g = 0; g < n_groups; ++g) all.push_back(g);
+  return all;
+}
+
+std::vector<int> groups_of(const Access& access, int group, int n_groups)
+{
+  if (access.label->centring() == Centring::reduction) return {-1};
+  if (!access.every_group) return {group};
+  std::vector<int> all;
+  for (int g = 0; g < n_groups; ++g) all.push_back(g);
+  return all;
+}
+
+LabelStreams collect_streams(const std::vector<TaskDeclaration>& declarations, int n_groups)
+{
+  LabelStreams streams;
+  for (int d = 0; d < static_cast<int>(declarations.size()); ++d) {
+    const TaskDeclaration& declaration = declarations[static_cast<std::size_t>(d)];
+    for (const Access& access : declaration.accesses) {
+      std::set<int> groups;
+      for (const int task_group : groups_of(declaration, n_groups)) {
+        for (const int group : groups_of(access, task_group, n_groups)) groups.insert(group);
+      }
+      for (const int group : groups) {
+        LabelStream& stream = streams[{access.label, group}];
+        auto& uses = access.mode == Mode::read     ? stream.readers
+                     : access.mode == Mode::update ? stream.updaters
+                                                   : stream.producers;
+        uses.push_back({d, access});
+      }
+    }
+  }
+  return streams;
+}
+
+std::vector<GraphProblem> find_problems(const std::vector<TaskDeclaration>& declarations, const LabelStreams& streams,
+                                        const PatchLayout& layout, const HostData& host, int n_groups)
+{
+  return Inspector(declarations, streams, layout, host, n_groups).inspect();
+}
+
+}  // namespace tamp::runtime

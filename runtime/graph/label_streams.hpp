@@ -1,0 +1,44 @@
+#pragma once
+
+#include <map>
+#include <utility>
+#include <vector>
+
+#include "runtime/graph/task_graph.hpp"
+
+namespace tamp::runtime
+{
+
+/// One access of one declaration.
+struct Use {
+  int declaration;
+  Access access;
+};
+
+/// The life of one label for one group (-1: common) within a step: who makes it, who changes it, who reads it.
+struct LabelStream {
+  /// Tasks that compute, accumulate or reduce it; exactly one in a sound graph that reads it from this step.
+  std::vector<Use> producers;
+  /// In the order of declaration.
+  std::vector<Use> updaters;
+  std::vector<Use> readers;
+
+  /// The last task that changed the label before `declaration`, or the one that made it.
+  const Use* version_before(int declaration) const;
+};
+
+using StreamKey = std::pair<const Label*, int>;
+using LabelStreams = std::map<StreamKey, LabelStream>;
+
+/// Groups that a declaration runs for: -1 alone when it runs once a patch.
+std::vector<int> groups_of(const TaskDeclaration& declaration, int n_groups);
+/// Groups whose field an access names when its task runs for `group`.
+std::vector<int> groups_of(const Access& access, int group, int n_groups);
+
+LabelStreams collect_streams(const std::vector<TaskDeclaration>& declarations, int n_groups);
+
+/// Every mistake but a cycle, which only the instances show.
+std::vector<GraphProblem> find_problems(const std::vector<TaskDeclaration>& declarations, const LabelStreams& streams,
+                                        const PatchLayout& layout, const HostData& host, int n_groups);
+
+}  // namespace tamp::runtime

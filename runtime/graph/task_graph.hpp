@@ -1,0 +1,98 @@
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "runtime/graph/declaration.hpp"
+#include "runtime/graph/graph_error.hpp"
+
+namespace tamp::runtime
+{
+
+/// What a node of the compiled graph does: a declared body, or work of the runtime's own that the declarations imply.
+enum class InstanceKind { body, sum_halo, fill_halo, combine, send_particles, receive_particles };
+
+/// One task on one patch for one group.
+struct Instance {
+  InstanceKind kind = InstanceKind::body;
+  int declaration = 0;
+  /// -1 for a task of all patches (combining a reduction).
+  int patch = -1;
+  /// -1 for all groups.
+  int group = -1;
+  /// For work of the runtime: the labels it handles, whether those of the step before, and how wide the halo is.
+  std::vector<const Label*> labels;
+  bool of_previous_step = false;
+  int halo = 0;
+  /// Instances that must be done before this one, ascending.
+  std::vector<int> predecessors;
+};
+
+/// Why one instance waits for another.
+struct Edge {
+  int from = 0;
+  int to = 0;
+  const Label* label = nullptr;
+  int halo = 0;
+  /// Grid values that pass along the edge; particle data are counted when they are stored, as 0 here.
+  std::size_t bytes = 0;
+};
+
+/// How a label is used by the whole graph, for one group (-1: common to all groups).
+struct LabelUse {
+  const Label* label = nullptr;
+  int group = -1;
+  /// Read from the step before, or given by the host to be read so.
+  bool state = false;
+  /// Made anew by the step.
+  bool computed = false;
+  bool accumulated = false;
+};
+
+/// What the host, outside of the graph, gives and takes.
+struct HostData {
+  /// State that the host sets before the first step.
+  std::vector<const Label*> state;
+  /// Results that the host reads after a step.
+  std::vector<const Label*> results;
+};
+
+/// The tasks of one step over all patches and groups, with the edges that their declarations imply. Instances stand
+/// in a legal serial order; the graph is compiled once and executed every step.
+class TaskGraph
+{
+ public:
+  /// Throws GraphError with every mistake found.
+  TaskGraph(std::vector<TaskDeclaration> declarations, const PatchLayout& layout, std::vector<std::string> group_names,
+            const HostData& host);
+
+  const PatchLayout& layout() const { return *layout_; }
+  const std::vector<std::string>& group_names() const { return group_names_; }
+  int n_groups() const { return static_cast<int>(group_names_.size()); }
+  const std::vector<TaskDeclaration>& declarations() const { return declarations_; }
+  const std::vector<Instance>& instances() const { return instances_; }
+  const std::vector<Edge>& edges() const { return edges_; }
+  const std::vector<LabelUse>& label_uses() const { return label_uses_; }
+  /// The widest halo that any task asks for; node and cell fields are stored with it.
+  int storage_halo() const { return storage_halo_; }
+
+  /// "interpolate to grid", or "sum halo: interpolate to grid" for work of the runtime.
+  std::string name(const Instance& instance) const;
+  const TaskDeclaration& declaration(const Instance& instance) const
+  {
+    return declarations_[static_cast<std::size_t>(instance.declaration)];
+  }
+
+ private:
+  const PatchLayout* layout_;
+  std::vector<std::string> group_names_;
+  std::vector<TaskDeclaration> declarations_;
+  std::vector<Instance> instances_;
+  std::vector<Edge> edges_;
+  std::vector<LabelUse> label_uses_;
+  int storage_halo_ = 0;
+};
+
+}  // namespace tamp::runtime

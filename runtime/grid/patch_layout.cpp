@@ -1,0 +1,63 @@
+#include "runtime/grid/patch_layout.hpp"
+
+#include <limits>
+#include <stdexcept>
+#include <string>
+
+namespace tamp::runtime
+{
+
+PatchLayout::PatchLayout(const Grid& grid, const Index& n_patches) : grid_(grid), n_patches_(n_patches)
+{
+  for (std::size_t k = 0; k < 3; ++k) {
+    if (n_patches[k] < 1 || grid.n_cells[k] % n_patches[k] != 0) {
+      throw std::invalid_argument(std::to_string(n_patches[k]) + " patches do not divide " +
+                                  std::to_string(grid.n_cells[k]) + " cells along axis " + std::to_string(k));
+    }
+    cells_per_patch_[k] = grid.n_cells[k] / n_patches[k];
+  }
+  for_each(IndexBox{{0, 0, 0}, n_patches}, [&](const Index& at) {
+    Patch patch;
+    patch.id = size();
+    for (std::size_t k = 0; k < 3; ++k) {
+      patch.cells.lower[k] = at[k] * cells_per_patch_[k];
+      patch.cells.upper[k] = patch.cells.lower[k] + cells_per_patch_[k];
+    }
+    patch.nodes = patch.cells;
+    for (std::size_t k = 0; k < static_cast<std::size_t>(grid.dimension); ++k) ++patch.nodes.upper[k];
+    patches_.push_back(patch);
+  });
+  for (Patch& patch : patches_) {
+    const IndexBox reach = grown(patch.cells, 1, 3);
+    for (const Patch& other : patches_) {
+      if (other.id != patch.id && !intersection(reach, other.cells).empty()) patch.neighbours.push_back(other.id);
+    }
+  }
+}
+
+int PatchLayout::narrowest() const
+{
+  int cells = std::numeric_limits<int>::max();
+  for (std::size_t k = 0; k < 3; ++k) {
+    if (n_patches_[k] > 1) cells = std::min(cells, cells_per_patch_[k]);
+  }
+  return cells;
+}
+
+int PatchLayout::patch_of_cell(const Index& cell) const
+{
+  if (!grid_.cells().contains(cell)) return -1;
+  return cell[0] / cells_per_patch_[0] +
+         n_patches_[0] * (cell[1] / cells_per_patch_[1] + n_patches_[1] * (cell[2] / cells_per_patch_[2]));
+}
+
+IndexBox PatchLayout::owned_nodes(const Patch& patch) const
+{
+  IndexBox nodes = patch.nodes;
+  for (std::size_t k = 0; k < static_cast<std::size_t>(grid_.dimension); ++k) {
+    if (patch.cells.upper[k] != grid_.n_cells[k]) --nodes.upper[k];
+  }
+  return nodes;
+}
+
+}  // namespace tamp::runtime

@@ -1,0 +1,62 @@
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "runtime/grid/index_box.hpp"
+
+namespace tamp::runtime
+{
+
+/// A uniform grid of cubic (in two dimensions square) cells over a box of space. Lengths in metres.
+struct Grid {
+  int dimension = 3;
+  std::array<double, 3> lower{0, 0, 0};
+  double cell_size = 1;
+  Index n_cells{1, 1, 1};
+
+  IndexBox cells() const { return {{0, 0, 0}, n_cells}; }
+  /// Place along `axis` of node or cell face number `index`.
+  double coordinate(int axis, int index) const { return lower[static_cast<std::size_t>(axis)] + cell_size * index; }
+};
+
+/// A box of cells that is worked on as one: it owns its cells and the particles in them.
+struct Patch {
+  int id = 0;
+  int rank = 0;
+  IndexBox cells;
+  /// Nodes of the cells, both ends counted: those on a seam belong to the patches of both sides.
+  IndexBox nodes;
+  /// Patches that touch this one by a face, an edge or a corner, ascending, without itself.
+  std::vector<int> neighbours;
+};
+
+/// The grid cut into equal patches, numbered with x fastest.
+class PatchLayout
+{
+ public:
+  /// `n_patches` must divide the cells along each axis (std::invalid_argument otherwise).
+  PatchLayout(const Grid& grid, const Index& n_patches);
+
+  const Grid& grid() const { return grid_; }
+  const Index& n_patches() const { return n_patches_; }
+  int size() const { return static_cast<int>(patches_.size()); }
+  const Patch& operator[](int id) const { return patches_[static_cast<std::size_t>(id)]; }
+  auto begin() const { return patches_.begin(); }
+  auto end() const { return patches_.end(); }
+
+  /// The fewest cells that a patch has along an axis that is cut; the largest int when none is.
+  int narrowest() const;
+  /// The patch that owns a cell; -1 outside of the grid.
+  int patch_of_cell(const Index& cell) const;
+  /// Nodes that `patch` alone answers for: each node of the grid is in exactly one such box.
+  IndexBox owned_nodes(const Patch& patch) const;
+
+ private:
+  Grid grid_;
+  Index n_patches_;
+  Index cells_per_patch_{};
+  std::vector<Patch> patches_;
+};
+
+}  // namespace tamp::runtime

@@ -1,0 +1,114 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "runtime/execute/schedule.hpp"
+#include "runtime/profile/clock.hpp"
+
+namespace tamp::runtime
+{
+
+/// How long the instances of one task took, kept as counts by length: 32 bins an octave, so that a quantile is known
+/// to about 2 %.
+class DurationHistogram
+{
+ public:
+  void add(std::uint64_t ticks);
+  std::uint64_t count() const { return count_; }
+  std::uint64_t total() const { return total_; }
+  std::uint64_t least() const { return count_ == 0 ? 0 : least_; }
+  std::uint64_t most() const { return most_; }
+  /// The length that a share of `q` (0..1) of all does not pass.
+  double quantile(double q) const;
+
+ private:
+  static constexpr int bins_per_octave = 32;
+
+  std::uint64_t count_ = 0;
+  std::uint64_t total_ = 0;
+  std::uint64_t least_ = ~std::uint64_t{0};
+  std::uint64_t most_ = 0;
+  std::array<std::uint32_t, 48 * bins_per_octave> bins_{};
+};
+
+/// One row of the profile. Times in seconds.
+struct TaskStatistics {
+  std::string name;
+  std::uint64_t count = 0;
+  double total_s = 0;
+  double mean_s = 0;
+  double min_s = 0;
+  double max_s = 0;
+  double p95_s = 0;
+  /// Of the time of all tasks; the shares of all rows add up to 1.
+  double share = 0;
+  double bytes = 0;
+  double particles = 0;
+  /// Time of the busiest patch over the mean of all patches.
+  double imbalance = 1;
+  /// Between the end of the last predecessor and the start, summed.
+  double wait_s = 0;
+};
+
+/// One instance in the trace; times in seconds since the profile began.
+struct TraceEvent {
+  std::string name;
+  int patch = 0;
+  int group = 0;
+  std::uint32_t worker = 0;
+  double start_s = 0;
+  double end_s = 0;
+};
+
+struct Profile {
+  /// Most expensive first.
+  std::vector<TaskStatistics> tasks;
+  long n_steps = 0;
+  /// Mean time of a step, of its longest chain of tasks, and the share of the workers' time outside of task bodies.
+  double step_s = 0;
+  double critical_path_s = 0;
+  double overhead = 0;
+  std::vector<TraceEvent> trace;
+};
+
+/// Gathers what the workers recorded, after each step and outside of it.
+class Profiler
+{
+ public:
+  /// The first `n_traced_steps` steps are kept instance by instance.
+  Profiler(const Schedule& schedule, BoundGraph& graph, int n_workers, long n_traced_steps);
+
+  /// Takes in the records of the step that has just been run.
+  void add_step();
+  Profile profile() const;
+
+ private:
+  struct Row {
+    std::string name;
+    DurationHistogram durations;
+    std::uint64_t wait = 0;
+    double bytes = 0;
+    double particles = 0;
+    std::vector<std::uint64_t> per_patch;
+  };
+
+  const Schedule& schedule_;
+  BoundGraph& graph_;
+  int n_workers_;
+  long n_traced_steps_;
+  TickRate rate_;
+  std::uint64_t first_tick_;
+  std::vector<Row> rows_;
+  std::vector<std::size_t> row_of_instance_;
+  std::vector<std::uint64_t> path_;
+  std::vector<std::pair<std::size_t, InstanceRecord>> traced_;
+  long n_steps_ = 0;
+  std::uint64_t step_ticks_ = 0;
+  std::uint64_t path_ticks_ = 0;
+};
+
+}  // namespace tamp::runtime

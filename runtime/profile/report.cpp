@@ -1,0 +1,72 @@
+#include "runtime/profile/report.hpp"
+
+#include <fmt/format.h>
+
+namespace tamp::runtime
+{
+
+nlohmann::json to_json(const Profile& profile, const MemoryLedger& ledger)
+{
+  nlohmann::json tasks = nlohmann::json::array();
+  for (const TaskStatistics& t : profile.tasks) {
+    tasks.push_back({{"name", t.name},
+                     {"count", t.count},
+                     {"total_s", t.total_s},
+                     {"mean_s", t.mean_s},
+                     {"min_s", t.min_s},
+                     {"max_s", t.max_s},
+                     {"p95_s", t.p95_s},
+                     {"share", t.share},
+                     {"bytes", t.bytes},
+                     {"particles", t.particles},
+                     {"imbalance", t.imbalance},
+                     {"wait_s", t.wait_s}});
+  }
+  nlohmann::json labels = nlohmann::json::object();
+  for (const LedgerEntry& entry : ledger.entries()) labels[entry.name()] = entry.peak();
+  return {{"tasks", tasks},
+          {"steps", profile.n_steps},
+          {"overhead", profile.overhead},
+          {"critical_path_s", profile.critical_path_s},
+          {"step_s", profile.step_s},
+          {"messages", 0},
+          {"message_bytes", 0},
+          {"memory", {{"labels", labels}, {"total", ledger.total().peak()}}}};
+}
+
+nlohmann::json trace_to_json(const Profile& profile)
+{
+  constexpr double microseconds = 1e6;
+  nlohmann::json events = nlohmann::json::array();
+  for (const TraceEvent& e : profile.trace) {
+    events.push_back({{"name", e.name},
+                      {"ph", "X"},
+                      {"pid", 0},
+                      {"tid", e.worker},
+                      {"ts", e.start_s * microseconds},
+                      {"dur", (e.end_s - e.start_s) * microseconds},
+                      {"args", {{"patch", e.patch}, {"group", e.group}}}});
+  }
+  return {{"displayTimeUnit", "ns"}, {"traceEvents", events}};
+}
+
+std::string to_text(const nlohmann::json& profile, int n_rows)
+{
+  std::string text = fmt::format("{:<36} {:>9} {:>10} {:>10} {:>7} {:>9} {:>10}\n", "task", "count", "mean us",
+                                 "p95 us", "share", "imbalance", "wait ms");
+  int row = 0;
+  for (const nlohmann::json& t : profile.at("tasks")) {
+    if (n_rows > 0 && row++ == n_rows) break;
+    text += fmt::format(
+        "{:<36} {:>9} {:>10.2f} {:>10.2f} {:>6.2f}% {:>9.3f} {:>10.2f}\n", t.at("name").get<std::string>(),
+        t.at("count").get<std::uint64_t>(), t.at("mean_s").get<double>() * 1e6, t.at("p95_s").get<double>() * 1e6,
+        t.at("share").get<double>() * 100, t.at("imbalance").get<double>(), t.at("wait_s").get<double>() * 1e3);
+  }
+  text += fmt::format(
+      "step {:.1f} us, critical path {:.1f} us, outside of tasks {:.2f} % of the workers' time, fields {:.1f} MiB\n",
+      profile.at("step_s").get<double>() * 1e6, profile.at("critical_path_s").get<double>() * 1e6,
+      profile.at("overhead").get<double>() * 100, profile.at("memory").at("total").get<double>() / (1024 * 1024));
+  return text;
+}
+
+}  // namespace tamp::runtime

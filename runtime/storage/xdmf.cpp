@@ -1,0 +1,101 @@
+#include "runtime/storage/xdmf.hpp"
+
+#include <fmt/core.h>
+
+namespace tamp::runtime
+{
+
+namespace
+{
+
+std::string escaped(const std::string& text)
+{
+  std::string out;
+  for (const char c : text) {
+    switch (c) {
+      case '&':
+        out += "&amp;";
+        break;
+      case '<':
+        out += "&lt;";
+        break;
+      case '"':
+        out += "&quot;";
+        break;
+      default:
+        out += c;
+    }
+  }
+  return out;
+}
+
+std::string data_item(const XdmfColumn& column, const std::string& items)
+{
+  const std::size_t n = n_in_file(column.kind);
+  return fmt::format(R"(<DataItem Dimensions="{}{}" NumberType="{}" Precision="8" Format="HDF">{}</DataItem>)", items,
+                     n == 1 ? "" : fmt::format(" {}", n), column.whole_numbers ? "Int" : "Float",
+                     escaped(column.dataset));
+}
+
+std::string attribute(const XdmfColumn& column, const std::string& items)
+{
+  const char* type = column.kind == ColumnKind::scalar   ? "Scalar"
+                     : column.kind == ColumnKind::vector ? "Vector"
+                                                         : "Tensor6";
+  return fmt::format("          <Attribute Name=\"{}\" AttributeType=\"{}\" Center=\"Node\">{}</Attribute>\n",
+                     escaped(column.name), type, data_item(column, items));
+}
+
+std::string grid_of(const XdmfParticles& particles)
+{
+  const std::string n = fmt::format("{}", particles.n);
+  std::string text = fmt::format("        <Grid Name=\"{}\" GridType=\"Uniform\">\n", escaped(particles.name));
+  text += fmt::format(
+      "          <Topology TopologyType=\"Polyvertex\" NumberOfElements=\"{}\" NodesPerElement=\"1\"/>\n", n);
+  for (const XdmfColumn& column : particles.columns) {
+    if (column.name == "position") {
+      text += fmt::format("          <Geometry GeometryType=\"XYZ\">{}</Geometry>\n", data_item(column, n));
+    }
+  }
+  for (const XdmfColumn& column : particles.columns) {
+    if (column.name != "position") text += attribute(column, n);
+  }
+  return text + "        </Grid>\n";
+}
+
+std::string grid_of(const XdmfNodes& nodes)
+{
+  const std::string n = fmt::format("{} {} {}", nodes.n_nodes[2], nodes.n_nodes[1], nodes.n_nodes[0]);
+  const auto triple = [](double z, double y, double x) {
+    return fmt::format(R"(<DataItem Dimensions="3" NumberType="Float" Precision="8" Format="XML">{} {} {}</DataItem>)",
+                       z, y, x);
+  };
+  std::string text = "        <Grid Name=\"grid\" GridType=\"Uniform\">\n";
+  text += fmt::format("          <Topology TopologyType=\"3DCoRectMesh\" Dimensions=\"{}\"/>\n", n);
+  text += fmt::format("          <Geometry GeometryType=\"ORIGIN_DXDYDZ\">{}{}</Geometry>\n",
+                      triple(nodes.origin[2], nodes.origin[1], nodes.origin[0]),
+                      triple(nodes.spacing, nodes.spacing, nodes.spacing));
+  for (const XdmfColumn& column : nodes.columns) text += attribute(column, n);
+  return text + "        </Grid>\n";
+}
+
+}  // namespace
+
+std::string xdmf_text(std::span<const XdmfStep> steps)
+{
+  std::string text =
+      "<?xml version=\"1.0\" ?>\n<Xdmf Version=\"3.0\">\n  <Domain>\n"
+      "    <Grid Name=\"fields\" GridType=\"Collection\" CollectionType=\"Temporal\">\n";
+  for (const XdmfStep& step : steps) {
+    text += "      <Grid Name=\"step\" GridType=\"Collection\" CollectionType=\"Spatial\">\n";
+    text += fmt::format("        <Time Value=\"{}\"/>\n", step.time);
+    for (const XdmfParticles& particles : step.particles) {
+      if (particles.n > 0) text += grid_of(particles);
+    }
+    if (step.nodes) text += grid_of(*step.nodes);
+    text += "      </Grid>\n";
+  }
+  return text + "    </Grid>\n  </Domain>\n</Xdmf>\n";
+}
+
+}  // namespace tamp::runtime

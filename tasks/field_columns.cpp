@@ -1,0 +1,137 @@
+#include "tasks/field_columns.hpp"
+
+#include <cmath>
+
+#include "tasks/labels.hpp"
+
+namespace tamp::tasks
+{
+
+using runtime::Column;
+using runtime::ColumnKind;
+
+namespace
+{
+
+/// Appends `value(p)` of every particle of a material to one column.
+template <int D, class Value>
+std::vector<double> gathered(runtime::Warehouse& warehouse, int group, const Value& value)
+{
+  std::vector<double> all;
+  for (const runtime::Patch& patch : warehouse.layout()) {
+    const std::size_t n = warehouse.n_particles(patch.id, group);
+    for (std::size_t p = 0; p < n; ++p) value(patch.id, p, all);
+  }
+  return all;
+}
+
+template <class T>
+void append(std::vector<double>& all, const T& values)
+{
+  all.insert(all.end(), values.data(), values.data() + values.size());
+}
+
+template <int D>
+double q_of(const SymmetricTensor<D>& stress)
+{
+  const SymmetricTensor<D> s = deviator(stress);
+  return std::sqrt(1.5 * double_dot(s, s));
+}
+
+}  // namespace
+
+template <class Interpolator>
+std::vector<runtime::ParticleBlock> FieldColumns<Interpolator>::particles(const Method<Interpolator>& method,
+                                                                          runtime::Warehouse& warehouse)
+{
+  constexpr int D = Interpolator::dimension;
+  numbers_.clear();
+  ids_.clear();
+  std::vector<runtime::ParticleBlock> blocks;
+  for (int g = 0; g < warehouse.n_groups(); ++g) {
+    const SceneMaterial& material = method.materials[static_cast<std::size_t>(g)];
+    runtime::ParticleBlock block{material.name, warehouse.n_particles(g), {}};
+    const auto state = [&](const auto& label, int patch, std::size_t p) { return warehouse.state(label, patch, g)[p]; };
+    const auto add = [&](const std::string& name, ColumnKind kind, const auto& value) {
+      const auto& numbers = numbers_.emplace_back(gathered<D>(warehouse, g, value));
+      block.columns.push_back({name, kind, std::span<const double>(numbers)});
+    };
+    auto& ids = ids_.emplace_back();
+    for (const runtime::Patch& patch : warehouse.layout()) {
+      const auto own = warehouse.state(particle::id, patch.id, g);
+      ids.insert(ids.end(), own.begin(), own.end());
+    }
+    block.columns.push_back({"id", ColumnKind::scalar, std::span<const std::int64_t>(ids)});
+    add("position", ColumnKind::vector,
+        [&](int patch, std::size_t p, auto& all) { append(all, state(particle::position<D>, patch, p)); });
+    add("velocity", ColumnKind::vector,
+        [&](int patch, std::size_t p, auto& all) { append(all, state(particle::velocity<D>, patch, p)); });
+    add("stress", ColumnKind::tensor,
+        [&](int patch, std::size_t p, auto& all) { append(all, state(particle::stress<D>, patch, p)); });
+    add("p", ColumnKind::scalar,
+        [&](int patch, std::size_t p, auto& all) { all.push_back(-trace(state(particle::stress<D>, patch, p)) / 3); });
+    add("q", ColumnKind::scalar,
+        [&](int patch, std::size_t p, auto& all) { all.push_back(q_of<D>(state(particle::stress<D>, patch, p))); });
+    add("density", ColumnKind::scalar, [&](int patch, std::size_t p, auto& all) {
+      all.push_back(state(particle::mass, patch, p) / state(particle::volume, patch, p));
+    });
+    add("J", ColumnKind::scalar, [&](int patch, std::size_t p, auto& all) {
+      all.push_back(state(particle::deformation_gradient<D>, patch, p).determinant());
+    });
+    if (const auto* sand = std::get_if<components::TabularCap>(&material.model)) {
+      add("elastic_volumetric", ColumnKind::scalar, [&](int patch, std::size_t p, auto& all) {
+        all.push_back(state(particle::cap_state, patch, p).elastic_volumetric);
+      });
+      add("plastic_volumetric", ColumnKind::scalar, [&](int patch, std::size_t p, auto& all) {
+        all.push_back(state(particle::cap_state, patch, p).plastic_volumetric);
+      });
+      add("cap", ColumnKind::scalar, [&](int patch, std::size_t p, auto& all) {
+        all.push_back(sand->crush_pressure(state(particle::cap_state, patch, p).plastic_volumetric));
+      });
+    }
+    blocks.push_back(std::move(block));
+  }
+  return blocks;
+}
+
+template <class Interpolator>
+runtime::NodeBlock FieldColumns<Interpolator>::nodes(const Method<Interpolator>& method, runtime::Warehouse& warehouse)
+{
+  constexpr int D = Interpolator::dimension;
+  const runtime::PatchLayout& layout = warehouse.layout();
+  const runtime::Grid& grid = layout.grid();
+  runtime::NodeBlock block;
+  block.origin = grid.lower;
+  block.spacing = grid.cell_size;
+  runtime::IndexBox all = grid.cells();
+  for (std::size_t k = 0; k < D; ++k) ++all.upper[k];
+  for (std::size_t k = 0; k < 3; ++k) block.n_nodes[k] = all.upper[k];
+  const auto strides = all.strides();
+  auto& density = numbers_.emplace_back(static_cast<std::size_t>(all.size()), 0.0);
+  auto& velocity = numbers_.emplace_back(static_cast<std::size_t>(all.size() * D), 0.0);
+  const double cell_volume = std::pow(method.cell_size, D);
+  for (const runtime::Patch& patch : layout) {
+    for_each(layout.owned_nodes(patch), [&](const runtime::Index& i) {
+      const auto at = static_cast<std::size_t>(i[0] + strides[1] * i[1] + strides[2] * i[2]);
+      Vector<D> momentum = Vector<D>::Zero();
+      double mass = 0;
+      for (int g = 0; g < warehouse.n_groups(); ++g) {
+        const double own = warehouse.grid_result(node::sums<D>, patch.id, g)[i].mass();
+        mass += own;
+        momentum += own * warehouse.grid_result(node::motion<D>, patch.id, g)[i].velocity();
+      }
+      density[at] = mass / cell_volume;
+      if (mass > least_node_mass) {
+        for (int k = 0; k < D; ++k) velocity[at * D + static_cast<std::size_t>(k)] = momentum[k] / mass;
+      }
+    });
+  }
+  block.columns.push_back({"density", ColumnKind::scalar, std::span<const double>(density)});
+  block.columns.push_back({"velocity", ColumnKind::vector, std::span<const double>(velocity)});
+  return block;
+}
+
+template class FieldColumns<components::Gimp<2>>;
+template class FieldColumns<components::Gimp<3>>;
+
+}  // namespace tamp::tasks

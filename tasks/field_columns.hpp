@@ -1,0 +1,30 @@
+#pragma once
+
+#include <deque>
+#include <vector>
+
+#include "runtime/data/warehouse.hpp"
+#include "runtime/storage/field_columns.hpp"
+#include "tasks/method.hpp"
+
+namespace tamp::tasks
+{
+
+/// What a run's field file holds of the state, gathered over patches. The columns point into this object and are valid
+/// until it is asked for the next ones.
+template <class Interpolator>
+class FieldColumns
+{
+ public:
+  /// For each material: id, position, velocity, stress, mean stress p and q (compression positive), density, J; and of
+  /// sand elastic and plastic volumetric strain and crush pressure.
+  std::vector<runtime::ParticleBlock> particles(const Method<Interpolator>& method, runtime::Warehouse& warehouse);
+  /// Of the last step, all materials together: density and velocity at the nodes.
+  runtime::NodeBlock nodes(const Method<Interpolator>& method, runtime::Warehouse& warehouse);
+
+ private:
+  std::deque<std::vector<double>> numbers_;
+  std::deque<std::vector<std::int64_t>> ids_;
+};
+
+}  // namespace tamp::tasks

@@ -1,0 +1,103 @@
+#include "tasks/fill_bodies.hpp"
+
+#include <cmath>
+#include <vector>
+
+#include "components/geometry/fill.hpp"
+#include "tasks/labels.hpp"
+#include "tasks/method.hpp"
+
+namespace tamp::tasks
+{
+
+namespace
+{
+
+/// The particles of one material on one patch before they are stored.
+template <int D>
+struct NewParticles {
+  std::vector<std::int64_t> id;
+  std::vector<std::int64_t> body;
+  std::vector<Vector<D>> position;
+};
+
+template <int D>
+runtime::Index cell_of(const runtime::Grid& grid, const Vector<D>& x)
+{
+  runtime::Index cell{0, 0, 0};
+  for (std::size_t k = 0; k < D; ++k) {
+    cell[k] = static_cast<int>(std::floor((x[static_cast<int>(k)] - grid.lower[k]) / grid.cell_size));
+  }
+  return cell;
+}
+
+template <int D>
+components::ParticleLattice<D> lattice_of(const Scene& scene)
+{
+  return {vector_of<D>(scene.grid.lower), scene.grid.cell_size, scene.particles_per_axis};
+}
+
+/// All particles by [patch][material], bodies in their order.
+template <int D>
+std::vector<std::vector<NewParticles<D>>> make_particles(const Scene& scene, const runtime::PatchLayout& layout)
+{
+  std::vector<std::vector<NewParticles<D>>> made(static_cast<std::size_t>(layout.size()),
+                                                 std::vector<NewParticles<D>>(scene.materials.size()));
+  components::CellRange<D> cells;
+  for (std::size_t k = 0; k < D; ++k) {
+    cells.lower[k] = 0;
+    cells.upper[k] = scene.grid.n_cells[k];
+  }
+  std::int64_t id = 0;
+  for (std::size_t b = 0; b < scene.bodies.size(); ++b) {
+    const auto& solid = std::get<components::Solid<D>>(scene.bodies[b].solid);
+    for (const Vector<D>& x : components::fill(solid, lattice_of<D>(scene), cells)) {
+      const int patch = layout.patch_of_cell(cell_of<D>(scene.grid, x));
+      auto& particles = made[static_cast<std::size_t>(patch)][static_cast<std::size_t>(scene.bodies[b].material)];
+      particles.id.push_back(id++);
+      particles.body.push_back(static_cast<std::int64_t>(b));
+      particles.position.push_back(x);
+    }
+  }
+  return made;
+}
+
+template <int D>
+void store(const Scene& scene, const NewParticles<D>& particles, int patch, int material, runtime::Warehouse& warehouse)
+{
+  const std::size_t n = particles.id.size();
+  warehouse.set_n_particles(patch, material, n);
+  const auto state = [&](const auto& label) { return warehouse.state(label, patch, material); };
+  const double volume = lattice_of<D>(scene).particle_volume();
+  const double density = scene.materials[static_cast<std::size_t>(material)].density;
+  for (std::size_t p = 0; p < n; ++p) {
+    const SceneBody& body = scene.bodies[static_cast<std::size_t>(particles.body[p])];
+    state(particle::id)[p] = particles.id[p];
+    state(particle::body)[p] = particles.body[p];
+    state(particle::position<D>)[p] = particles.position[p];
+    state(particle::reference_position<D>)[p] = particles.position[p];
+    state(particle::velocity<D>)[p] = vector_of<D>(body.velocity);
+    state(particle::deformation_gradient<D>)[p] = Matrix<D>::Identity();
+    state(particle::volume)[p] = volume;
+    state(particle::mass)[p] = density * volume;
+  }
+}
+
+}  // namespace
+
+template <int D>
+void fill_bodies(const Scene& scene, runtime::Warehouse& warehouse)
+{
+  const runtime::PatchLayout& layout = warehouse.layout();
+  const auto made = make_particles<D>(scene, layout);
+  for (const runtime::Patch& patch : layout) {
+    for (int m = 0; m < static_cast<int>(scene.materials.size()); ++m) {
+      store<D>(scene, made[static_cast<std::size_t>(patch.id)][static_cast<std::size_t>(m)], patch.id, m, warehouse);
+    }
+  }
+}
+
+template void fill_bodies<2>(const Scene&, runtime::Warehouse&);
+template void fill_bodies<3>(const Scene&, runtime::Warehouse&);
+
+}  // namespace tamp::tasks

@@ -1,0 +1,57 @@
+#include "components/kinematics/strain_increment.hpp"
+#include "components/shapes/transfer.hpp"
+#include "tasks/labels.hpp"
+#include "tasks/phases.hpp"
+#include "tasks/simulation_error.hpp"
+
+namespace tamp::tasks
+{
+
+using components::NodeMotion;
+using runtime::GridView;
+using runtime::TaskContext;
+
+/// Particles keep their velocity and take the nodes' changes of it (FLIP). What deforms them is the gradient of the
+/// velocity at the middle of the step, over the shape at its middle (eqs 54-58); the old stress turns with them, and
+/// what the material answers is added by the next phase.
+template <class Interpolator>
+runtime::TaskDeclaration grid_to_particles(const Method<Interpolator>& method)
+{
+  constexpr int D = Interpolator::dimension;
+  return runtime::task("grid to particles")
+      .over_patches_and_groups()
+      .reads(node::motion<D>.halo(1), particle::id.previous(), particle::position<D>.previous(),
+             particle::velocity<D>.previous(), particle::deformation_gradient<D>.previous(),
+             particle::volume.previous(), particle::stress<D>.previous())
+      .computes(particle::position<D>, particle::velocity<D>, particle::deformation_gradient<D>, particle::volume,
+                particle::stress<D>, particle::strain_increment<D>)
+      .body([&method](const TaskContext& at, GridView<const NodeMotion<D>> nodes, std::span<const std::int64_t> id,
+                      std::span<const Vector<D>> old_position, std::span<const Vector<D>> old_velocity,
+                      std::span<const Matrix<D>> old_deformation, std::span<const double> old_volume,
+                      std::span<const SymmetricTensor<D>> old_stress, std::span<Vector<D>> position,
+                      std::span<Vector<D>> velocity, std::span<Matrix<D>> deformation, std::span<double> volume,
+                      std::span<SymmetricTensor<D>> stress, std::span<SymmetricTensor<D>> strain) {
+        const auto block = block_of<D>(at.layout, nodes);
+        const double dt = at.step.size;
+        for (std::size_t p = 0; p < position.size(); ++p) {
+          const auto motion = components::grid_to_particle(method.interpolator, block, old_position[p], nodes.data());
+          const auto step = components::strain_increment<D>(old_deformation[p], dt * motion.velocity_gradient);
+          if (!step.admissible()) {
+            const auto& material = method.materials[static_cast<std::size_t>(at.group)];
+            throw SimulationError("a particle is turned inside out", material.name, id[p],
+                                  {old_position[p].begin(), old_position[p].end()});
+          }
+          position[p] = old_position[p] + dt * motion.velocity;
+          velocity[p] = old_velocity[p] + motion.velocity_change;
+          deformation[p] = step.deformation_gradient;
+          volume[p] = old_volume[p] * step.volume_ratio;
+          stress[p] = rotated<D>(old_stress[p], step.rotation_increment);
+          strain[p] = step.strain_increment;
+        }
+      });
+}
+
+template runtime::TaskDeclaration grid_to_particles(const Method<components::Gimp<2>>&);
+template runtime::TaskDeclaration grid_to_particles(const Method<components::Gimp<3>>&);
+
+}  // namespace tamp::tasks

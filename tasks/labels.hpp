@@ -1,0 +1,62 @@
+#pragma once
+
+#include <cstdint>
+
+#include "components/materials/tabular_cap.hpp"
+#include "components/shapes/node_sums.hpp"
+#include "components/tensors.hpp"
+#include "runtime/data/label.hpp"
+#include "tasks/step_totals.hpp"
+
+/// Every field of the method, by where it lives. SI units, tension positive unless the name says otherwise; in plane
+/// strain masses, volumes and energies are those of a slab 1 m thick.
+namespace tamp::tasks
+{
+
+namespace particle
+{
+
+/// Number in the scene, from 0, the same for any cut into patches.
+inline const runtime::ParticleLabel<std::int64_t> id{"id"};
+/// The body it was made for: its place in the scene's list.
+inline const runtime::ParticleLabel<std::int64_t> body{"body"};
+/// Where it was at the start [m].
+template <int D>
+inline const runtime::ParticleLabel<Vector<D>> reference_position{"reference position"};
+inline const runtime::ParticleLabel<double> mass{"mass"};
+template <int D>
+inline const runtime::ParticleLabel<Vector<D>> position{"position"};
+/// At the middle of the step that led here: half a step behind the position (leapfrog).
+template <int D>
+inline const runtime::ParticleLabel<Vector<D>> velocity{"velocity"};
+template <int D>
+inline const runtime::ParticleLabel<Matrix<D>> deformation_gradient{"deformation gradient"};
+inline const runtime::ParticleLabel<double> volume{"volume"};
+/// Cauchy stress [Pa].
+template <int D>
+inline const runtime::ParticleLabel<SymmetricTensor<D>> stress{"stress"};
+/// Of artificial viscosity [Pa], compression positive.
+inline const runtime::ParticleLabel<double> viscous_pressure{"viscous pressure"};
+/// Of particles whose material is a tabular cap model.
+inline const runtime::ParticleLabel<components::CapState> cap_state{"cap state"};
+/// Of this step, in the frame of its end.
+template <int D>
+inline const runtime::ParticleLabel<SymmetricTensor<D>> strain_increment{"strain increment"};
+
+}  // namespace particle
+
+namespace node
+{
+
+template <int D>
+inline const runtime::NodeLabel<components::NodeSums<D>> sums{"node sums"};
+template <int D>
+inline const runtime::NodeLabel<components::NodeMotion<D>> motion{"node motion"};
+
+}  // namespace node
+
+/// What a step adds to the energies, and how long the next may be.
+inline const runtime::ReductionLabel<StepTotals> step_totals{"step totals"};
+inline const runtime::ReductionLabel<GridImpulse> grid_impulse{"grid impulse"};
+
+}  // namespace tamp::tasks

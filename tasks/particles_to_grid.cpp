@@ -1,0 +1,41 @@
+#include "components/shapes/transfer.hpp"
+#include "tasks/labels.hpp"
+#include "tasks/phases.hpp"
+#include "tasks/walls.hpp"
+
+namespace tamp::tasks
+{
+
+using components::NodeSums;
+using runtime::GridView;
+using runtime::TaskContext;
+
+template <class Interpolator>
+runtime::TaskDeclaration particles_to_grid(const Method<Interpolator>& method)
+{
+  constexpr int D = Interpolator::dimension;
+  return runtime::task("particles to grid")
+      .over_patches_and_groups()
+      .reads(particle::position<D>.previous(), particle::velocity<D>.previous(), particle::mass.previous(),
+             particle::volume.previous(), particle::stress<D>.previous(), particle::viscous_pressure.previous())
+      .accumulates(node::sums<D>.halo(1))
+      .body([&method](const TaskContext& at, std::span<const Vector<D>> position, std::span<const Vector<D>> velocity,
+                      std::span<const double> mass, std::span<const double> volume,
+                      std::span<const SymmetricTensor<D>> stress, std::span<const double> viscous_pressure,
+                      GridView<NodeSums<D>> sums) {
+        components::particles_to_grid(method.interpolator, block_of<D>(at.layout, sums),
+                                      {position, velocity, mass, volume, stress, viscous_pressure}, sums.data());
+        // The image behind a mirror gives to the grid as the particles do.
+        for_each_wall(method, at, sums.box(), [&](int axis, const components::SymmetryWall<D>& wall) {
+          wall.for_each_node([&](std::size_t on_wall, std::size_t ghost, std::size_t inside) {
+            sums.data()[on_wall].hold_on_mirror(axis);
+            sums.data()[inside].values += sums.data()[ghost].mirrored(axis).values;
+          });
+        });
+      });
+}
+
+template runtime::TaskDeclaration particles_to_grid(const Method<components::Gimp<2>>&);
+template runtime::TaskDeclaration particles_to_grid(const Method<components::Gimp<3>>&);
+
+}  // namespace tamp::tasks

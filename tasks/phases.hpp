@@ -1,0 +1,34 @@
+#pragma once
+
+#include "runtime/graph/declaration.hpp"
+#include "tasks/method.hpp"
+
+/// The phases of a time step, each declared in the file of its name. `method` must outlive the tasks.
+namespace tamp::tasks
+{
+
+/// Particles give their mass, momentum and forces to the grid.
+template <class Interpolator>
+runtime::TaskDeclaration particles_to_grid(const Method<Interpolator>& method);
+
+/// Nodes are accelerated by their forces and gravity.
+template <class Interpolator>
+runtime::TaskDeclaration accelerate_nodes(const Method<Interpolator>& method);
+
+/// Where materials meet at a node and approach each other, impulses keep them apart.
+template <class Interpolator>
+runtime::TaskDeclaration contact(const Method<Interpolator>& method);
+
+/// Nothing crosses a mirroring face of the domain.
+template <class Interpolator>
+runtime::TaskDeclaration symmetry_walls(const Method<Interpolator>& method);
+
+/// Particles are moved and deformed by the grid.
+template <class Interpolator>
+runtime::TaskDeclaration grid_to_particles(const Method<Interpolator>& method);
+
+/// The material answers the deformation of its particles with stress; sums energies and bounds the next step.
+template <class Interpolator>
+runtime::TaskDeclaration update_stress(const Method<Interpolator>& method, int material);
+
+}  // namespace tamp::tasks

@@ -1,0 +1,93 @@
+#pragma once
+
+#include <array>
+#include <limits>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "components/geometry/solid.hpp"
+#include "components/loads/artificial_viscosity.hpp"
+#include "components/materials/hypoelastic.hpp"
+#include "components/materials/tabular_cap.hpp"
+#include "runtime/grid/patch_layout.hpp"
+
+/// A scene that has been checked: what a run is made from. SI units. Two-dimensional scenes (plane strain) use the
+/// first two entries of every triple and are one metre thick; their third axis has one layer of cells.
+namespace tamp::tasks
+{
+
+using Triple = std::array<double, 3>;
+
+/// `symmetry`: the material has its mirror image beyond the face, a smooth wall. `open`: what crosses the face leaves.
+enum class Face { symmetry, open };
+
+/// How the time step is bounded, see components/loads/time_step.hpp.
+enum class StepRule { published, viscous };
+
+enum class Interpolator { gimp };
+
+struct SceneTime {
+  double end;
+  StepRule rule = StepRule::viscous;
+  /// The part of the bound that is used.
+  double multiplier = 0.8;
+  double minimum_step = 1e-12;
+  double maximum_step = std::numeric_limits<double>::infinity();
+};
+
+using MaterialModel = std::variant<components::Hypoelastic, components::TabularCap>;
+
+/// Materials are the contact groups too: each has its own velocity field on the grid.
+struct SceneMaterial {
+  std::string name;
+  /// Of the unstrained material [kg/m^3].
+  double density;
+  MaterialModel model;
+};
+
+using AnySolid = std::variant<components::Solid<2>, components::Solid<3>>;
+
+struct SceneBody {
+  std::string name;
+  /// Place in Scene::materials.
+  int material;
+  AnySolid solid;
+  Triple velocity{0, 0, 0};
+  std::size_t n_particles;
+};
+
+/// Friction between two different materials; pairs that are not listed slide freely.
+struct SceneContact {
+  int material_a;
+  int material_b;
+  double friction;
+};
+
+struct SceneOutput {
+  double fields_interval;
+  double history_interval;
+};
+
+struct Scene {
+  /// The file's name without its ending; what a run's folder is called by default.
+  std::string name;
+  std::string title;
+  runtime::Grid grid;
+  runtime::Index n_patches;
+  /// faces[axis][0] is the lower one, faces[axis][1] the upper one.
+  std::array<std::array<Face, 2>, 3> faces{};
+  SceneTime time;
+  Interpolator interpolator = Interpolator::gimp;
+  /// Along each axis of a cell.
+  int particles_per_axis = 2;
+  Triple gravity{0, 0, 0};
+  std::optional<components::ArtificialViscosity> artificial_viscosity;
+  std::vector<SceneMaterial> materials;
+  std::vector<SceneBody> bodies;
+  std::vector<SceneContact> contacts;
+  SceneOutput output;
+};
+
+}  // namespace tamp::tasks

@@ -1,0 +1,81 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "runtime/data/memory_ledger.hpp"
+#include "runtime/graph/task_graph.hpp"
+#include "runtime/profile/profiler.hpp"
+#include "runtime/storage/field_columns.hpp"
+#include "tasks/report.hpp"
+#include "tasks/scene.hpp"
+#include "tasks/step_totals.hpp"
+
+namespace tamp::tasks
+{
+
+/// Particles that left the domain through its open faces since the start.
+struct LostParticles {
+  std::size_t count = 0;
+  double mass = 0;
+  Eigen::Vector3d momentum = Eigen::Vector3d::Zero();
+};
+
+/// A scene in time. Made with all particles in place; each `advance` is one time step.
+///
+/// Errors: `advance` throws SimulationError when a particle inverts, a state is not finite, a material cannot be
+/// updated, or the time step falls below the scene's minimum; the state of the last good step is then still there.
+class Simulation
+{
+ public:
+  /// The scene is kept. `n_threads` includes the caller.
+  static std::unique_ptr<Simulation> make(Scene scene, int n_threads);
+  virtual ~Simulation() = default;
+
+  const Scene& scene() const { return scene_; }
+  long n_steps() const { return n_steps_; }
+  double time() const { return time_; }
+  double last_step_size() const { return last_step_size_; }
+  int n_threads() const { return n_threads_; }
+  /// Sums since the start; `stable_step` is that of the last step.
+  const StepTotals& totals() const { return totals_; }
+  /// What the grid gave to the particles since the start [N s].
+  const GridImpulse& impulse() const { return impulse_; }
+
+  /// One step, as long as stability allows and not past `end` [s].
+  virtual void advance(double end) = 0;
+  virtual ParticleReport report() = 0;
+  virtual const LostParticles& lost() const = 0;
+
+  virtual const runtime::TaskGraph& graph() const = 0;
+  virtual const runtime::MemoryLedger& ledger() const = 0;
+  virtual std::size_t forecast_bytes() const = 0;
+  virtual runtime::Profile profile() const = 0;
+  /// Off only to measure what recording costs.
+  virtual void record(bool on) = 0;
+
+  /// Particles of a material now, and what a run's files hold of them.
+  virtual std::size_t n_particles(int material) const = 0;
+  virtual std::vector<runtime::ParticleBlock> particle_columns() = 0;
+  virtual runtime::NodeBlock node_columns() = 0;
+  /// A hash of every particle's state in the order of their ids, for all materials; 16 hexadecimal digits.
+  virtual std::string digest() = 0;
+  /// Bytes of the particle arrays that a step must at least read and write, per particle of a material.
+  virtual std::size_t least_bytes_per_particle(int material) const = 0;
+
+ protected:
+  Simulation(Scene scene, int n_threads) : scene_(std::move(scene)), n_threads_(n_threads) {}
+
+  Scene scene_;
+  int n_threads_;
+  long n_steps_ = 0;
+  double time_ = 0;
+  double last_step_size_ = 0;
+  StepTotals totals_;
+  GridImpulse impulse_;
+};
+
+}  // namespace tamp::tasks

@@ -1,0 +1,23 @@
+#pragma once
+
+#include <cstdint>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace tamp::tasks
+{
+
+/// A simulation that has become invalid: which particle, where, and why. Step and time are added by who runs it.
+struct SimulationError : std::runtime_error {
+  SimulationError(const std::string& reason, std::string material_, std::int64_t particle_,
+                  std::vector<double> position_);
+
+  std::string material;
+  /// -1 where no single particle is to blame.
+  std::int64_t particle;
+  /// m
+  std::vector<double> position;
+};
+
+}  // namespace tamp::tasks

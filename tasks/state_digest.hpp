@@ -1,0 +1,14 @@
+#pragma once
+
+#include <string>
+
+#include "runtime/data/warehouse.hpp"
+
+namespace tamp::tasks
+{
+
+/// A hash (64-bit FNV-1a, as 16 hexadecimal digits) of every particle's state in the order of their ids: the same for
+/// any threads, ranks and order in memory, and different for a single bit of difference.
+std::string state_digest(runtime::Warehouse& warehouse);
+
+}  // namespace tamp::tasks

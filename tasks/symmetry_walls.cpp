@@ -1,0 +1,72 @@
+#include "tasks/labels.hpp"
+#include "tasks/phases.hpp"
+#include "tasks/walls.hpp"
+
+namespace tamp::tasks
+{
+
+using components::NodeMotion;
+using components::NodeSums;
+using runtime::GridView;
+using runtime::Index;
+using runtime::PerGroup;
+using runtime::TaskContext;
+
+namespace
+{
+
+/// What the particles of one group take from the nodes that this patch counts. Nodes inside a mirror also hold the
+/// mass of the image, whose normal momentum is opposite: it is taken off again.
+template <class Interpolator, int D = Interpolator::dimension>
+void add_impulse(const Method<Interpolator>& method, const TaskContext& at, const GridView<const NodeSums<D>>& sums,
+                 const GridView<NodeMotion<D>>& motion, GridImpulse& impulse)
+{
+  for_each(at.layout.owned_nodes(at.patch), [&](const Index& i) {
+    const Vector<D> change = motion[i].velocity_change();
+    for (std::size_t k = 0; k < std::size_t{D}; ++k) {
+      double mass = sums[i].mass();
+      for (const int side : {0, 1}) {
+        const int wall = side == 0 ? 0 : at.layout.grid().n_cells[k];
+        const int outside = side == 0 ? -1 : 1;
+        if (!method.mirrors[k][static_cast<std::size_t>(side)] || i[k] != wall - outside) continue;
+        Index ghost = i;
+        ghost[k] = wall + outside;
+        mass -= 2 * sums[ghost].mass();
+      }
+      impulse.value[k] += mass * change[static_cast<int>(k)];
+    }
+  });
+}
+
+}  // namespace
+
+/// The image of a particle takes as much normal momentum to the nodes of the wall as the particle brings: there the
+/// normal velocity is zero before and after the step, and the nodes behind the wall mirror those before it.
+template <class Interpolator>
+runtime::TaskDeclaration symmetry_walls(const Method<Interpolator>& method)
+{
+  constexpr int D = Interpolator::dimension;
+  return runtime::task("symmetry walls")
+      .over_patches()
+      .reads(node::sums<D>.halo(1).every_group())
+      .updates(node::motion<D>.halo(1).every_group())
+      .reduces(grid_impulse)
+      .body([&method](const TaskContext& at, const PerGroup<GridView<const NodeSums<D>>>& sums,
+                      const PerGroup<GridView<NodeMotion<D>>>& motions, GridImpulse& impulse) {
+        for (std::size_t g = 0; g < motions.size(); ++g) {
+          const GridView<NodeMotion<D>>& motion = motions[g];
+          for_each_wall(method, at, motion.box(), [&](int axis, const components::SymmetryWall<D>& wall) {
+            wall.for_each_node([&](std::size_t on_wall, std::size_t ghost, std::size_t inside) {
+              motion.data()[on_wall].hold_on_mirror(axis);
+              motion.data()[ghost] = motion.data()[inside].mirrored(axis);
+            });
+          });
+          add_impulse(method, at, sums[g], motion, impulse);
+        }
+      });
+}
+
+template runtime::TaskDeclaration symmetry_walls(const Method<components::Gimp<2>>&);
+template runtime::TaskDeclaration symmetry_walls(const Method<components::Gimp<3>>&);
+
+}  // namespace tamp::tasks

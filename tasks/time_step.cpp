@@ -1,0 +1,40 @@
+#include "tasks/time_step.hpp"
+
+#include "tasks/labels.hpp"
+#include "tasks/phases.hpp"
+
+namespace tamp::tasks
+{
+
+template <class Interpolator>
+std::vector<runtime::TaskDeclaration> time_step(const Method<Interpolator>& method)
+{
+  std::vector<runtime::TaskDeclaration> step;
+  step.push_back(particles_to_grid(method));
+  step.push_back(accelerate_nodes(method));
+  step.push_back(contact(method));
+  step.push_back(symmetry_walls(method));
+  step.push_back(grid_to_particles(method));
+  for (int material = 0; material < static_cast<int>(method.materials.size()); ++material) {
+    step.push_back(update_stress(method, material));
+  }
+  step.push_back(runtime::migration(particle::position<Interpolator::dimension>, step_totals));
+  return step;
+}
+
+template <class Interpolator>
+runtime::HostData host_data()
+{
+  constexpr int D = Interpolator::dimension;
+  return {{&particle::id, &particle::body, &particle::reference_position<D>, &particle::mass, &particle::position<D>,
+           &particle::velocity<D>, &particle::deformation_gradient<D>, &particle::volume, &particle::stress<D>,
+           &particle::viscous_pressure, &particle::cap_state},
+          {&step_totals, &grid_impulse}};
+}
+
+template std::vector<runtime::TaskDeclaration> time_step(const Method<components::Gimp<2>>&);
+template std::vector<runtime::TaskDeclaration> time_step(const Method<components::Gimp<3>>&);
+template runtime::HostData host_data<components::Gimp<2>>();
+template runtime::HostData host_data<components::Gimp<3>>();
+
+}  // namespace tamp::tasks

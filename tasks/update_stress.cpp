@@ -1,0 +1,175 @@
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "components/errors.hpp"
+#include "components/loads/time_step.hpp"
+#include "components/materials/wave_speed.hpp"
+#include "tasks/labels.hpp"
+#include "tasks/phases.hpp"
+#include "tasks/simulation_error.hpp"
+
+namespace tamp::tasks
+{
+
+using components::CapState;
+using runtime::TaskContext;
+
+namespace
+{
+
+/// Particles go to the material in runs of this many: long enough for vector evaluation of moduli, short enough that
+/// what lives only within the update stays in the first cache.
+constexpr std::size_t batch_size = 256;
+
+/// What the material tells of a batch beside the stress.
+struct BatchAnswer {
+  std::array<double, batch_size> bulk_modulus;
+  /// J per m^3 of current volume
+  std::array<double, batch_size> plastic_work;
+};
+
+template <int D>
+struct StressArguments {
+  std::span<const std::int64_t> id;
+  std::span<const double> mass;
+  std::span<const Vector<D>> position;
+  std::span<const Vector<D>> velocity;
+  std::span<const double> old_volume;
+  std::span<const double> volume;
+  std::span<const double> old_viscous_pressure;
+  std::span<const SymmetricTensor<D>> strain;
+  std::span<SymmetricTensor<D>> stress;
+  std::span<double> viscous_pressure;
+};
+
+/// One batch after the material has answered: artificial viscosity, energies, and the bound on the next step.
+template <class Interpolator, int D = Interpolator::dimension>
+void account(const Method<Interpolator>& method, double dt, const StressArguments<D>& s, std::size_t first,
+             std::span<const SymmetricTensor<D>> old_stress, const BatchAnswer& answer, double shear_ratio,
+             double shear_modulus, StepTotals& totals)
+{
+  for (std::size_t k = 0; k < old_stress.size(); ++k) {
+    const std::size_t p = first + k;
+    const double bulk = answer.bulk_modulus[k];
+    const double density = s.mass[p] / s.volume[p];
+    const double volume_rate = trace(s.strain[p]) / dt;
+    const double c = components::wave_speed(bulk, shear_ratio * bulk + shear_modulus, density);
+    s.viscous_pressure[p] =
+        method.viscosity ? method.viscosity->pressure(density, bulk, volume_rate, method.cell_size) : 0;
+
+    // Work at the middle of the step; the viscous pressure that acted was that of the step before.
+    const double mid_volume = 0.5 * (s.old_volume[p] + s.volume[p]);
+    const SymmetricTensor<D> mid_stress = 0.5 * (old_stress[k] + s.stress[p]);
+    const double plastic = answer.plastic_work[k] * s.volume[p];
+    totals.elastic += double_dot(mid_stress, s.strain[p]) * mid_volume - plastic;
+    totals.plastic += plastic;
+    totals.viscous += s.old_viscous_pressure[p] * (s.old_volume[p] - s.volume[p]);
+
+    const double bound =
+        method.time_step_rule == StepRule::published
+            ? components::published_time_step<D>(method.cell_size, c, s.velocity[p])
+            : components::viscous_time_step<D>(method.cell_size, c, s.velocity[p], volume_rate,
+                                               method.viscosity.value_or(components::ArtificialViscosity{0, 0}));
+    // Written so that what is not a number does not pass for a bound.
+    totals.stable_step = bound >= totals.stable_step ? totals.stable_step : bound;
+  }
+}
+
+/// Takes all particles to the material batch by batch; `answer(first, n, answer)` updates the stress in place.
+template <class Interpolator, int D, class Update>
+void in_batches(const Method<Interpolator>& method, const TaskContext& at, const StressArguments<D>& s,
+                double shear_ratio, double shear_modulus, StepTotals& totals, const Update& update)
+{
+  std::array<SymmetricTensor<D>, batch_size> old_stress;
+  BatchAnswer answer;
+  for (std::size_t first = 0; first < s.id.size(); first += batch_size) {
+    const std::size_t n = std::min(batch_size, s.id.size() - first);
+    std::copy_n(s.stress.begin() + static_cast<std::ptrdiff_t>(first), n, old_stress.begin());
+    const std::optional<components::UpdateFailure> failure = update(first, n, answer);
+    std::optional<std::size_t> failed;
+    if (failure) failed = first + failure->particle;
+    for (std::size_t p = first; p < first + n && !failed; ++p) {
+      if (!s.stress[p].allFinite() || !s.velocity[p].allFinite()) failed = p;
+    }
+    if (failed) {
+      const std::string reason = failure ? failure->reason : "stress or velocity is not finite";
+      throw SimulationError(reason, method.materials[static_cast<std::size_t>(at.group)].name, s.id[*failed],
+                            {s.position[*failed].begin(), s.position[*failed].end()});
+    }
+    account<Interpolator>(method, at.step.size, s, first, std::span<const SymmetricTensor<D>>(old_stress.data(), n),
+                          answer, shear_ratio, shear_modulus, totals);
+  }
+}
+
+/// What every material's task reads and makes.
+template <int D>
+auto stress_task(const std::string& material, int group)
+{
+  return runtime::task("update stress: " + material)
+      .over_patches_and_groups({group})
+      .reads(particle::id.previous(), particle::mass.previous(), particle::position<D>, particle::velocity<D>,
+             particle::volume.previous(), particle::volume, particle::viscous_pressure.previous(),
+             particle::strain_increment<D>)
+      .updates(particle::stress<D>)
+      .computes(particle::viscous_pressure)
+      .reduces(step_totals);
+}
+
+template <class Interpolator>
+runtime::TaskDeclaration update(const Method<Interpolator>& method, int group, const std::string& name,
+                                const components::Hypoelastic& steel)
+{
+  constexpr int D = Interpolator::dimension;
+  return stress_task<D>(name, group)
+      .body([&method, &steel](const TaskContext& at, auto id, auto mass, auto position, auto velocity, auto old_volume,
+                              auto volume, auto old_viscous_pressure, auto strain, auto stress, auto viscous_pressure,
+                              StepTotals& totals) {
+        const StressArguments<D> s{id,     mass,   position,        velocity, old_volume, volume, old_viscous_pressure,
+                                   strain, stress, viscous_pressure};
+        in_batches(method, at, s, 0, steel.shear_modulus, totals,
+                   [&](std::size_t first, std::size_t n, BatchAnswer& answer) {
+                     std::fill_n(answer.plastic_work.begin(), n, 0.0);
+                     std::fill_n(answer.bulk_modulus.begin(), n, steel.bulk_modulus);
+                     components::update<D>(steel, strain.subspan(first, n), stress.subspan(first, n));
+                     return std::optional<components::UpdateFailure>{};
+                   });
+      });
+}
+
+template <class Interpolator>
+runtime::TaskDeclaration update(const Method<Interpolator>& method, int group, const std::string& name,
+                                const components::TabularCap& sand)
+{
+  constexpr int D = Interpolator::dimension;
+  return stress_task<D>(name, group)
+      .reads(particle::cap_state.previous())
+      .computes(particle::cap_state)
+      .body([&method, &sand](const TaskContext& at, auto id, auto mass, auto position, auto velocity, auto old_volume,
+                             auto volume, auto old_viscous_pressure, auto strain, auto stress, auto viscous_pressure,
+                             StepTotals& totals, std::span<const CapState> old_state, std::span<CapState> state) {
+        const StressArguments<D> s{id,     mass,   position,        velocity, old_volume, volume, old_viscous_pressure,
+                                   strain, stress, viscous_pressure};
+        in_batches(method, at, s, sand.shear_ratio(), 0, totals,
+                   [&](std::size_t first, std::size_t n, BatchAnswer& answer) {
+                     return components::update<D>(sand, strain.subspan(first, n), old_state.subspan(first, n),
+                                                  stress.subspan(first, n), state.subspan(first, n),
+                                                  std::span(answer.bulk_modulus).first(n),
+                                                  std::span(answer.plastic_work).first(n));
+                   });
+      });
+}
+
+}  // namespace
+
+template <class Interpolator>
+runtime::TaskDeclaration update_stress(const Method<Interpolator>& method, int material)
+{
+  const SceneMaterial& m = method.materials[static_cast<std::size_t>(material)];
+  return std::visit([&](const auto& model) { return update(method, material, m.name, model); }, m.model);
+}
+
+template runtime::TaskDeclaration update_stress(const Method<components::Gimp<2>>&, int);
+template runtime::TaskDeclaration update_stress(const Method<components::Gimp<3>>&, int);
+
+}  // namespace tamp::tasks

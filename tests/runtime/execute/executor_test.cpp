@@ -1,0 +1,121 @@
+#include "runtime/execute/executor.hpp"
+
+#include <atomic>
+#include <catch2/catch.hpp>
+#include <numeric>
+
+#include "tests/runtime/heat.hpp"
+
+namespace tamp::runtime
+{
+
+namespace
+{
+
+const CellLabel<double> first{"first"};
+const CellLabel<double> second{"second"};
+const NodeLabel<double> sum{"sum"};
+
+/// Tasks over a row of patches, ready to run.
+struct Row {
+  Row(std::vector<TaskDeclaration> tasks, const HostData& host, int n_patches, int n_threads)
+      : layout({2, {0, 0, 0}, 1, {3 * n_patches, 3, 1}}, {n_patches, 1, 1}),
+        graph(std::move(tasks), layout, {"only"}, host),
+        warehouse(std::vector<const TaskGraph*>{&graph}),
+        bound(graph, warehouse),
+        schedule(bound, n_threads),
+        executor(n_threads)
+  {
+  }
+
+  PatchLayout layout;
+  TaskGraph graph;
+  Warehouse warehouse;
+  BoundGraph bound;
+  Schedule schedule;
+  Executor executor;
+};
+
+}  // namespace
+
+TEST_CASE("every instance runs exactly once a step, after those it waits for", "[executor]")
+{
+  std::atomic<int> n_first{0};
+  std::atomic<int> n_early{0};
+  auto make =
+      task("make").over_patches_and_groups().computes(first).body([&](const TaskContext& at, GridView<double> f) {
+        for_each(at.patch.cells, [&](const Index& i) { f[i] = static_cast<double>(at.step.index); });
+        ++n_first;
+      });
+  auto use = task("use")
+                 .over_patches_and_groups()
+                 .reads(first.halo(1))
+                 .computes(second)
+                 .body([&](const TaskContext& at, GridView<const double> f, GridView<double> s) {
+                   const IndexBox inside = intersection(f.box(), at.layout.grid().cells());
+                   for_each(inside, [&](const Index& i) { n_early += f[i] != static_cast<double>(at.step.index); });
+                   for_each(at.patch.cells, [&](const Index& i) { s[i] = f[i]; });
+                 });
+  const int n_threads = GENERATE(1, 2, 3, 5);
+  Row row({make, use}, {{}, {&second}}, 7, n_threads);
+
+  for (long n = 1; n <= 200; ++n) row.executor.run(row.schedule, {n, 0, 1, 1});
+
+  CHECK(n_first == 200 * 7);
+  CHECK(n_early == 0);
+}
+
+TEST_CASE("both sides of a seam get the same sum, parts added in the order of patches", "[executor]")
+{
+  // 1e16 + 1 - 1e16 depends on the order: patch by patch from the left it is 0 in the middle of three.
+  const std::vector<double> parts{1e16, 1, -1e16};
+  auto give = task("give")
+                  .over_patches_and_groups()
+                  .accumulates(sum.halo(1))
+                  .body([&](const TaskContext& at, GridView<double> s) {
+                    for_each(s.box(), [&](const Index& i) { s[i] = parts[static_cast<std::size_t>(at.patch.id)]; });
+                  });
+  const int n_threads = GENERATE(1, 2);
+  Row row({give}, {{}, {&sum}}, 3, n_threads);
+
+  row.executor.run(row.schedule, {});
+
+  // Nodes 2, 3, 4 are reached by patches 0 and 1; nodes 5, 6, 7 by 1 and 2.
+  const auto left = row.warehouse.grid_result(sum, 0, 0);
+  const auto middle = row.warehouse.grid_result(sum, 1, 0);
+  const auto right = row.warehouse.grid_result(sum, 2, 0);
+  CHECK(left[{1, 0, 0}] == 1e16);
+  CHECK(left[{3, 0, 0}] == 1e16 + 1);
+  CHECK(middle[{3, 0, 0}] == left[{3, 0, 0}]);
+  CHECK(middle[{6, 0, 0}] == 1 - 1e16);
+  CHECK(right[{6, 0, 0}] == middle[{6, 0, 0}]);
+}
+
+TEST_CASE("a task that throws stops the step with its name and patch", "[executor]")
+{
+  auto fail = task("fail").over_patches_and_groups().computes(first).body([](const TaskContext& at, GridView<double>) {
+    if (at.patch.id == 2) throw std::runtime_error("no luck");
+  });
+  const int n_threads = GENERATE(1, 2, 3);
+  Row row({fail}, {{}, {&first}}, 5, n_threads);
+
+  CHECK_THROWS_WITH(row.executor.run(row.schedule, {}), "task 'fail' on patch 2: no luck");
+}
+
+TEST_CASE("an executor serves several schedules in turn", "[executor]")
+{
+  test::Heat heat(12, {2, 2, 1}, 2);
+  std::atomic<int> n{0};
+  auto count =
+      task("count").over_patches_and_groups().computes(first).body([&](const TaskContext&, GridView<double>) { ++n; });
+  Row row({count}, {{}, {&first}}, 3, 2);
+
+  for (int k = 0; k < 50; ++k) {
+    heat.executor.run(heat.schedule, {k, 0, 1e-4, 1e-4});
+    heat.executor.run(row.schedule, {});
+  }
+
+  CHECK(n == 150);
+}
+
+}  // namespace tamp::runtime

@@ -1,0 +1,105 @@
+#pragma once
+
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+#include "runtime/execute/bound_graph.hpp"
+#include "runtime/execute/executor.hpp"
+#include "runtime/graph/task_graph.hpp"
+
+/// A heat equation on cells, periodic in nothing and with insulated ends: a user of the runtime that has no mechanics
+/// in it. dT/dt = a lap T on the unit square, T = cos(pi x) cos(pi y) exp(-2 pi^2 a t).
+namespace tamp::test
+{
+
+using namespace tamp::runtime;
+
+inline const CellLabel<double> temperature{"temperature"};
+
+struct Heat {
+  struct Sum {
+    double value = 0;
+    void combine(const Sum& other) { value += other.value; }
+  };
+  static inline const ReductionLabel<Sum> total{"total heat"};
+
+  Heat(int n_cells, Index n_patches, int n_threads)
+      : grid{2, {0, 0, 0}, 1.0 / n_cells, {n_cells, n_cells, 1}},
+        layout(grid, n_patches),
+        graph({diffusion(grid)}, layout, {"heat"}, {{&temperature}, {&total}}),
+        warehouse(std::vector<const TaskGraph*>{&graph}),
+        bound(graph, warehouse),
+        schedule(bound, n_threads),
+        executor(n_threads)
+  {
+    for (const Patch& patch : layout) {
+      const auto view = warehouse.grid_state(temperature, patch.id, 0);
+      for_each(patch.cells, [&](const Index& i) { view[i] = exact(i, 0); });
+    }
+  }
+
+  double exact(const Index& i, double time) const
+  {
+    constexpr double pi = std::numbers::pi;
+    const double x = (i[0] + 0.5) * grid.cell_size;
+    const double y = (i[1] + 0.5) * grid.cell_size;
+    return std::cos(pi * x) * std::cos(pi * y) * std::exp(-2 * pi * pi * time);
+  }
+
+  static TaskDeclaration diffusion(const Grid& grid)
+  {
+    return task("diffuse")
+        .over_patches_and_groups()
+        .reads(temperature.previous().halo(1))
+        .computes(temperature)
+        .reduces(total)
+        .body([grid](const TaskContext& at, GridView<const double> old, GridView<double> now, Sum& sum) {
+          const double factor = at.step.size / (grid.cell_size * grid.cell_size);
+          for_each(at.patch.cells, [&](const Index& i) {
+            const auto flux = [&](int axis, int side) {
+              Index next = i;
+              next[static_cast<std::size_t>(axis)] += side;
+              return grid.cells().contains(next) ? old[next] - old[i] : 0.0;
+            };
+            now[i] = old[i] + factor * (flux(0, -1) + flux(0, 1) + flux(1, -1) + flux(1, 1));
+            sum.value += now[i];
+          });
+        });
+  }
+
+  void run(long n_steps, double dt)
+  {
+    for (long n = 0; n < n_steps; ++n) {
+      executor.run(schedule, {n, static_cast<double>(n) * dt, dt, dt});
+      warehouse.advance();
+    }
+  }
+
+  std::vector<double> values()
+  {
+    std::vector<double> all;
+    for_each(grid.cells(),
+             [&](const Index& i) { all.push_back(warehouse.grid_state(temperature, layout.patch_of_cell(i), 0)[i]); });
+    return all;
+  }
+
+  double error(double time)
+  {
+    double worst = 0;
+    std::size_t k = 0;
+    const std::vector<double> all = values();
+    for_each(grid.cells(), [&](const Index& i) { worst = std::max(worst, std::abs(all[k++] - exact(i, time))); });
+    return worst;
+  }
+
+  Grid grid;
+  PatchLayout layout;
+  TaskGraph graph;
+  Warehouse warehouse;
+  BoundGraph bound;
+  Schedule schedule;
+  Executor executor;
+};
+
+}  // namespace tamp::test

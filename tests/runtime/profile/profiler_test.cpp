@@ -1,0 +1,59 @@
+#include "runtime/profile/profiler.hpp"
+
+#include <catch2/catch.hpp>
+
+#include "runtime/profile/report.hpp"
+#include "tests/runtime/heat.hpp"
+
+namespace tamp::runtime
+{
+
+TEST_CASE("a quantile of durations is right to a bin", "[profile]")
+{
+  DurationHistogram histogram;
+  for (std::uint64_t t = 1000; t <= 2000; ++t) histogram.add(t);
+
+  CHECK(histogram.count() == 1001);
+  CHECK(histogram.least() == 1000);
+  CHECK(histogram.most() == 2000);
+  CHECK(histogram.quantile(0.95) == Approx(1950).epsilon(0.02));
+  CHECK(histogram.quantile(0.5) == Approx(1500).epsilon(0.02));
+}
+
+TEST_CASE("the profile counts every instance and its shares sum to one", "[profile]")
+{
+  test::Heat heat(16, {2, 2, 1}, 2);
+  Profiler profiler(heat.schedule, heat.bound, 2, 3);
+  for (int n = 0; n < 10; ++n) {
+    heat.run(1, 1e-4);
+    profiler.add_step();
+  }
+
+  const nlohmann::json json = to_json(profiler.profile(), heat.warehouse.ledger());
+
+  double shares = 0;
+  std::uint64_t count = 0;
+  for (const auto& t : json["tasks"]) {
+    shares += t["share"].get<double>();
+    count += t["count"].get<std::uint64_t>();
+  }
+  CHECK(shares == Approx(1).margin(1e-12));
+  CHECK(count == 10 * heat.graph.instances().size());
+  CHECK(json["critical_path_s"].get<double>() <= json["step_s"].get<double>() * 1.001);
+  CHECK(json["memory"]["total"].get<std::size_t>() >= heat.warehouse.forecast_bytes());
+  CHECK(trace_to_json(profiler.profile())["traceEvents"].size() == 3 * heat.graph.instances().size());
+}
+
+TEST_CASE("the ledger knows the bytes of each label", "[profile]")
+{
+  test::Heat heat(16, {2, 2, 1}, 1);
+  std::size_t bytes = 0;
+  for (const LedgerEntry& entry : heat.warehouse.ledger().entries()) {
+    if (entry.name() == "temperature") bytes = entry.peak();
+  }
+
+  // Four patches of 8 x 8 cells with one layer of halo, before and after the step.
+  CHECK(bytes == 4 * 10 * 10 * sizeof(double) * 2);
+}
+
+}  // namespace tamp::runtime

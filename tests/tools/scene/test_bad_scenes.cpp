@@ -1,0 +1,280 @@
+#include <catch2/catch.hpp>
+
+#include "tests/tools/scene/small_scene.hpp"
+
+using namespace tamp::test;
+
+namespace
+{
+
+/// A scene of its own: the folder "scenes" beside the sand and its tables.
+std::string problems_with_sand(const std::vector<std::string>& assignments)
+{
+  const TemporaryFolder folder;
+  write_sand(folder);
+  std::string scene = small_scene;
+  scene.replace(scene.find("\"steel\": {"), 0, R"("sand": { "file": "../sand.json", "density": 1500 }, )");
+  return problems_of(folder, folder.write("scenes/scene.json", scene), assignments);
+}
+
+/// The problems of the scene with sand when one of its tables holds this.
+std::string problems_with_table(const std::string& table, const std::string& content)
+{
+  const TemporaryFolder folder;
+  write_sand(folder);
+  folder.write("tables/" + table, content);
+  std::string scene = small_scene;
+  scene.replace(scene.find("\"steel\": {"), 0, R"("sand": { "file": "../sand.json", "density": 1500 }, )");
+  return problems_of(folder, folder.write("scenes/scene.json", scene));
+}
+
+std::string problems_of_text(const std::string& text)
+{
+  const TemporaryFolder folder;
+  return problems_of(folder, folder.write("scene.json", text));
+}
+
+}  // namespace
+
+TEST_CASE("a small scene and a small sand are sound")
+{
+  CHECK(problems_with({}) == "");
+  CHECK(problems_with_sand({}) == "");
+}
+
+TEST_CASE("text that is not JSON is told with line and column")
+{
+  CHECK_THAT(problems_of_text("{\n  \"dimension\": 2,,\n}"),
+             Catch::StartsWith("scene.json:2:18: ") && Catch::EndsWith("; expected JSON"));
+}
+
+TEST_CASE("NaN is no JSON and no number")
+{
+  CHECK_THAT(problems_of_text("{\"dimension\": NaN}"), Catch::StartsWith("scene.json:1:15: "));
+  CHECK(problems_with({"/time/end=NaN"}) == "--set#/time/end: \"NaN\"; expected a number above 0 [s]");
+}
+
+TEST_CASE("a number too large for a double is told")
+{
+  CHECK_THAT(problems_of_text("{\"dimension\": 1e999}"), Catch::StartsWith("scene.json") && Catch::Contains("1e999"));
+}
+
+TEST_CASE("a key that is given twice is told with its place")
+{
+  CHECK(problems_of_text(R"({"list": [1, {"a": 1, "b": 2, "a": 3}]})") ==
+        "scene.json#/list/1/a: the key is given twice; expected it once");
+}
+
+TEST_CASE("a scene that is no object is told")
+{
+  CHECK(problems_of_text("[]") == "scene.json#: array; expected an object");
+}
+
+TEST_CASE("a missing key is told with its place and unit")
+{
+  CHECK(problems_with({"/grid/cell_size=null"}) == "--set#/grid/cell_size: missing; expected a number above 0 [m]");
+  const std::string problems = problems_of_text("{}");
+  CHECK_THAT(problems, Catch::Contains("scene.json#/dimension: missing; expected a whole number from 2 to 3"));
+  CHECK_THAT(problems, Catch::Contains("scene.json#/grid: missing; expected an object"));
+  CHECK_THAT(problems, Catch::Contains("scene.json#/materials: missing; expected an object"));
+  CHECK_THAT(problems, Catch::Contains("scene.json#/bodies: missing; expected an object"));
+}
+
+TEST_CASE("a misspelt key is told with the nearest known one")
+{
+  const TemporaryFolder folder;
+  std::string scene = small_scene;
+  scene.replace(scene.find("\"dimension\""), 0, "\"titel\": \"\", ");
+
+  CHECK(problems_of(folder, folder.write("scene.json", scene)) ==
+        "scene.json#/titel: unknown key; did you mean \"title\"?");
+}
+
+TEST_CASE("an unknown key that resembles none is told with those there are")
+{
+  CHECK(problems_with({"/artificial_viscosity/bulk=1"}) ==
+        "--set#/artificial_viscosity/bulk: unknown key; expected one of linear, quadratic");
+}
+
+TEST_CASE("a value of the wrong type is told with what was found")
+{
+  CHECK(problems_with({"/time/end=[1]"}) == "--set#/time/end: [1]; expected a number above 0 [s]");
+  CHECK(problems_with({"/dimension=2.5"}) == "--set#/dimension: 2.5; expected a whole number from 2 to 3");
+  CHECK(problems_with({"/boundaries=[]"}) == "--set#/boundaries: []; expected an object");
+  CHECK(problems_with({"/title=3"}) == "--set#/title: 3; expected a text");
+  CHECK(problems_with({"/gravity=[0]"}) == "--set#/gravity: [0]; expected 2 numbers");
+  CHECK(problems_with({"/contact={}"}) == "--set#/contact: an object; expected a list");
+  CHECK(problems_with({"/contact=[1]"}) == "--set#/contact/0: 1; expected an object");
+}
+
+TEST_CASE("a number out of range is told with its range")
+{
+  CHECK(problems_with({"/materials/steel/density=-8000"}) ==
+        "--set#/materials/steel/density: -8000; expected a number above 0 [kg/m^3]");
+  CHECK(problems_with({"/time/multiplier=1.5"}) ==
+        "--set#/time/multiplier: 1.5; expected a number above 0 and up to 1");
+  CHECK(problems_with({"/time/maximum_step=1e-13"}) ==
+        "--set#/time/maximum_step: 1e-13; expected no less than the minimum step, 1e-12");
+  CHECK(problems_with({"/particles_per_cell=[0,0]"}) ==
+        "--set#/particles_per_cell: [0,0]; expected 2 whole numbers from 1 to 1000000");
+  CHECK(problems_with({"/particles_per_cell=[2,3]"}) ==
+        "--set#/particles_per_cell: unequal numbers; expected the same number along every axis");
+}
+
+TEST_CASE("a name that is none of the choices is told with the choices")
+{
+  CHECK(problems_with({"/materials/steel/type=hypoelastik"}) ==
+        "--set#/materials/steel/type: \"hypoelastik\"; expected one of hypoelastic, tabular_cap, did you mean "
+        "\"hypoelastic\"?");
+  CHECK(problems_with({"/interpolator=linear"}) == "--set#/interpolator: \"linear\"; expected gimp");
+  CHECK(problems_with({"/boundaries/x-=wall"}) == "--set#/boundaries/x-: \"wall\"; expected one of symmetry, open");
+  CHECK(problems_with({"/bodies/block/material=stel"}) ==
+        "--set#/bodies/block/material: \"stel\"; expected steel, did you mean \"steel\"?");
+}
+
+TEST_CASE("patches that do not divide the grid are told with its cells")
+{
+  CHECK(problems_with({"/grid/patches=[1,3]"}) ==
+        "--set#/grid/patches: 3 patches along y; expected a number that divides the 2 cells there");
+}
+
+TEST_CASE("a domain that is no whole number of cells is told")
+{
+  CHECK(problems_with({"/grid/cell_size=0.3"}) ==
+        "--set#/grid/cell_size: 6.666666667 cells along x; expected the grid's edges to be whole numbers of cells\n"
+        "--set#/grid/cell_size: 6.666666667 cells along y; expected the grid's edges to be whole numbers of cells");
+}
+
+TEST_CASE("a domain without cells is told")
+{
+  CHECK_THAT(problems_with({"/grid/upper=[0,2]"}), Catch::Contains("#/grid/upper: 0 cells along x; expected 1 to"));
+}
+
+TEST_CASE("a geometry that leaves the grid is told with where it reaches")
+{
+  CHECK(problems_with({"/bodies/block/geometry/upper=[1,2.5]"}) ==
+        "scene.json#/bodies/block/geometry: reaches from [0, 0] to [1, 2.5]; expected it to lie within the grid");
+}
+
+TEST_CASE("a geometry inside out is told")
+{
+  CHECK_THAT(problems_with({"/bodies/block/geometry/upper=[-1,1]"}),
+             Catch::StartsWith("scene.json#/bodies/block/geometry: box from") && Catch::Contains("lower < upper"));
+}
+
+TEST_CASE("a body that holds no particle is told with the spacing of particles")
+{
+  CHECK(problems_with({"/bodies/block/geometry/upper=[0.1,0.1]"}) ==
+        "scene.json#/bodies/block/geometry: holds no particle; expected a shape that holds a site of the particle "
+        "lattice, whose spacing is 0.5 m");
+}
+
+TEST_CASE("bodies that overlap are told with where")
+{
+  const std::string geometry = R"({"type":"box","lower":[0.5,0.5],"upper":[2,2]})";
+
+  CHECK(problems_with({"/bodies/second={\"material\":\"steel\",\"geometry\":" + geometry + "}"}) ==
+        "--set#/bodies/second: overlaps body \"block\", at [0.75, 0.75]; expected bodies that share no particle");
+}
+
+TEST_CASE("a scene without bodies is told")
+{
+  CHECK(problems_with({"/bodies={}"}) == "--set#/bodies: an empty object; expected at least one entry");
+}
+
+TEST_CASE("a name that cannot be part of a file's columns is told")
+{
+  CHECK_THAT(problems_with({"/bodies/a.b={\"material\":\"steel\"}"}),
+             Catch::Contains("#/bodies/a.b: a name with other characters; expected letters, digits, - and _ only"));
+}
+
+TEST_CASE("contact of a material with itself, with an unknown one, or given twice is told")
+{
+  CHECK(problems_with({R"(/contact=[{"materials":["steel","steel"],"friction":0}])"}) ==
+        "--set#/contact/0/materials: \"steel\" twice; expected two different materials");
+  CHECK(problems_with({R"(/contact=[{"materials":["steel","snd"],"friction":0}])"}) ==
+        "--set#/contact/0/materials: \"snd\"; expected 2 of steel");
+  CHECK(problems_with_sand({R"(/contact=[{"materials":["steel","sand"],"friction":0},)"
+                            R"({"materials":["sand","steel"],"friction":0}])"}) ==
+        "--set#/contact/1/materials: a pair that is listed before; expected every pair once");
+  CHECK(problems_with_sand({R"(/contact=[{"materials":["steel","sand"],"friction":-0.1}])"}) ==
+        "--set#/contact/0/friction: -0.1; expected a number of 0 or above");
+}
+
+TEST_CASE("an assignment that cannot be made is told as it was given")
+{
+  CHECK(problems_with({"grid/cell_size=1"}) ==
+        "--set grid/cell_size=1: not an assignment; expected /POINTER=VALUE, such as /grid/cell_size=0.01");
+  CHECK(problems_with({"/grid"}) ==
+        "--set /grid: not an assignment; expected /POINTER=VALUE, such as /grid/cell_size=0.01");
+  CHECK(problems_with({"/dimension/x=1"}) ==
+        "--set /dimension/x=1: there is no such place in the scene; expected a pointer to a key or to an item");
+}
+
+TEST_CASE("an assignment to a key that has no meaning is told")
+{
+  CHECK(problems_with({"/grid/cellsize=1"}) == "--set#/grid/cellsize: unknown key; did you mean \"cell_size\"?");
+}
+
+TEST_CASE("a problem in a material's file is told with that file, and one in the scene with the scene")
+{
+  CHECK(problems_with_sand({"/materials/sand/density=0"}) ==
+        "--set#/materials/sand/density: 0; expected a number above 0 [kg/m^3]");
+  CHECK(problems_with_sand({"/materials/sand/poisson_ratio=null"}) ==
+        "--set#/materials/sand/poisson_ratio: missing; expected a number above -1 and below 0.5");
+  const TemporaryFolder folder;
+  write_sand(folder);
+  folder.write("sand.json", R"({"type":"tabular_cap","poisson_ratio":0.7})");
+  std::string scene = small_scene;
+  scene.replace(scene.find("\"steel\": {"), 0, R"("sand": { "file": "../sand.json", "density": -1 }, )");
+  const std::string problems = problems_of(folder, folder.write("scenes/scene.json", scene));
+  CHECK_THAT(problems, Catch::Contains("scenes/scene.json#/materials/sand/density: -1; expected"));
+  CHECK_THAT(problems, Catch::Contains("\nsand.json#/poisson_ratio: 0.7; expected a number above -1 and below 0.5"));
+  CHECK_THAT(problems, Catch::Contains("\nsand.json#/modulus: missing; expected an object"));
+}
+
+TEST_CASE("a missing file is told with the path that was tried")
+{
+  CHECK(problems_with_sand({"/materials/sand/file=nothing.json"}) ==
+        "--set#/materials/sand/file: there is no file nothing.json; expected the path of a JSON file\n"
+        "scenes/scene.json#/materials/sand/type: missing; expected one of hypoelastic, tabular_cap");
+  CHECK(problems_with_sand({"/materials/sand/crush_curve=no.csv"}) ==
+        "--set#/materials/sand/crush_curve: there is no file no.csv; expected the path of a file");
+}
+
+TEST_CASE("a table with other columns is told with those that were expected")
+{
+  CHECK(problems_with_table("crush_curve.csv", "strain,pressure[Pa]\n0,1\n") ==
+        "tables/crush_curve.csv:1: columns strain,pressure[Pa]; expected plastic_volumetric[-],pressure[Pa]");
+}
+
+TEST_CASE("rows of a table that are no numbers are told with file and line")
+{
+  CHECK(
+      problems_with_table("crush_curve.csv", "# c\nplastic_volumetric[-],pressure[Pa]\n0,1e6\n0.1\n0.2,nan\nx,1e7\n") ==
+      "tables/crush_curve.csv:4: 1 values; expected 2\n"
+      "tables/crush_curve.csv:5: \"nan\" for pressure[Pa]; expected a finite number\n"
+      "tables/crush_curve.csv:6: \"x\" for plastic_volumetric[-]; expected a finite number");
+}
+
+TEST_CASE("an empty table is told")
+{
+  CHECK(problems_with_table("crush_curve.csv", "# nothing\n") ==
+        "tables/crush_curve.csv:1: no line with the names of the columns; expected plastic_volumetric[-],pressure[Pa]");
+  CHECK(problems_with_table("crush_curve.csv", "plastic_volumetric[-],pressure[Pa]\n") ==
+        "tables/crush_curve.csv:1: a table without rows; expected numbers");
+}
+
+TEST_CASE("a table whose numbers make no curve is told with file and line")
+{
+  CHECK_THAT(problems_with_table("crush_curve.csv", "plastic_volumetric[-],pressure[Pa]\n0,1e6\n\n0.2,2e7\n0.1,3e7\n"),
+             Catch::StartsWith("tables/crush_curve.csv:5: "));
+  CHECK_THAT(problems_with_table("crush_curve.csv", "plastic_volumetric[-],pressure[Pa]\n0,1e6\n0.1,2e7\n0.2,1e7\n"),
+             Catch::StartsWith("tables/crush_curve.csv:4: crush pressure"));
+  CHECK_THAT(problems_with_table("yield.csv", "pressure[Pa],sqrt_J2[Pa]\n-1e4,5\n1e6,6e5\n"),
+             Catch::StartsWith("tables/yield.csv:2: "));
+  CHECK_THAT(problems_with_table("unloading.csv",
+                                 "plastic_volumetric[-],elastic_volumetric[-],pressure[Pa]\n"
+                                 "0.05,0,0\n0.05,0.005,5e6\n0.05,0.01,1e7\n0.04,0,0\n"),
+             Catch::StartsWith("tables/unloading.csv:5: "));
+}

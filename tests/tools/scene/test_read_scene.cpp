@@ -1,0 +1,155 @@
+#include <catch2/catch.hpp>
+
+#include "runtime/storage/file_error.hpp"
+#include "tests/tools/scene/small_scene.hpp"
+#include "tools/scene/print_json.hpp"
+
+using namespace tamp;
+using namespace tamp::test;
+using tools::read_scene;
+
+TEST_CASE("a scene is read into what a run is made from")
+{
+  const TemporaryFolder folder;
+  const auto file = folder.write("small.json", small_scene);
+
+  const tasks::Scene scene = read_scene(file).scene;
+
+  CHECK(scene.name == "small");
+  CHECK(scene.grid.dimension == 2);
+  CHECK(scene.grid.n_cells == runtime::Index{2, 2, 1});
+  CHECK(scene.n_patches == runtime::Index{1, 1, 1});
+  REQUIRE(scene.materials.size() == 1);
+  CHECK(scene.materials[0].density == 8000);
+  CHECK(std::get<components::Hypoelastic>(scene.materials[0].model).shear_modulus == 7e9);
+  REQUIRE(scene.bodies.size() == 1);
+  CHECK(scene.bodies[0].material == 0);
+  CHECK(scene.bodies[0].n_particles == 4);
+}
+
+TEST_CASE("what a scene leaves out has the documented default")
+{
+  const TemporaryFolder folder;
+
+  const tasks::Scene scene = read_scene(folder.write("small.json", small_scene)).scene;
+
+  CHECK(scene.title == "small");
+  CHECK(scene.grid.lower == tasks::Triple{0, 0, 0});
+  CHECK(scene.faces[1][1] == tasks::Face::symmetry);
+  CHECK(scene.time.rule == tasks::StepRule::viscous);
+  CHECK(scene.time.multiplier == 0.8);
+  CHECK(scene.time.minimum_step == 1e-12);
+  CHECK(std::isinf(scene.time.maximum_step));
+  CHECK(scene.particles_per_axis == 2);
+  CHECK(scene.gravity == tasks::Triple{0, 0, 0});
+  CHECK_FALSE(scene.artificial_viscosity.has_value());
+  CHECK(scene.contacts.empty());
+  CHECK(scene.output.fields_interval == 1.0 / 50);
+  CHECK(scene.output.history_interval == 1.0 / 1000);
+}
+
+TEST_CASE("the scene as resolved reads back as the same scene, from any folder")
+{
+  const TemporaryFolder folder, elsewhere;
+  write_sand(folder);
+  const auto file = folder.write("small.json", small_scene);
+  const auto first = read_scene(file, {"/materials/sand/file=" + (folder.path() / "sand.json").string(),
+                                       "/contact=[{\"materials\":[\"steel\",\"sand\"],\"friction\":0.1}]",
+                                       "/artificial_viscosity={}", "/boundaries/x+=open"});
+
+  const auto again = read_scene(elsewhere.write("small.json", tools::printed(first.resolved)));
+
+  CHECK(again.resolved == first.resolved);
+  CHECK(again.scene.contacts.at(0).friction == 0.1);
+  CHECK(again.scene.faces[0][1] == tasks::Face::open);
+  CHECK(again.scene.artificial_viscosity->quadratic == 2.0);
+  CHECK(std::get<components::TabularCap>(again.scene.materials.at(1).model).crush_pressure(0.1) == 2e7);
+}
+
+TEST_CASE("every scene that comes with the program is sound")
+{
+  const std::filesystem::path inputs = std::filesystem::path(TAMP_SOURCE_DIR) / "inputs";
+  for (const char* name : {"punch/table.json", "punch/quick.json"}) {
+    INFO(name);
+    CHECK_NOTHROW(read_scene(inputs / name));
+  }
+}
+
+TEST_CASE("the published punch has the published numbers")
+{
+  const tasks::Scene scene = read_scene(std::filesystem::path(TAMP_SOURCE_DIR) / "inputs/punch/table.json").scene;
+
+  CHECK(scene.grid.n_cells == runtime::Index{100, 80, 1});
+  CHECK(scene.n_patches == runtime::Index{4, 1, 1});
+  CHECK(scene.time.end == 7e-3);
+  CHECK(scene.time.rule == tasks::StepRule::published);
+  CHECK(scene.time.multiplier == 0.05);
+  CHECK(scene.materials.at(0).density == 8000);
+  CHECK(scene.materials.at(1).density == 1050);
+  CHECK(scene.bodies.at(0).n_particles == 60 * 40);
+  CHECK(scene.bodies.at(1).n_particles == 200 * 100);
+  CHECK(scene.bodies.at(0).velocity == tasks::Triple{0, -200, 0});
+  CHECK(scene.contacts.at(0).friction == 0.1);
+}
+
+TEST_CASE("materials and bodies are numbered in the order in which they stand")
+{
+  const TemporaryFolder folder;
+  const auto file = folder.write("small.json", small_scene);
+
+  const tasks::Scene scene =
+      read_scene(file, {R"(/materials/aluminium={"type":"hypoelastic","density":2700,"bulk_modulus":7e10,)"
+                        R"("shear_modulus":2.6e10})"})
+          .scene;
+
+  CHECK(scene.materials.at(0).name == "steel");
+  CHECK(scene.materials.at(1).name == "aluminium");
+}
+
+TEST_CASE("all problems of a scene are told at once")
+{
+  const std::string problems =
+      problems_with({"/grid/cell_size=-1", "/time/end=\"soon\"", "/materials/steel/density=-8000", "/gravty=[0,0]"});
+
+  CHECK(std::count(problems.begin(), problems.end(), '\n') == 3);
+}
+
+TEST_CASE("a scene file that does not exist is an error of files, not of input")
+{
+  CHECK_THROWS_AS(read_scene("/no/such/scene.json"), runtime::FileError);
+  CHECK_THROWS_WITH(read_scene("/no/such/scene.json"), "/no/such/scene.json: no such file");
+}
+
+TEST_CASE("a grid that is wrong does not make every body seem to lie outside of it")
+{
+  CHECK(problems_with({"/grid/upper=[-2,-2]"}).find("geometry") == std::string::npos);
+}
+
+TEST_CASE("a body of three dimensions is counted in three dimensions")
+{
+  const TemporaryFolder folder;
+  const auto file = folder.write("small.json", small_scene);
+
+  const tasks::Scene scene =
+      read_scene(file, {"/dimension=3", "/grid/upper=[2,2,2]", "/bodies/block/geometry/lower=[0,0,0]",
+                        "/bodies/block/geometry/upper=[1,1,2]"})
+          .scene;
+
+  CHECK(scene.bodies.at(0).n_particles == 16);
+}
+
+TEST_CASE("every kind of geometry is read")
+{
+  const TemporaryFolder folder;
+  const auto file = folder.write("small.json", small_scene);
+  const auto volume = [&](const std::string& geometry) {
+    const auto scene = read_scene(file, {"/dimension=3", "/grid/upper=[2,2,2]", "/bodies/block/geometry=" + geometry});
+    return std::get<components::Solid<3>>(scene.scene.bodies.at(0).solid).volume();
+  };
+  const double pi = 3.14159265358979323846;
+
+  CHECK(volume(R"({"type":"box","lower":[0,0,0],"upper":[1,2,1]})") == Approx(2));
+  CHECK(volume(R"({"type":"ball","centre":[1,1,1],"radius":1})") == Approx(4 * pi / 3));
+  CHECK(volume(R"({"type":"rotated_box","centre":[1,1,1],"sides":[1,0.5,1],"angle":45})") == Approx(0.5));
+  CHECK(volume(R"({"type":"cylinder","first_end":[1,1,0],"second_end":[1,1,2],"radius":0.5})") == Approx(pi / 2));
+}

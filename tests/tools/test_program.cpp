@@ -1,0 +1,88 @@
+#include <sys/wait.h>
+
+#include <catch2/catch.hpp>
+
+#include "tests/tools/scene/small_scene.hpp"
+
+using namespace tamp::test;
+
+namespace
+{
+
+struct Outcome {
+  int exit_code;
+  std::string out;
+  std::string err;
+};
+
+/// What the program answers to a command line.
+Outcome tamp_with(const std::string& arguments)
+{
+  const TemporaryFolder folder;
+  const std::string out = (folder.path() / "out").string(), err = (folder.path() / "err").string();
+  const std::string line = std::string(TAMP_PROGRAM) + " " + arguments + " >" + out + " 2>" + err;
+  const int status = std::system(line.c_str());
+  return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, read_text(out), read_text(err)};
+}
+
+}  // namespace
+
+TEST_CASE("the version names the build, the compiler and every library")
+{
+  const Outcome outcome = tamp_with("--version");
+
+  CHECK(outcome.exit_code == 0);
+  for (const char* name : {"tamp ", "build", "compiler", "oneTBB", "Eigen", "HDF5", "MPI", "fmt", "json", "CLI11"}) {
+    CHECK_THAT(outcome.out, Catch::Contains(name));
+  }
+}
+
+TEST_CASE("a command line that cannot be understood ends with 2 and says so on stderr")
+{
+  for (const char* arguments : {"", "fly", "check", "check a.json --no-such-option", "check a.json b.json"}) {
+    const Outcome outcome = tamp_with(arguments);
+    INFO(arguments);
+    CHECK(outcome.exit_code == 2);
+    CHECK(outcome.out.empty());
+    CHECK_THAT(outcome.err, Catch::StartsWith("tamp: "));
+  }
+}
+
+TEST_CASE("help is given for the program and for its commands")
+{
+  CHECK(tamp_with("--help").exit_code == 0);
+  CHECK_THAT(tamp_with("check --help").out, Catch::Contains("--set"));
+}
+
+TEST_CASE("a sound scene passes the check, is printed resolved, and its particles are counted")
+{
+  const TemporaryFolder folder;
+  const auto file = folder.write("small.json", small_scene);
+
+  const Outcome outcome = tamp_with("check " + file.string());
+
+  CHECK(outcome.exit_code == 0);
+  CHECK_THAT(outcome.out, Catch::Contains("\"rule\": \"viscous\""));
+  CHECK_THAT(outcome.err, Catch::Contains("block: 4 particles of steel"));
+}
+
+TEST_CASE("each problem of a bad scene is a line of its own on stderr, and the exit code is 2")
+{
+  const TemporaryFolder folder;
+  const auto file = folder.write("small.json", small_scene);
+
+  const Outcome outcome = tamp_with("check " + file.string() + " --set /time/end=0 --set /gravity=down");
+
+  CHECK(outcome.exit_code == 2);
+  CHECK(outcome.err ==
+        "tamp: --set#/time/end: 0; expected a number above 0 [s]\n"
+        "tamp: --set#/gravity: \"down\"; expected 2 numbers\n");
+}
+
+TEST_CASE("a scene file that cannot be read ends with 4")
+{
+  const Outcome outcome = tamp_with("check /no/such/scene.json");
+
+  CHECK(outcome.exit_code == 4);
+  CHECK(outcome.err == "tamp: /no/such/scene.json: no such file\n");
+}

@@ -1,0 +1,54 @@
+#include <fmt/core.h>
+
+#include <memory>
+
+#include "tools/commands/commands.hpp"
+#include "tools/scene/print_json.hpp"
+#include "tools/scene/read_scene.hpp"
+
+namespace tamp::tools
+{
+
+namespace
+{
+
+struct CheckOptions {
+  std::string scene;
+  std::vector<std::string> assignments;
+};
+
+void check(const CheckOptions& options)
+{
+  const CheckedScene checked = read_scene(options.scene, options.assignments);
+  const tasks::Scene& scene = checked.scene;
+  fmt::print("{}\n", printed(checked.resolved));
+
+  const runtime::Index& n = scene.grid.n_cells;
+  const runtime::Index& patches = scene.n_patches;
+  fmt::print(stderr, "{}: {} cells, {} patches\n", options.scene, scene.grid.cells().size(),
+             patches[0] * patches[1] * patches[2]);
+  fmt::print(stderr, "  grid  {} x {} x {} cells of {} m\n", n[0], n[1], n[2], scene.grid.cell_size);
+  std::size_t total = 0;
+  for (const tasks::SceneBody& body : scene.bodies) {
+    total += body.n_particles;
+    const std::string& material = scene.materials[static_cast<std::size_t>(body.material)].name;
+    fmt::print(stderr, "  body  {}: {} particles of {}\n", body.name, body.n_particles, material);
+  }
+  fmt::print(stderr, "  in all {} particles\n", total);
+}
+
+}  // namespace
+
+CLI::App* add_check_command(CLI::App& app)
+{
+  CLI::App* command =
+      app.add_subcommand("check", "Check a scene, print it with every default filled in, count particles");
+  const auto options = std::make_shared<CheckOptions>();
+  command->add_option("SCENE", options->scene, "the scene's JSON file")->required();
+  command->add_option("--set", options->assignments, "POINTER=VALUE: replace a value of the scene, may be repeated")
+      ->allow_extra_args(false);
+  command->callback([options] { check(*options); });
+  return command;
+}
+
+}  // namespace tamp::tools

@@ -1,0 +1,13 @@
+#pragma once
+
+#include <CLI/CLI.hpp>
+
+/// One function for each command of the program, in the file of its name. It adds the command to `app` with a callback
+/// that does the work when the command line has been read, and that throws when it cannot.
+namespace tamp::tools
+{
+
+CLI::App* add_run_command(CLI::App& app);
+CLI::App* add_check_command(CLI::App& app);
+
+}  // namespace tamp::tools

@@ -1,0 +1,62 @@
+#pragma once
+
+#include <filesystem>
+#include <vector>
+
+#include "runtime/storage/csv_writer.hpp"
+#include "tasks/simulation.hpp"
+
+namespace tamp::tools
+{
+
+/// The energies of a simulation at one moment [J], counted since its start. What is left in motion and stored, what has
+/// turned to heat, and the work of gravity: `total` stays what it was at the start, as far as the method can.
+struct EnergyBalance {
+  double kinetic;
+  double elastic;
+  double plastic;
+  double viscous;
+  double contact;
+  double external;
+  double total;
+};
+
+/// Follows a simulation from its start: energies, momentum, the motion of bodies, the peaks of materials.
+class RunHistory
+{
+ public:
+  /// To be made before the first step; starts `history.csv` in `folder`.
+  RunHistory(tasks::Simulation& simulation, const std::filesystem::path& folder);
+
+  /// Writes one row of the state now.
+  void write_row();
+
+  /// The error of the total energy, of the initial kinetic energy (of the largest energy if that is nothing), and that
+  /// of the momentum that the grid has given to the particles, of the bodies' initial momenta.
+  double energy_error() const { return energy_error_; }
+  double momentum_error() const { return momentum_error_; }
+  const EnergyBalance& energies() const { return energies_; }
+  const tasks::ParticleReport& report() const { return report_; }
+
+  /// Bodies that move at the start; the others are what they move into.
+  const std::vector<std::size_t>& tracked_bodies() const { return tracked_; }
+  /// How far a body's centre of mass has moved along its initial velocity [m].
+  double depth(std::size_t body) const;
+
+ private:
+  std::vector<std::string> columns() const;
+  void measure();
+  void add_body(std::size_t body, std::vector<double>& row) const;
+  void add_material(std::size_t material, std::vector<double>& row) const;
+
+  tasks::Simulation& simulation_;
+  std::vector<std::size_t> tracked_;
+  tasks::ParticleReport initial_;
+  tasks::ParticleReport report_;
+  EnergyBalance energies_{};
+  double energy_error_ = 0;
+  double momentum_error_ = 0;
+  runtime::CsvWriter csv_;
+};
+
+}  // namespace tamp::tools

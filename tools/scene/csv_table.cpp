@@ -1,0 +1,143 @@
+#include "tools/scene/csv_table.hpp"
+
+#include <fmt/core.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <fstream>
+#include <optional>
+#include <string_view>
+
+#include "runtime/storage/file_error.hpp"
+
+namespace tamp::tools
+{
+
+namespace
+{
+
+std::string_view trimmed(std::string_view text)
+{
+  constexpr std::string_view blank = " \t\r";
+  const std::size_t first = text.find_first_not_of(blank);
+  if (first == std::string_view::npos) return {};
+  return text.substr(first, text.find_last_not_of(blank) - first + 1);
+}
+
+std::vector<std::string_view> split(std::string_view line)
+{
+  std::vector<std::string_view> parts;
+  while (true) {
+    const std::size_t comma = line.find(',');
+    parts.push_back(trimmed(line.substr(0, comma)));
+    if (comma == std::string_view::npos) return parts;
+    line.remove_prefix(comma + 1);
+  }
+}
+
+std::optional<double> finite_number(std::string_view text)
+{
+  double value = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc() || end != text.data() + text.size() || !std::isfinite(value)) return std::nullopt;
+  return value;
+}
+
+/// Reads line by line into a table, noting what is wrong.
+class TableReader
+{
+ public:
+  TableReader(const std::filesystem::path& file, const std::vector<std::string>& columns) : wanted_(columns)
+  {
+    table_.file = file;
+    table_.columns.resize(columns.size());
+  }
+
+  void read(std::string_view line)
+  {
+    ++line_;
+    line = trimmed(line);
+    if (line.empty() || line.front() == '#') return;
+    if (place_.empty()) {
+      read_header(split(line));
+    } else {
+      read_row(split(line));
+    }
+  }
+
+  CsvTable finished()
+  {
+    if (place_.empty()) {
+      add("no line with the names of the columns", fmt::format("expected {}", fmt::join(wanted_, ",")));
+    } else if (problems_.empty() && table_.n_rows() == 0) {
+      add("a table without rows", "expected numbers");
+    }
+    if (!problems_.empty()) throw InputError(std::move(problems_));
+    return std::move(table_);
+  }
+
+ private:
+  void add(const std::string& found, const std::string& expected)
+  {
+    problems_.push_back({fmt::format("{}:{}", table_.file.string(), line_), found, expected});
+  }
+
+  void read_header(const std::vector<std::string_view>& names)
+  {
+    for (const std::string& name : wanted_) {
+      const auto at = std::find(names.begin(), names.end(), name);
+      place_.push_back(static_cast<std::size_t>(at - names.begin()));
+    }
+    const bool all_found = std::all_of(place_.begin(), place_.end(), [&](std::size_t i) { return i < names.size(); });
+    if (!all_found || names.size() != wanted_.size()) {
+      add(fmt::format("columns {}", fmt::join(names, ",")), fmt::format("expected {}", fmt::join(wanted_, ",")));
+      throw InputError(std::move(problems_));
+    }
+  }
+
+  void read_row(const std::vector<std::string_view>& parts)
+  {
+    if (parts.size() != wanted_.size()) {
+      add(fmt::format("{} values", parts.size()), fmt::format("expected {}", wanted_.size()));
+      return;
+    }
+    for (std::size_t i = 0; i < wanted_.size(); ++i) {
+      const std::string_view text = parts[place_[i]];
+      const std::optional<double> value = finite_number(text);
+      if (!value) add(fmt::format("\"{}\" for {}", text, wanted_[i]), "expected a finite number");
+      table_.columns[i].push_back(value.value_or(0));
+    }
+    table_.line_of_row.push_back(line_);
+  }
+
+  const std::vector<std::string>& wanted_;
+  CsvTable table_;
+  /// Where in a line each wanted column stands; empty before the header.
+  std::vector<std::size_t> place_;
+  std::vector<Problem> problems_;
+  int line_ = 0;
+};
+
+}  // namespace
+
+Problem CsvTable::problem(std::ptrdiff_t row, const std::string& found, const std::string& expected) const
+{
+  const bool in_table = row >= 0 && row < static_cast<std::ptrdiff_t>(n_rows());
+  if (!in_table) return {file.string(), found, expected};
+  return {fmt::format("{}:{}", file.string(), line_of_row[static_cast<std::size_t>(row)]), found, expected};
+}
+
+CsvTable read_csv_table(const std::filesystem::path& file, const std::vector<std::string>& columns)
+{
+  std::ifstream stream(file);
+  if (!stream) throw runtime::FileError(file.string(), "cannot be read");
+  TableReader reader(file, columns);
+  std::string line;
+  while (std::getline(stream, line)) reader.read(line);
+  if (stream.bad()) throw runtime::FileError(file.string(), "cannot be read");
+  return reader.finished();
+}
+
+}  // namespace tamp::tools

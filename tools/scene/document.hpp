@@ -1,0 +1,61 @@
+#pragma once
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "tools/errors.hpp"
+
+namespace tamp::tools
+{
+
+/// Keeps the order of keys: materials and bodies are numbered as they stand in the file.
+using Json = nlohmann::ordered_json;
+using JsonPointer = Json::json_pointer;
+
+/// A scene being read: its JSON, where each part of it came from, and what was found to be wrong so far. Reading fills
+/// in defaults, so that at the end `root` is the scene as resolved.
+class Document
+{
+ public:
+  /// Reads a file. Throws FileError if it cannot be opened, InputError for text that is not JSON or an object that has
+  /// a key twice.
+  explicit Document(const std::filesystem::path& file);
+
+  /// Applies `POINTER=VALUE`: the value is JSON, or else a string; objects on the way are made. Throws InputError for
+  /// an assignment that cannot be made; whether the place has a meaning shows when it is read.
+  void set(const std::string& assignment);
+
+  /// Replaces the object at `pointer`, which has the key "file", by that file's JSON with the object's other keys
+  /// merged over it (RFC 7386). Without that key nothing happens; what goes wrong is added to the problems.
+  void merge_file_named_at(const JsonPointer& pointer);
+
+  /// FILE#/pointer of the value, in the file that it came from.
+  std::string place(const JsonPointer& pointer) const;
+
+  /// What a relative path that stands at `pointer` is relative to.
+  std::filesystem::path folder(const JsonPointer& pointer) const;
+
+  void add_problem(const JsonPointer& pointer, std::string found, std::string expected);
+
+  const std::filesystem::path& file() const { return file_; }
+
+  Json root;
+  std::vector<Problem> problems;
+
+ private:
+  /// All below `pointer` stands in `file`, below `pointer_there`. The longest match counts, of two alike the last.
+  struct Origin {
+    std::string pointer;
+    std::string file;
+    std::string pointer_there;
+  };
+  Origin origin(const std::string& pointer) const;
+  void note_overrides(const Json& base, const Json& patch, const JsonPointer& pointer);
+
+  std::filesystem::path file_;
+  std::vector<Origin> origins_;
+};
+
+}  // namespace tamp::tools

@@ -1,0 +1,164 @@
+#include "tools/scene/read_body.hpp"
+
+#include <fmt/core.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <numbers>
+
+#include "components/errors.hpp"
+#include "components/geometry/fill.hpp"
+
+namespace tamp::tools
+{
+
+namespace
+{
+
+template <int D>
+Vector<D> vector(JsonReader& reader, const std::string& key, Range range = any_number)
+{
+  const std::vector<double> numbers = reader.numbers(key, D, range);
+  return Eigen::Map<const Vector<D>>(numbers.data());
+}
+
+template <int D>
+std::string text(const Vector<D>& v)
+{
+  return fmt::format("[{}]", fmt::join(v.data(), v.data() + D, ", "));
+}
+
+/// The shape named by "type", read by `reader`; empty for a problem.
+template <int D>
+std::optional<typename components::Solid<D>::Shape> read_shape(JsonReader& reader)
+{
+  std::vector<std::string> types{"box", "ball", "rotated_box"};
+  if (D == 3) types.emplace_back("cylinder");
+  const std::size_t n_before = reader.document().problems.size();
+  const std::string type = reader.choice("type", types);
+  if (type.empty()) return std::nullopt;
+
+  typename components::Solid<D>::Shape shape;
+  if (type == "box") {
+    shape = components::Box<D>{vector<D>(reader, "lower"), vector<D>(reader, "upper")};
+  } else if (type == "ball") {
+    shape = components::Ball<D>{vector<D>(reader, "centre"), reader.number("radius", above_zero, "m")};
+  } else if (type == "rotated_box") {
+    const Vector<D> centre = vector<D>(reader, "centre");
+    const Vector<D> sides = vector<D>(reader, "sides", above_zero);
+    const double angle = reader.number("angle", any_number, "degrees") * std::numbers::pi / 180;
+    shape = components::RotatedBox<D>{centre, sides, components::plane_rotation<D>(angle)};
+  } else if constexpr (D == 3) {
+    const Vector<3> first = vector<3>(reader, "first_end");
+    shape = components::Cylinder{first, vector<3>(reader, "second_end"), reader.number("radius", above_zero, "m")};
+  }
+  reader.finish();
+  if (reader.document().problems.size() > n_before) return std::nullopt;
+  return shape;
+}
+
+template <int D>
+std::optional<components::Solid<D>> read_solid(JsonReader& body)
+{
+  JsonReader reader = body.object("geometry");
+  const auto shape = read_shape<D>(reader);
+  if (!shape) return std::nullopt;
+  try {
+    return components::Solid<D>(*shape);
+  } catch (const components::BadValue& bad) {
+    body.add_problem("geometry", bad.found, "expected " + bad.expected);
+    return std::nullopt;
+  }
+}
+
+template <int D>
+std::vector<Vector<D>> sites(const components::Solid<D>& solid, const tasks::Scene& scene)
+{
+  components::ParticleLattice<D> lattice;
+  lattice.origin = Eigen::Map<const Vector<D>>(scene.grid.lower.data());
+  lattice.cell_size = scene.grid.cell_size;
+  lattice.n_per_axis = scene.particles_per_axis;
+  components::CellRange<D> cells{};
+  std::copy_n(scene.grid.n_cells.begin(), D, cells.upper.begin());
+  return components::fill(solid, lattice, cells);
+}
+
+/// Does the solid keep within the grid? Lengths that are equal but for rounding are equal.
+template <int D>
+bool within_grid(const components::Solid<D>& solid, const runtime::Grid& grid)
+{
+  const components::Box<D> box = solid.bounding_box();
+  const double slack = 1e-9 * grid.cell_size;
+  for (int axis = 0; axis < D; ++axis) {
+    const double lower = grid.coordinate(axis, 0);
+    const double upper = grid.coordinate(axis, grid.n_cells[static_cast<std::size_t>(axis)]);
+    if (box.lower[axis] < lower - slack || box.upper[axis] > upper + slack) return false;
+  }
+  return true;
+}
+
+template <int D>
+std::optional<tasks::SceneBody> read(const std::string& name, JsonReader& reader, const tasks::Scene& scene,
+                                     const std::vector<std::string>& material_names)
+{
+  const std::string material = reader.choice("material", material_names);
+  const std::vector<double> velocity = reader.numbers("velocity", D, any_number, 0);
+  const auto solid = read_solid<D>(reader);
+  reader.finish();
+  if (!solid || material.empty()) return std::nullopt;
+
+  if (!within_grid(*solid, scene.grid)) {
+    const components::Box<D> box = solid->bounding_box();
+    reader.add_problem("geometry", fmt::format("reaches from {} to {}", text<D>(box.lower), text<D>(box.upper)),
+                       "expected it to lie within the grid");
+    return std::nullopt;
+  }
+  const std::size_t n_particles = sites(*solid, scene).size();
+  if (n_particles == 0) {
+    reader.add_problem("geometry", "holds no particle",
+                       fmt::format("expected a shape that holds a site of the particle lattice, whose spacing is {} m",
+                                   scene.grid.cell_size / scene.particles_per_axis));
+    return std::nullopt;
+  }
+  const auto at = std::find(material_names.begin(), material_names.end(), material) - material_names.begin();
+  tasks::SceneBody body{name, static_cast<int>(at), *solid, {0, 0, 0}, n_particles};
+  std::copy(velocity.begin(), velocity.end(), body.velocity.begin());
+  return body;
+}
+
+/// The first particle of `body` that lies in one of the bodies before it, as (that body's name, the place).
+template <int D>
+std::optional<std::pair<std::string, std::string>> first_overlap(const tasks::Scene& scene, std::size_t body)
+{
+  const auto& solid = std::get<components::Solid<D>>(scene.bodies[body].solid);
+  for (const Vector<D>& site : sites(solid, scene)) {
+    for (std::size_t other = 0; other < body; ++other) {
+      if (std::get<components::Solid<D>>(scene.bodies[other].solid).contains(site)) {
+        return std::pair(scene.bodies[other].name, text<D>(site));
+      }
+    }
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+std::optional<tasks::SceneBody> read_body(const std::string& name, JsonReader reader, const tasks::Scene& scene,
+                                          const std::vector<std::string>& material_names)
+{
+  return scene.grid.dimension == 2 ? read<2>(name, reader, scene, material_names)
+                                   : read<3>(name, reader, scene, material_names);
+}
+
+void check_no_overlap(const tasks::Scene& scene, const JsonReader& bodies)
+{
+  for (std::size_t i = 1; i < scene.bodies.size(); ++i) {
+    const auto overlap = scene.grid.dimension == 2 ? first_overlap<2>(scene, i) : first_overlap<3>(scene, i);
+    if (!overlap) continue;
+    bodies.add_problem(scene.bodies[i].name,
+                       fmt::format("overlaps body \"{}\", at {}", overlap->first, overlap->second),
+                       "expected bodies that share no particle");
+  }
+}
+
+}  // namespace tamp::tools

@@ -1,0 +1,20 @@
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "tasks/scene.hpp"
+#include "tools/scene/json_reader.hpp"
+
+namespace tamp::tools
+{
+
+/// Reads one body of a scene whose grid, particles per axis and material names are known, and counts its particles.
+/// Empty if there is a problem, which the reader's document then knows.
+std::optional<tasks::SceneBody> read_body(const std::string& name, JsonReader reader, const tasks::Scene& scene,
+                                          const std::vector<std::string>& material_names);
+
+/// Adds a problem for each body that would have a particle inside of one before it.
+void check_no_overlap(const tasks::Scene& scene, const JsonReader& bodies);
+
+}  // namespace tamp::tools

@@ -1,0 +1,155 @@
+#include "tools/scene/read_material.hpp"
+
+#include "components/errors.hpp"
+#include "components/materials/tabular_cap.hpp"
+#include "tools/scene/csv_table.hpp"
+
+namespace tamp::tools
+{
+
+namespace
+{
+
+using components::BadValue;
+
+/// A table and what was made from it. Problems of either are the document's.
+template <class Make>
+auto from_table(JsonReader& reader, const std::string& key, const std::vector<std::string>& columns, Make make)
+    -> std::optional<decltype(make(std::declval<CsvTable&>()))>
+{
+  const std::filesystem::path file = reader.existing_file(key);
+  if (file.empty()) return std::nullopt;
+  std::vector<Problem>& problems = reader.document().problems;
+  try {
+    CsvTable table = read_csv_table(file, columns);
+    try {
+      return make(table);
+    } catch (const BadValue& bad) {
+      problems.push_back(table.problem(bad.row, bad.found, "expected " + bad.expected));
+    }
+  } catch (const InputError& error) {
+    problems.insert(problems.end(), error.problems.begin(), error.problems.end());
+  }
+  return std::nullopt;
+}
+
+components::PiecewiseLinear curve(CsvTable& table)
+{
+  return {std::move(table.columns[0]), std::move(table.columns[1])};
+}
+
+std::optional<components::Modulus> read_modulus(JsonReader& material)
+{
+  JsonReader reader = material.object("modulus");
+  reader.choice("type", {"table"});
+  const std::vector<std::string> columns{"plastic_volumetric[-]", "elastic_volumetric[-]", "pressure[Pa]"};
+  auto modulus = from_table(reader, "file", columns, [](CsvTable& t) -> components::Modulus {
+    return components::UnloadingTable(t.columns[0], t.columns[1], t.columns[2]);
+  });
+  reader.finish();
+  return modulus;
+}
+
+std::optional<components::YieldSurface> read_yield(JsonReader& material)
+{
+  JsonReader reader = material.object("yield");
+  const Range inside{.lower = 0, .upper = 1, .holds_lower = false, .holds_upper = false};
+  const std::size_t before = reader.document().problems.size();
+  const double ellipticity = reader.number("cap_ellipticity", inside);
+  const bool ellipticity_is_good = reader.document().problems.size() == before && reader.has("cap_ellipticity");
+  auto yield = from_table(reader, "file", {"pressure[Pa]", "sqrt_J2[Pa]"}, [&](CsvTable& t) {
+    return components::YieldSurface(t.columns[0], t.columns[1], ellipticity_is_good ? ellipticity : 0.5);
+  });
+  reader.finish();
+  return yield;
+}
+
+/// X(plastic strain), and the table it came from where it did.
+struct CrushCurve {
+  components::PiecewiseLinear curve;
+  std::optional<CsvTable> table;
+};
+
+std::optional<CrushCurve> read_tabulated_crush_curve(JsonReader& reader)
+{
+  return from_table(reader, "crush_curve", {"plastic_volumetric[-]", "pressure[Pa]"}, [](CsvTable& table) {
+    CsvTable kept = table;
+    return CrushCurve{curve(table), std::move(kept)};
+  });
+}
+
+/// In the state form the crush curve follows from the modulus and the hydrostat. In the rate form it is tabulated. The
+/// table that is not needed may be left out; it is read only to be checked.
+std::optional<CrushCurve> read_crush_curve(JsonReader& reader, components::ElasticUpdate update,
+                                           const std::optional<components::Modulus>& modulus)
+{
+  const bool state_form = update == components::ElasticUpdate::state;
+  reader.allow("hydrostat");
+  reader.allow("crush_curve");
+  std::optional<components::PiecewiseLinear> hydrostat;
+  if (state_form || reader.has("hydrostat")) {
+    hydrostat = from_table(reader, "hydrostat", {"total_volumetric[-]", "pressure[Pa]"}, curve);
+  }
+  std::optional<CrushCurve> tabulated;
+  if (!state_form || reader.has("crush_curve")) tabulated = read_tabulated_crush_curve(reader);
+
+  if (!state_form) return tabulated;
+  if (!modulus || !hydrostat) return std::nullopt;
+  try {
+    return CrushCurve{components::consistent_crush_curve(*modulus, *hydrostat), std::nullopt};
+  } catch (const BadValue& bad) {
+    reader.add_problem("hydrostat", bad.found, "expected " + bad.expected);
+    return std::nullopt;
+  }
+}
+
+std::optional<tasks::MaterialModel> read_tabular_cap(JsonReader& reader)
+{
+  std::vector<Problem>& problems = reader.document().problems;
+  const std::size_t n_before = problems.size();
+  const Range poisson{.lower = -1, .upper = 0.5, .holds_lower = false, .holds_upper = false};
+  const double poisson_ratio = reader.number("poisson_ratio", poisson);
+  const std::string form = reader.choice("elastic_update", {"state", "rate"}, true);
+  const auto update = form == "rate" ? components::ElasticUpdate::rate : components::ElasticUpdate::state;
+  const double tolerance = reader.number("tolerance", {.lower = 0, .upper = 1, .holds_lower = false}, 1e-3);
+  const int max_substeps = reader.integer("max_substeps", 1, 1'000'000, 100);
+  const auto modulus = read_modulus(reader);
+  const auto yield = read_yield(reader);
+  const auto crush = read_crush_curve(reader, update, modulus);
+  if (problems.size() > n_before || !modulus || !yield || !crush) return std::nullopt;
+  try {
+    return components::TabularCap({poisson_ratio, update, *modulus, crush->curve, *yield, tolerance, max_substeps});
+  } catch (const BadValue& bad) {
+    // All but the crush curve was checked above.
+    if (crush->table) {
+      problems.push_back(crush->table->problem(bad.row, bad.found, "expected " + bad.expected));
+    } else {
+      reader.add_problem("hydrostat", bad.found, "expected " + bad.expected);
+    }
+    return std::nullopt;
+  }
+}
+
+tasks::MaterialModel read_hypoelastic(JsonReader& reader)
+{
+  components::Hypoelastic model{};
+  model.bulk_modulus = reader.number("bulk_modulus", above_zero, "Pa");
+  model.shear_modulus = reader.number("shear_modulus", above_zero, "Pa");
+  return model;
+}
+
+}  // namespace
+
+std::optional<tasks::SceneMaterial> read_material(const std::string& name, JsonReader reader)
+{
+  const std::string type = reader.choice("type", {"hypoelastic", "tabular_cap"});
+  if (type.empty()) return std::nullopt;
+  const double density = reader.number("density", above_zero, "kg/m^3");
+  const std::optional<tasks::MaterialModel> model =
+      type == "hypoelastic" ? read_hypoelastic(reader) : read_tabular_cap(reader);
+  reader.finish();
+  if (!model) return std::nullopt;
+  return tasks::SceneMaterial{name, density, *model};
+}
+
+}  // namespace tamp::tools

@@ -1,0 +1,228 @@
+#include "tools/scene/read_scene.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "tools/scene/json_reader.hpp"
+#include "tools/scene/read_body.hpp"
+#include "tools/scene/read_material.hpp"
+
+namespace tamp::tools
+{
+
+namespace
+{
+
+/// Reads the parts of a scene one after another; what a part needs of another is read before it.
+class SceneReader
+{
+ public:
+  explicit SceneReader(Document& document) : document_(document), root_(document) {}
+
+  tasks::Scene read()
+  {
+    scene_.name = document_.file().stem().string();
+    scene_.title = root_.text("title", scene_.name);
+    const std::size_t n_before = document_.problems.size();
+    read_dimension();
+    read_grid();
+    const bool grid_is_good = document_.problems.size() == n_before;
+    read_faces();
+    read_time();
+    root_.choice("interpolator", {"gimp"}, true);
+    read_particles_per_cell();
+    read_loads();
+    read_materials();
+    // Where the grid is in doubt every body would seem to be outside of it.
+    root_.allow("bodies");
+    if (grid_is_good) read_bodies();
+    read_contacts();
+    read_output();
+    root_.finish();
+    return std::move(scene_);
+  }
+
+ private:
+  std::size_t dimension() const { return static_cast<std::size_t>(scene_.grid.dimension); }
+
+  static tasks::Triple triple(const std::vector<double>& numbers)
+  {
+    tasks::Triple t{0, 0, 0};
+    std::copy(numbers.begin(), numbers.end(), t.begin());
+    return t;
+  }
+
+  void read_dimension() { scene_.grid.dimension = root_.integer("dimension", 2, 3); }
+
+  void read_grid()
+  {
+    JsonReader reader = root_.object("grid");
+    runtime::Grid& grid = scene_.grid;
+    const std::size_t n_before = document_.problems.size();
+    grid.lower = triple(reader.numbers("lower", dimension(), any_number, 0));
+    const std::vector<double> upper = reader.numbers("upper", dimension(), any_number);
+    grid.cell_size = reader.number("cell_size", above_zero, "m");
+    const std::vector<int> patches = reader.integers("patches", dimension(), 1, 1);
+    reader.finish();
+    if (document_.problems.size() > n_before) return;
+
+    grid.n_cells = {1, 1, 1};
+    scene_.n_patches = {1, 1, 1};
+    for (std::size_t axis = 0; axis < dimension(); ++axis) {
+      grid.n_cells[axis] = count_cells(reader, grid.lower[axis], upper[axis], axis);
+      scene_.n_patches[axis] = patches[axis];
+      if (grid.n_cells[axis] % patches[axis] != 0) {
+        reader.add_problem("patches", fmt::format("{} patches along {}", patches[axis], "xyz"[axis]),
+                           fmt::format("expected a number that divides the {} cells there", grid.n_cells[axis]));
+      }
+    }
+  }
+
+  /// Cells along an axis, which must be a whole number of them.
+  int count_cells(const JsonReader& reader, double lower, double upper, std::size_t axis) const
+  {
+    constexpr double most = 1e6;
+    const double cells = (upper - lower) / scene_.grid.cell_size;
+    const double whole = std::round(cells);
+    if (!(whole >= 1 && whole <= most)) {
+      reader.add_problem("upper", fmt::format("{} cells along {}", whole, "xyz"[axis]), "expected 1 to 1000000");
+      return 1;
+    }
+    if (std::abs(cells - whole) > 1e-9 * whole) {
+      reader.add_problem("cell_size", fmt::format("{:.10g} cells along {}", cells, "xyz"[axis]),
+                         "expected the grid's edges to be whole numbers of cells");
+    }
+    return static_cast<int>(whole);
+  }
+
+  void read_faces()
+  {
+    JsonReader reader = root_.object_or_empty("boundaries");
+    for (std::size_t axis = 0; axis < dimension(); ++axis) {
+      for (std::size_t side = 0; side < 2; ++side) {
+        const std::string key{"xyz"[axis], "-+"[side]};
+        const std::string kind = reader.choice(key, {"symmetry", "open"}, true);
+        scene_.faces[axis][side] = kind == "open" ? tasks::Face::open : tasks::Face::symmetry;
+      }
+    }
+    reader.finish();
+  }
+
+  void read_time()
+  {
+    JsonReader reader = root_.object("time");
+    tasks::SceneTime& time = scene_.time;
+    time.end = reader.number("end", above_zero, "s");
+    const bool published = reader.choice("rule", {"viscous", "published"}, true) == "published";
+    time.rule = published ? tasks::StepRule::published : tasks::StepRule::viscous;
+    time.multiplier = reader.number("multiplier", {.lower = 0, .upper = 1, .holds_lower = false}, 0.8);
+    time.minimum_step = reader.number("minimum_step", above_zero, 1e-12);
+    const auto maximum = reader.optional_number("maximum_step", above_zero);
+    if (maximum) time.maximum_step = *maximum;
+    if (time.maximum_step < time.minimum_step) {
+      reader.add_problem("maximum_step", fmt::format("{}", time.maximum_step),
+                         fmt::format("expected no less than the minimum step, {}", time.minimum_step));
+    }
+    reader.finish();
+  }
+
+  void read_particles_per_cell()
+  {
+    const std::vector<int> n = root_.integers("particles_per_cell", dimension(), 1, 2);
+    scene_.particles_per_axis = n[0];
+    if (std::any_of(n.begin(), n.end(), [&](int i) { return i != n[0]; })) {
+      root_.add_problem("particles_per_cell", "unequal numbers", "expected the same number along every axis");
+    }
+    if (n[0] > 16)
+      root_.add_problem("particles_per_cell", fmt::format("{}", n[0]), "expected at most 16 along an axis");
+  }
+
+  void read_loads()
+  {
+    scene_.gravity = triple(root_.numbers("gravity", dimension(), any_number, 0));
+    auto reader = root_.optional_object("artificial_viscosity");
+    if (!reader) return;
+    components::ArtificialViscosity viscosity;
+    viscosity.linear = reader->number("linear", zero_or_above, viscosity.linear);
+    viscosity.quadratic = reader->number("quadratic", zero_or_above, viscosity.quadratic);
+    reader->finish();
+    scene_.artificial_viscosity = viscosity;
+  }
+
+  void read_materials()
+  {
+    for (const std::string& name : root_.names("materials")) {
+      document_.merge_file_named_at(root_.pointer("materials") / name);
+    }
+    for (auto& [name, reader] : root_.members("materials")) {
+      material_names_.push_back(name);
+      auto material = read_material(name, std::move(reader));
+      if (material) scene_.materials.push_back(std::move(*material));
+    }
+  }
+
+  void read_bodies()
+  {
+    if (material_names_.empty()) return;
+    const std::size_t n_before = document_.problems.size();
+    for (auto& [name, reader] : root_.members("bodies")) {
+      auto body = read_body(name, std::move(reader), scene_, material_names_);
+      if (body) scene_.bodies.push_back(std::move(*body));
+    }
+    if (document_.problems.size() == n_before) check_no_overlap(scene_, root_.object("bodies"));
+  }
+
+  int material_number(const std::string& name) const
+  {
+    const auto at = std::find(material_names_.begin(), material_names_.end(), name);
+    return at == material_names_.end() ? -1 : static_cast<int>(at - material_names_.begin());
+  }
+
+  void read_contacts()
+  {
+    for (JsonReader& reader : root_.items("contact")) {
+      const std::vector<std::string> names = reader.choices("materials", 2, material_names_);
+      const double friction = reader.number("friction", zero_or_above);
+      reader.finish();
+      if (names.empty()) continue;
+      const int a = material_number(names[0]), b = material_number(names[1]);
+      const auto same_pair = [&](const tasks::SceneContact& c) {
+        return std::minmax(c.material_a, c.material_b) == std::minmax(a, b);
+      };
+      if (a == b) {
+        reader.add_problem("materials", fmt::format("\"{}\" twice", names[0]), "expected two different materials");
+      } else if (std::any_of(scene_.contacts.begin(), scene_.contacts.end(), same_pair)) {
+        reader.add_problem("materials", "a pair that is listed before", "expected every pair once");
+      }
+      scene_.contacts.push_back({a, b, friction});
+    }
+  }
+
+  void read_output()
+  {
+    JsonReader reader = root_.object_or_empty("output");
+    scene_.output.fields_interval = reader.number("fields_interval", above_zero, scene_.time.end / 50);
+    scene_.output.history_interval = reader.number("history_interval", above_zero, scene_.time.end / 1000);
+    reader.finish();
+  }
+
+  Document& document_;
+  JsonReader root_;
+  tasks::Scene scene_{};
+  std::vector<std::string> material_names_;
+};
+
+}  // namespace
+
+CheckedScene read_scene(const std::filesystem::path& file, const std::vector<std::string>& assignments)
+{
+  Document document(file);
+  for (const std::string& assignment : assignments) document.set(assignment);
+  tasks::Scene scene = SceneReader(document).read();
+  if (!document.problems.empty()) throw InputError(std::move(document.problems));
+  return {std::move(scene), std::move(document.root)};
+}
+
+}  // namespace tamp::tools

@@ -1,0 +1,23 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "tasks/scene.hpp"
+#include "tools/scene/document.hpp"
+
+namespace tamp::tools
+{
+
+/// A scene that may be run, and its JSON with every default filled in, material files merged in, and paths absolute.
+struct CheckedScene {
+  tasks::Scene scene;
+  Json resolved;
+};
+
+/// Reads a scene's file, applies `assignments` (POINTER=VALUE) in order, and checks all of it. The keys are those of
+/// docs/scene.md. Throws FileError if the file cannot be read, and InputError with every problem of the scene.
+CheckedScene read_scene(const std::filesystem::path& file, const std::vector<std::string>& assignments = {});
+
+}  // namespace tamp::tools

@@ -1,0 +1,14 @@
+#pragma once
+
+#include <string>
+
+namespace tamp::tools
+{
+
+/// TAMP's own version, such as "0.1.0".
+std::string version();
+
+/// What `tamp --version` prints: version, build type, compiler, and what the program is linked to.
+std::string version_text();
+
+}  // namespace tamp::tools
