@@ -41,12 +41,22 @@ struct NodeOfGroups {
     return n_present;
   }
 
-  void give_back(const PerGroup<GridView<NodeMotion<D>>>& motions, const Index& i) const
+  /// Hands on the velocities after the impulses, and returns the energy that the impulses took [J]: each times the mean
+  /// of the velocities before and after the step, as the energies of leapfrog are counted. Forces that contact balances
+  /// then take nothing, however hard they press.
+  double give_back(const PerGroup<GridView<const NodeSums<D>>>& sums, const PerGroup<GridView<NodeMotion<D>>>& motions,
+                   const Index& i) const
   {
+    double taken = 0;
     for (std::size_t g = 0; g < motions.size(); ++g) {
+      if (!(mass[g] > least_node_mass)) continue;
       NodeMotion<D>& motion = motions[g][i];
-      motion.set(velocity[g], motion.velocity_change() + velocity[g] - motion.velocity());
+      const Vector<D> change = velocity[g] - motion.velocity();
+      const Vector<D> at_start = sums[g][i].momentum() / mass[g];
+      taken -= 0.5 * mass[g] * change.dot(at_start + velocity[g]);
+      motion.set(velocity[g], motion.velocity_change() + change);
     }
+    return taken;
   }
 };
 
@@ -73,10 +83,10 @@ runtime::TaskDeclaration contact(const Method<Interpolator>& method)
               std::span(node.mass.data(), n_groups), std::span(node.surface_gradient.data(), n_groups), method.friction,
               thresholds, std::span(node.velocity.data(), n_groups));
           if (outcome.approach_speed == 0) return;
-          node.give_back(motions, i);
+          const double taken = node.give_back(sums, motions, i);
           // Nodes on a seam are worked on by every patch around it, and counted by one.
           if (!owned.contains(i)) return;
-          totals.contact += outcome.dissipated_energy;
+          totals.contact += taken;
           if (method.time_step_rule == StepRule::viscous) {
             totals.stable_step =
                 std::min(totals.stable_step, components::contact_time_step(method.cell_size, outcome.approach_speed));

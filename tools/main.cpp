@@ -35,6 +35,9 @@ int run_program(int argc, char** argv)
   app.option_defaults()->always_capture_default();
   tamp::tools::add_run_command(app);
   tamp::tools::add_check_command(app);
+  tamp::tools::add_graph_command(app);
+  tamp::tools::add_profile_command(app);
+  tamp::tools::add_bench_command(app);
 
   try {
     app.parse(argc, argv);

@@ -9,5 +9,8 @@ namespace tamp::tools
 
 CLI::App* add_run_command(CLI::App& app);
 CLI::App* add_check_command(CLI::App& app);
+CLI::App* add_graph_command(CLI::App& app);
+CLI::App* add_profile_command(CLI::App& app);
+CLI::App* add_bench_command(CLI::App& app);
 
 }  // namespace tamp::tools

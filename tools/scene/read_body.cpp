@@ -99,13 +99,13 @@ bool within_grid(const components::Solid<D>& solid, const runtime::Grid& grid)
 
 template <int D>
 std::optional<tasks::SceneBody> read(const std::string& name, JsonReader& reader, const tasks::Scene& scene,
-                                     const std::vector<std::string>& material_names)
+                                     const std::vector<std::string>& material_names, bool grid_is_good)
 {
   const std::string material = reader.choice("material", material_names);
   const std::vector<double> velocity = reader.numbers("velocity", D, any_number, 0);
   const auto solid = read_solid<D>(reader);
   reader.finish();
-  if (!solid || material.empty()) return std::nullopt;
+  if (!solid || material.empty() || !grid_is_good) return std::nullopt;
 
   if (!within_grid(*solid, scene.grid)) {
     const components::Box<D> box = solid->bounding_box();
@@ -144,10 +144,10 @@ std::optional<std::pair<std::string, std::string>> first_overlap(const tasks::Sc
 }  // namespace
 
 std::optional<tasks::SceneBody> read_body(const std::string& name, JsonReader reader, const tasks::Scene& scene,
-                                          const std::vector<std::string>& material_names)
+                                          const std::vector<std::string>& material_names, bool grid_is_good)
 {
-  return scene.grid.dimension == 2 ? read<2>(name, reader, scene, material_names)
-                                   : read<3>(name, reader, scene, material_names);
+  return scene.grid.dimension == 2 ? read<2>(name, reader, scene, material_names, grid_is_good)
+                                   : read<3>(name, reader, scene, material_names, grid_is_good);
 }
 
 void check_no_overlap(const tasks::Scene& scene, const JsonReader& bodies)

@@ -10,9 +10,10 @@ namespace tamp::tools
 {
 
 /// Reads one body of a scene whose grid, particles per axis and material names are known, and counts its particles.
-/// Empty if there is a problem, which the reader's document then knows.
+/// Empty if there is a problem, which the reader's document then knows. Where the grid is not good, nothing is said of
+/// how the body lies in it.
 std::optional<tasks::SceneBody> read_body(const std::string& name, JsonReader reader, const tasks::Scene& scene,
-                                          const std::vector<std::string>& material_names);
+                                          const std::vector<std::string>& material_names, bool grid_is_good);
 
 /// Adds a problem for each body that would have a particle inside of one before it.
 void check_no_overlap(const tasks::Scene& scene, const JsonReader& bodies);

@@ -27,6 +27,7 @@ class SceneReader
     scene_.title = root_.text("title", scene_.name);
     const std::size_t n_before = document_.problems.size();
     read_dimension();
+    const bool dimension_is_good = document_.problems.size() == n_before;
     read_grid();
     const bool grid_is_good = document_.problems.size() == n_before;
     read_faces();
@@ -35,9 +36,7 @@ class SceneReader
     read_particles_per_cell();
     read_loads();
     read_materials();
-    // Where the grid is in doubt every body would seem to be outside of it.
-    root_.allow("bodies");
-    if (grid_is_good) read_bodies();
+    read_bodies(dimension_is_good, grid_is_good);
     read_contacts();
     read_output();
     root_.finish();
@@ -163,15 +162,17 @@ class SceneReader
     }
   }
 
-  void read_bodies()
+  void read_bodies(bool dimension_is_good, bool grid_is_good)
   {
-    if (material_names_.empty()) return;
     const std::size_t n_before = document_.problems.size();
-    for (auto& [name, reader] : root_.members("bodies")) {
-      auto body = read_body(name, std::move(reader), scene_, material_names_);
+    auto members = root_.members("bodies");
+    // Every place would have the wrong number of coordinates, and every material a wrong name.
+    if (!dimension_is_good || material_names_.empty()) return;
+    for (auto& [name, reader] : members) {
+      auto body = read_body(name, std::move(reader), scene_, material_names_, grid_is_good);
       if (body) scene_.bodies.push_back(std::move(*body));
     }
-    if (document_.problems.size() == n_before) check_no_overlap(scene_, root_.object("bodies"));
+    if (grid_is_good && document_.problems.size() == n_before) check_no_overlap(scene_, root_.object("bodies"));
   }
 
   int material_number(const std::string& name) const

@@ -1,0 +1,22 @@
+#pragma once
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <string>
+
+/// Benchmarks, each of which measures what it compares in one run, interleaved, so that a noisy machine disturbs both
+/// sides alike.
+namespace tamp::tools::bench
+{
+
+/// The result as it goes into the file of `--json`, and the table for a person.
+struct Result {
+  nlohmann::ordered_json json;
+  std::string text;
+};
+
+/// The punch's first 200 steps: time per particle and step on one thread and on two, against the time that the memory
+/// needs at least, and what recording costs.
+Result punch(const std::filesystem::path& scene);
+
+}  // namespace tamp::tools::bench

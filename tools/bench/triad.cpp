@@ -1,0 +1,31 @@
+#include "tools/bench/triad.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cstddef>
+#include <vector>
+
+namespace tamp::tools::bench
+{
+
+double triad_bytes_per_second()
+{
+  constexpr std::size_t n = std::size_t{1} << 24;
+  constexpr int n_passes = 5;
+  std::vector<double> a(n, 0.0);
+  std::vector<double> b(n, 1.0);
+  std::vector<double> c(n, 2.0);
+  double best = 0;
+  for (int pass = 0; pass < n_passes; ++pass) {
+    const double scale = 1.0 + pass;
+    const auto start = std::chrono::steady_clock::now();
+    for (std::size_t i = 0; i < n; ++i) a[i] = b[i] + scale * c[i];
+    const std::chrono::duration<double> passed = std::chrono::steady_clock::now() - start;
+    best = std::max(best, 3 * sizeof(double) * static_cast<double>(n) / passed.count());
+    // The next pass reads what this one wrote, so none can be left out.
+    std::swap(a, b);
+  }
+  return b[n / 2] > 0 ? best : 0;
+}
+
+}  // namespace tamp::tools::bench

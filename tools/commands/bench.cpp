@@ -1,0 +1,61 @@
+#include "tools/bench/bench.hpp"
+
+#include <fmt/core.h>
+
+#include <functional>
+#include <map>
+#include <memory>
+
+#include "runtime/storage/whole_file.hpp"
+#include "tools/commands/commands.hpp"
+#include "tools/errors.hpp"
+#include "tools/shipped_inputs.hpp"
+
+namespace tamp::tools
+{
+
+namespace
+{
+
+struct Options {
+  std::vector<std::string> names;
+  std::string json;
+};
+
+const std::map<std::string, std::function<bench::Result()>>& benchmarks()
+{
+  static const std::map<std::string, std::function<bench::Result()>> all{
+      {"punch", [] { return bench::punch(shipped_input("punch/table.json")); }}};
+  return all;
+}
+
+void run_benchmarks(const Options& options)
+{
+  std::vector<std::string> names = options.names;
+  if (names.empty()) {
+    for (const auto& [name, benchmark] : benchmarks()) names.push_back(name);
+  }
+  nlohmann::ordered_json json;
+  for (const std::string& name : names) {
+    const bench::Result result = benchmarks().at(name)();
+    fmt::print("{}", result.text);
+    json[name] = result.json;
+  }
+  if (!options.json.empty()) runtime::write_whole_file(options.json, json.dump(2) + "\n");
+}
+
+}  // namespace
+
+CLI::App* add_bench_command(CLI::App& app)
+{
+  CLI::App* command = app.add_subcommand("bench", "Measure kernels and the scheduler on this machine");
+  const auto options = std::make_shared<Options>();
+  std::vector<std::string> known;
+  for (const auto& [name, benchmark] : benchmarks()) known.push_back(name);
+  command->add_option("NAME", options->names, "which benchmarks; all without a name")->check(CLI::IsMember(known));
+  command->add_option("--json", options->json, "write the results to this file too");
+  command->callback([options] { run_benchmarks(*options); });
+  return command;
+}
+
+}  // namespace tamp::tools

@@ -1,0 +1,60 @@
+#include <fmt/core.h>
+
+#include <memory>
+
+#include "runtime/graph/dump.hpp"
+#include "runtime/storage/whole_file.hpp"
+#include "tasks/simulation.hpp"
+#include "tools/commands/commands.hpp"
+#include "tools/errors.hpp"
+#include "tools/scene/read_scene.hpp"
+
+namespace tamp::tools
+{
+
+namespace
+{
+
+struct Options {
+  std::string scene;
+  std::vector<std::string> assignments;
+  std::string format = "dot";
+  std::string out;
+  int patch = -1;
+};
+
+void dump_graph(const Options& options)
+{
+  const auto simulation = tasks::Simulation::make(read_scene(options.scene, options.assignments).scene, 1);
+  const runtime::TaskGraph& graph = simulation->graph();
+  if (options.patch >= graph.layout().size()) {
+    throw InputError(
+        {"--patch", std::to_string(options.patch), "a patch from 0 to " + std::to_string(graph.layout().size() - 1)});
+  }
+  const std::string text = options.format == "json" ? to_json(graph, simulation->forecast_bytes()).dump(1) + "\n"
+                                                    : to_dot(graph, options.patch);
+  if (options.out.empty()) {
+    fmt::print("{}", text);
+  } else {
+    runtime::write_whole_file(options.out, text);
+  }
+}
+
+}  // namespace
+
+CLI::App* add_graph_command(CLI::App& app)
+{
+  CLI::App* command = app.add_subcommand("graph", "Dump the task graph of a scene's time step");
+  const auto options = std::make_shared<Options>();
+  command->add_option("SCENE", options->scene, "the scene's JSON file")->required();
+  command->add_option("--set", options->assignments, "POINTER=VALUE: replace a value of the scene, may be repeated")
+      ->allow_extra_args(false);
+  command->add_option("--format", options->format, "dot, for graphviz, or json")->check(CLI::IsMember({"dot", "json"}));
+  command->add_option("--out", options->out, "write to this file");
+  command->add_option("--patch", options->patch, "only this patch and what it touches (dot)")
+      ->check(CLI::NonNegativeNumber);
+  command->callback([options] { dump_graph(*options); });
+  return command;
+}
+
+}  // namespace tamp::tools
