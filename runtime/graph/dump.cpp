@@ -94,7 +94,7 @@ std::string to_dot(const TaskGraph& graph, int patch)
   for (const int i : shown) {
     clusters[instances[static_cast<std::size_t>(i)].patch] += dot_node(graph, static_cast<std::size_t>(i));
   }
-  std::string dot = "digraph step {\n  rankdir=TB;\n  node [fontsize=10];\n  edge [fontsize=8];\n";
+  std::string dot = "digraph step {\n  rankdir=TB;\n  newrank=true;\n  node [fontsize=10];\n  edge [fontsize=8];\n";
   for (const auto& [id, nodes] : clusters) {
     dot += id < 0 ? nodes : fmt::format("  subgraph cluster_{} {{\n    label=\"patch {}\";\n{}  }}\n", id, id, nodes);
   }
