@@ -63,7 +63,7 @@ TEST_CASE("a sound scene passes the check, is printed resolved, and its particle
 
   CHECK(outcome.exit_code == 0);
   CHECK_THAT(outcome.out, Catch::Contains("\"rule\": \"viscous\""));
-  CHECK_THAT(outcome.err, Catch::Contains("block: 4 particles of steel"));
+  CHECK_THAT(outcome.err, Catch::Contains("block: 4 particles of steel") && Catch::Contains("MiB"));
 }
 
 TEST_CASE("each problem of a bad scene is a line of its own on stderr, and the exit code is 2")

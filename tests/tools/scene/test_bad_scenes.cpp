@@ -84,10 +84,10 @@ TEST_CASE("a misspelt key is told with the nearest known one")
 {
   const TemporaryFolder folder;
   std::string scene = small_scene;
-  scene.replace(scene.find("\"dimension\""), 0, "\"titel\": \"\", ");
+  scene.replace(scene.find("\"dimension\""), 0, "\"gravty\": [0, 0], ");
 
   CHECK(problems_of(folder, folder.write("scene.json", scene)) ==
-        "scene.json#/titel: unknown key; did you mean \"title\"?");
+        "scene.json#/gravty: unknown key; did you mean \"gravity\"?");
 }
 
 TEST_CASE("an unknown key that resembles none is told with those there are")
