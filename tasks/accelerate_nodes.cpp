@@ -26,8 +26,10 @@ runtime::TaskDeclaration accelerate_nodes(const Method<Interpolator>& method)
         for (std::int64_t i = 0; i < n_nodes; ++i) {
           const NodeSums<D>& node = sums.data()[i];
           const double mass = node.mass();
-          if (mass > least_node_mass) {
-            const Vector<D> change = kick * (node.internal_force() / mass + method.gravity);
+          if (mass > 0) {
+            const bool accelerated = mass > method.least_node_mass;
+            const Vector<D> change =
+                accelerated ? Vector<D>(kick * (node.internal_force() / mass + method.gravity)) : Vector<D>::Zero();
             motion.data()[i].set(node.momentum() / mass + change, change);
           } else {
             motion.data()[i] = {};

@@ -27,8 +27,8 @@ struct NodeOfGroups {
   std::array<Vector<D>, PerGroup<int>::max_groups> velocity;
 
   /// How many of the groups have mass here.
-  int gather(const PerGroup<GridView<const NodeSums<D>>>& sums, const PerGroup<GridView<NodeMotion<D>>>& motions,
-             const Index& i)
+  int gather(double least_node_mass, const PerGroup<GridView<const NodeSums<D>>>& sums,
+             const PerGroup<GridView<NodeMotion<D>>>& motions, const Index& i)
   {
     int n_present = 0;
     for (std::size_t g = 0; g < sums.size(); ++g) {
@@ -44,8 +44,8 @@ struct NodeOfGroups {
   /// Hands on the velocities after the impulses, and returns the energy that the impulses took [J]: each times the mean
   /// of the velocities before and after the step, as the energies of leapfrog are counted. Forces that contact balances
   /// then take nothing, however hard they press.
-  double give_back(const PerGroup<GridView<const NodeSums<D>>>& sums, const PerGroup<GridView<NodeMotion<D>>>& motions,
-                   const Index& i) const
+  double give_back(double least_node_mass, const PerGroup<GridView<const NodeSums<D>>>& sums,
+                   const PerGroup<GridView<NodeMotion<D>>>& motions, const Index& i) const
   {
     double taken = 0;
     for (std::size_t g = 0; g < motions.size(); ++g) {
@@ -74,16 +74,17 @@ runtime::TaskDeclaration contact(const Method<Interpolator>& method)
       .body([&method](const TaskContext& at, const PerGroup<GridView<const NodeSums<D>>>& sums,
                       const PerGroup<GridView<NodeMotion<D>>>& motions, StepTotals& totals) {
         const std::size_t n_groups = sums.size();
-        const components::ContactThresholds thresholds{least_node_mass, 1e-9 * std::pow(method.cell_size, D - 1)};
+        const components::ContactThresholds thresholds{method.least_node_mass,
+                                                       1e-9 * std::pow(method.cell_size, D - 1)};
         const runtime::IndexBox owned = at.layout.owned_nodes(at.patch);
         NodeOfGroups<D> node;
         for_each(sums[0].box(), [&](const Index& i) {
-          if (node.gather(sums, motions, i) < 2) return;
+          if (node.gather(method.least_node_mass, sums, motions, i) < 2) return;
           const auto outcome = components::resolve_contact<D>(
               std::span(node.mass.data(), n_groups), std::span(node.surface_gradient.data(), n_groups), method.friction,
               thresholds, std::span(node.velocity.data(), n_groups));
           if (outcome.approach_speed == 0) return;
-          const double taken = node.give_back(sums, motions, i);
+          const double taken = node.give_back(method.least_node_mass, sums, motions, i);
           // Nodes on a seam are worked on by every patch around it, and counted by one.
           if (!owned.contains(i)) return;
           totals.contact += taken;

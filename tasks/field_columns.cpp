@@ -121,7 +121,7 @@ runtime::NodeBlock FieldColumns<Interpolator>::nodes(const Method<Interpolator>&
         momentum += own * warehouse.grid_result(node::motion<D>, patch.id, g)[i].velocity();
       }
       density[at] = mass / cell_volume;
-      if (mass > least_node_mass) {
+      if (mass > method.least_node_mass) {
         for (int k = 0; k < D; ++k) velocity[at * D + static_cast<std::size_t>(k)] = momentum[k] / mass;
       }
     });

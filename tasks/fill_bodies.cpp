@@ -1,5 +1,6 @@
 #include "tasks/fill_bodies.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <vector>
 
@@ -63,6 +64,15 @@ std::vector<std::vector<NewParticles<D>>> make_particles(const Scene& scene, con
 }
 
 template <int D>
+Vector<D> initial_velocity(const SceneBody& body, const Vector<D>& x)
+{
+  if (!body.velocity_field) return vector_of<D>(body.velocity);
+  Triple at{0, 0, 0};
+  std::copy(x.begin(), x.end(), at.begin());
+  return vector_of<D>(body.velocity_field(at));
+}
+
+template <int D>
 void store(const Scene& scene, const NewParticles<D>& particles, int patch, int material, runtime::Warehouse& warehouse)
 {
   const std::size_t n = particles.id.size();
@@ -76,7 +86,7 @@ void store(const Scene& scene, const NewParticles<D>& particles, int patch, int 
     state(particle::body)[p] = particles.body[p];
     state(particle::position<D>)[p] = particles.position[p];
     state(particle::reference_position<D>)[p] = particles.position[p];
-    state(particle::velocity<D>)[p] = vector_of<D>(body.velocity);
+    state(particle::velocity<D>)[p] = initial_velocity<D>(body, particles.position[p]);
     state(particle::deformation_gradient<D>)[p] = Matrix<D>::Identity();
     state(particle::volume)[p] = volume;
     state(particle::mass)[p] = density * volume;

@@ -16,10 +16,6 @@
 namespace tamp::tasks
 {
 
-/// Nodes with less than this [kg] are left alone: far below the mass of any node that a particle touches with more than
-/// round-off.
-inline constexpr double least_node_mass = 1e-100;
-
 /// The entries of a scene's triple that a method of this dimension uses.
 template <int D>
 Vector<D> vector_of(const Triple& triple)
@@ -38,6 +34,9 @@ struct Method {
 
   Interpolator interpolator;
   double cell_size;
+  /// Nodes with less mass [kg] are not accelerated: they are touched by an edge of a particle to within round-off, and
+  /// as force goes with the slope of the weight but mass with its square, they would turn round-off into finite strain.
+  double least_node_mass;
   Vector<dimension> gravity;
   /// Faces of the domain that mirror, as [axis][side]: side 0 is the lower.
   std::array<std::array<bool, 2>, std::size_t{dimension}> mirrors;

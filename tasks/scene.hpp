@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <functional>
 #include <limits>
 #include <optional>
 #include <string>
@@ -56,6 +57,8 @@ struct SceneBody {
   AnySolid solid;
   Triple velocity{0, 0, 0};
   std::size_t n_particles;
+  /// For scenes made in code: velocity [m/s] where a particle starts [m]; `velocity` then only bounds the first step.
+  std::function<Triple(const Triple&)> velocity_field{};
 };
 
 /// Friction between two different materials; pairs that are not listed slide freely.
