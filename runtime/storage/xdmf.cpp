@@ -2,6 +2,9 @@
 
 #include <fmt/core.h>
 
+#include <map>
+#include <vector>
+
 namespace tamp::runtime
 {
 
@@ -42,60 +45,70 @@ std::string attribute(const XdmfColumn& column, const std::string& items)
   const char* type = column.kind == ColumnKind::scalar   ? "Scalar"
                      : column.kind == ColumnKind::vector ? "Vector"
                                                          : "Tensor6";
-  return fmt::format("          <Attribute Name=\"{}\" AttributeType=\"{}\" Center=\"Node\">{}</Attribute>\n",
+  return fmt::format("        <Attribute Name=\"{}\" AttributeType=\"{}\" Center=\"Node\">{}</Attribute>\n",
                      escaped(column.name), type, data_item(column, items));
 }
 
-std::string grid_of(const XdmfParticles& particles)
+std::string content_of(const XdmfParticles& particles)
 {
   const std::string n = fmt::format("{}", particles.n);
-  std::string text = fmt::format("        <Grid Name=\"{}\" GridType=\"Uniform\">\n", escaped(particles.name));
-  text += fmt::format(
-      "          <Topology TopologyType=\"Polyvertex\" NumberOfElements=\"{}\" NodesPerElement=\"1\"/>\n", n);
+  std::string text =
+      fmt::format("        <Topology TopologyType=\"Polyvertex\" NumberOfElements=\"{}\" NodesPerElement=\"1\"/>\n", n);
   for (const XdmfColumn& column : particles.columns) {
     if (column.name == "position") {
-      text += fmt::format("          <Geometry GeometryType=\"XYZ\">{}</Geometry>\n", data_item(column, n));
+      text += fmt::format("        <Geometry GeometryType=\"XYZ\">{}</Geometry>\n", data_item(column, n));
     }
   }
   for (const XdmfColumn& column : particles.columns) {
     if (column.name != "position") text += attribute(column, n);
   }
-  return text + "        </Grid>\n";
+  return text;
 }
 
-std::string grid_of(const XdmfNodes& nodes)
+std::string content_of(const XdmfNodes& nodes)
 {
   const std::string n = fmt::format("{} {} {}", nodes.n_nodes[2], nodes.n_nodes[1], nodes.n_nodes[0]);
   const auto triple = [](double z, double y, double x) {
     return fmt::format(R"(<DataItem Dimensions="3" NumberType="Float" Precision="8" Format="XML">{} {} {}</DataItem>)",
                        z, y, x);
   };
-  std::string text = "        <Grid Name=\"grid\" GridType=\"Uniform\">\n";
-  text += fmt::format("          <Topology TopologyType=\"3DCoRectMesh\" Dimensions=\"{}\"/>\n", n);
-  text += fmt::format("          <Geometry GeometryType=\"ORIGIN_DXDYDZ\">{}{}</Geometry>\n",
+  std::string text = fmt::format("        <Topology TopologyType=\"3DCoRectMesh\" Dimensions=\"{}\"/>\n", n);
+  text += fmt::format("        <Geometry GeometryType=\"ORIGIN_DXDYDZ\">{}{}</Geometry>\n",
                       triple(nodes.origin[2], nodes.origin[1], nodes.origin[0]),
                       triple(nodes.spacing, nodes.spacing, nodes.spacing));
   for (const XdmfColumn& column : nodes.columns) text += attribute(column, n);
-  return text + "        </Grid>\n";
+  return text;
+}
+
+std::string grid_at(double time, const std::string& name, const std::string& content)
+{
+  return fmt::format("      <Grid Name=\"{}\" GridType=\"Uniform\">\n        <Time Value=\"{}\"/>\n{}      </Grid>\n",
+                     escaped(name), time, content);
 }
 
 }  // namespace
 
 std::string xdmf_text(std::span<const XdmfStep> steps)
 {
-  std::string text =
-      "<?xml version=\"1.0\" ?>\n<Xdmf Version=\"3.0\">\n  <Domain>\n"
-      "    <Grid Name=\"fields\" GridType=\"Collection\" CollectionType=\"Temporal\">\n";
+  // A collection over time for each block, and not the other way round: so readers keep the blocks' names.
+  std::vector<std::string> names;
+  std::map<std::string, std::string> grids;
+  const auto add = [&](const std::string& name, double time, const std::string& grid) {
+    if (!grids.contains(name)) names.push_back(name);
+    grids[name] += grid_at(time, name, grid);
+  };
   for (const XdmfStep& step : steps) {
-    text += "      <Grid Name=\"step\" GridType=\"Collection\" CollectionType=\"Spatial\">\n";
-    text += fmt::format("        <Time Value=\"{}\"/>\n", step.time);
     for (const XdmfParticles& particles : step.particles) {
-      if (particles.n > 0) text += grid_of(particles);
+      if (particles.n > 0) add(particles.name, step.time, content_of(particles));
     }
-    if (step.nodes) text += grid_of(*step.nodes);
-    text += "      </Grid>\n";
+    if (step.nodes) add("grid", step.time, content_of(*step.nodes));
   }
-  return text + "    </Grid>\n  </Domain>\n</Xdmf>\n";
+  std::string text = "<?xml version=\"1.0\" ?>\n<Xdmf Version=\"3.0\">\n  <Domain>\n";
+  for (const std::string& name : names) {
+    text += fmt::format("    <Grid Name=\"{}\" GridType=\"Collection\" CollectionType=\"Temporal\">\n{}    </Grid>\n",
+                        escaped(name), grids[name]);
+  }
+  return text + "  </Domain>\n</Xdmf>\n";
 }
 
 }  // namespace tamp::runtime
