@@ -41,6 +41,14 @@ class Patience
   int n_waits_ = 0;
 };
 
+/// Held while workers are sent out and taken by each as it comes in. All executors share it, as a worker can find it
+/// without reading anything that was sent with it: so the sanitizer, too, sees that what was sent is complete.
+std::mutex& entry()
+{
+  static std::mutex mutex;
+  return mutex;
+}
+
 }  // namespace
 
 Executor::Executor(int n_threads)
@@ -50,10 +58,11 @@ Executor::Executor(int n_threads)
       arena_(std::max(2, n_threads), 1),
       workers_(static_cast<std::size_t>(n_threads))
 {
+  const std::lock_guard sending(entry());
   for (int worker = 1; worker < n_threads; ++worker) {
     arena_.enqueue([this, worker, door = door_] {
       {
-        const std::lock_guard lock(door->mutex);
+        const std::lock_guard lock(entry());
         if (door->closed) return;
         ++door->n_inside;
       }
@@ -66,7 +75,7 @@ Executor::Executor(int n_threads)
 Executor::~Executor()
 {
   {
-    const std::lock_guard lock(door_->mutex);
+    const std::lock_guard lock(entry());
     door_->closed = true;
   }
   leave_ = true;

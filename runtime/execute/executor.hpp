@@ -69,7 +69,6 @@ class Executor
 
   /// oneTBB may send a worker late, even after the executor has gone: who comes to a closed door turns back.
   struct Door {
-    std::mutex mutex;
     bool closed = false;
     std::atomic<int> n_inside{0};
   };
