@@ -1,0 +1,159 @@
+#include <catch2/catch.hpp>
+
+#include <vector>
+
+#include "components/shapes/transfer.hpp"
+#include "tests/components/shapes/shape_reference.hpp"
+
+using namespace tamp;
+using namespace tamp::components;
+using namespace tamp::test;
+
+namespace
+{
+
+constexpr double cell_size = 0.04;
+
+/// Particles at random places with random states, and their transfer to the nodes by plain loops over all pairs.
+template <int D>
+struct Cloud {
+  std::vector<Vector<D>> position, velocity;
+  std::vector<double> mass, volume, viscous_pressure;
+  std::vector<SymmetricTensor<D>> stress;
+
+  Cloud(const GridBlock<D>& block, int n, std::mt19937& random)
+  {
+    std::uniform_real_distribution<double> uniform(-1, 1);
+    for (int p = 0; p < n; ++p) {
+      position.push_back(random_place(block, random));
+      velocity.push_back(Vector<D>::NullaryExpr([&] { return uniform(random); }));
+      mass.push_back(2 + uniform(random));
+      volume.push_back(0.5 + 0.1 * uniform(random));
+      viscous_pressure.push_back(1 + uniform(random));
+      stress.push_back(SymmetricTensor<D>::NullaryExpr([&] { return 5 * uniform(random); }));
+    }
+  }
+
+  ParticleSources<D> sources() const { return {position, velocity, mass, volume, stress, viscous_pressure}; }
+};
+
+template <int D>
+struct PlainSums {
+  double mass = 0;
+  Vector<D> momentum = Vector<D>::Zero();
+  Vector<D> internal_force = Vector<D>::Zero();
+  Vector<D> surface_gradient = Vector<D>::Zero();
+};
+
+/// Row and column of each stored component: (xx, yy, zz, xy) or (xx, yy, zz, xy, yz, xz).
+template <int D>
+double component(const SymmetricTensor<D>& a, int i, int j)
+{
+  constexpr int place[3][3] = {{0, 3, 5}, {3, 1, 4}, {5, 4, 2}};
+  return a[place[i][j]];
+}
+
+template <int D>
+PlainSums<D> plain_sums(const Cloud<D>& cloud, const Vector<D>& node, double l)
+{
+  PlainSums<D> sums;
+  for (std::size_t p = 0; p < cloud.mass.size(); ++p) {
+    const PlainShape<D> shape(cloud.position[p], node, l, cell_size);
+    sums.mass += cloud.mass[p] * shape.weight;
+    for (int i = 0; i < D; ++i) {
+      sums.momentum[i] += cloud.mass[p] * cloud.velocity[p][i] * shape.weight;
+      sums.surface_gradient[i] += cloud.volume[p] * shape.gradient[i];
+      for (int j = 0; j < D; ++j) {
+        const double stress = component<D>(cloud.stress[p], i, j) - (i == j ? cloud.viscous_pressure[p] : 0);
+        sums.internal_force[i] -= cloud.volume[p] * stress * shape.gradient[j];
+      }
+    }
+  }
+  return sums;
+}
+
+template <int D>
+std::vector<NodeMotion<D>> random_motion(std::ptrdiff_t n, std::mt19937& random)
+{
+  std::uniform_real_distribution<double> uniform(-1, 1);
+  const auto vector = [&] { return Vector<D>(Vector<D>::NullaryExpr([&] { return uniform(random); })); };
+  std::vector<NodeMotion<D>> motion(static_cast<std::size_t>(n));
+  for (NodeMotion<D>& node : motion) node.set(vector(), vector());
+  return motion;
+}
+
+}  // namespace
+
+TEMPLATE_TEST_CASE_SIG("particles give the grid what plain loops over all pairs give", "", ((int D), D), 2, 3)
+{
+  const int n_per_axis = GENERATE(1, 2, 4);
+  const auto block = block_of_nodes<D>(5, cell_size);
+  std::mt19937 random(5);
+  const Cloud<D> cloud(block, 60, random);
+  std::vector<NodeSums<D>> sums(static_cast<std::size_t>(n_nodes_of(block)));
+
+  particles_to_grid(Gimp<D>(n_per_axis), block, cloud.sources(), sums.data());
+
+  for (std::size_t i = 0; i < sums.size(); ++i) {
+    const Vector<D> node = node_position(block, static_cast<std::ptrdiff_t>(i));
+    const PlainSums<D> plain = plain_sums(cloud, node, 0.5 / n_per_axis);
+    REQUIRE(sums[i].mass() == Approx(plain.mass).margin(1e-12));
+    REQUIRE((sums[i].momentum() - plain.momentum).norm() < 1e-12);
+    REQUIRE((sums[i].internal_force() - plain.internal_force).norm() * cell_size < 1e-11);
+    REQUIRE((sums[i].surface_gradient() - plain.surface_gradient).norm() * cell_size < 1e-12);
+  }
+}
+
+TEMPLATE_TEST_CASE_SIG("the grid receives all mass and momentum, and no net force", "", ((int D), D), 2, 3)
+{
+  const auto block = block_of_nodes<D>(5, cell_size);
+  std::mt19937 random(6);
+  const Cloud<D> cloud(block, 200, random);
+  std::vector<NodeSums<D>> sums(static_cast<std::size_t>(n_nodes_of(block)));
+
+  particles_to_grid(Gimp<D>(2), block, cloud.sources(), sums.data());
+
+  double mass = 0;
+  Vector<D> momentum = Vector<D>::Zero(), force = momentum;
+  for (const NodeSums<D>& node : sums) {
+    mass += node.mass();
+    momentum += node.momentum();
+    force += node.internal_force();
+  }
+  for (std::size_t p = 0; p < cloud.mass.size(); ++p) {
+    mass -= cloud.mass[p];
+    momentum -= cloud.mass[p] * cloud.velocity[p];
+  }
+  CHECK(std::abs(mass) < 1e-11);
+  CHECK(momentum.norm() < 1e-11);
+  CHECK(force.norm() * cell_size < 1e-11);
+}
+
+TEMPLATE_TEST_CASE_SIG("a particle takes from the grid what a plain loop over all nodes gives", "", ((int D), D), 2, 3)
+{
+  const int n_per_axis = GENERATE(1, 2, 4);
+  const auto block = block_of_nodes<D>(5, cell_size);
+  std::mt19937 random(7);
+  const auto nodes = random_motion<D>(n_nodes_of(block), random);
+  for (int sample = 0; sample < 50; ++sample) {
+    const Vector<D> x = random_place(block, random);
+
+    const auto motion = grid_to_particle(Gimp<D>(n_per_axis), block, x, nodes.data());
+
+    Vector<D> velocity = Vector<D>::Zero(), change = velocity;
+    Matrix<D> gradient = Matrix<D>::Zero();
+    for (std::size_t i = 0; i < nodes.size(); ++i) {
+      const PlainShape<D> shape(x, node_position(block, static_cast<std::ptrdiff_t>(i)), 0.5 / n_per_axis, cell_size);
+      for (int row = 0; row < D; ++row) {
+        velocity[row] += shape.weight * nodes[i].velocity()[row];
+        change[row] += shape.weight * nodes[i].velocity_change()[row];
+        for (int column = 0; column < D; ++column) {
+          gradient(row, column) += nodes[i].velocity()[row] * shape.gradient[column];
+        }
+      }
+    }
+    REQUIRE((motion.velocity - velocity).norm() < 1e-14);
+    REQUIRE((motion.velocity_change - change).norm() < 1e-14);
+    REQUIRE((motion.velocity_gradient - gradient).norm() * cell_size < 1e-13);
+  }
+}

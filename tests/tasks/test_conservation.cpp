@@ -1,0 +1,106 @@
+#include <catch2/catch.hpp>
+
+#include "tests/components/materials/concrete_sand.hpp"
+#include "tests/tasks/scenes.hpp"
+
+using namespace tamp;
+using namespace tamp::test;
+
+namespace
+{
+
+/// A fast block hits one that rests, off its middle, with friction and viscosity, free of walls.
+Scene collision(int dimension)
+{
+  constexpr double h = 0.05;
+  Scene scene = empty_scene(dimension, {16, 12, dimension == 3 ? 8 : 1}, h);
+  scene.n_patches = {2, 3, 1};
+  scene.artificial_viscosity = components::ArtificialViscosity{};
+  const int a = add_elastic(scene, 1000, 1e6, 0.3), b = add_elastic(scene, 3000, 5e6, 0.2);
+  add_box(scene, a, {0.1, 0.2, 0.1}, {0.35, 0.45, 0.3}, {6, 1, 0.5});
+  add_box(scene, b, {0.4, 0.1, 0.1}, {0.6, 0.3, 0.3}, {0, 0, 0});
+  scene.contacts.push_back({a, b, 0.3});
+  return scene;
+}
+
+/// A punch of steel goes into sand in its own weight; half of both, at a mirror.
+Scene punch()
+{
+  constexpr double h = 0.02;
+  Scene scene = empty_scene(2, {12, 12, 1}, h);
+  scene.n_patches = {3, 2, 1};
+  scene.faces[0] = {Face::symmetry, Face::symmetry};
+  scene.faces[1] = {Face::symmetry, Face::open};
+  scene.gravity = {0, -200, 0};
+  scene.artificial_viscosity = components::ArtificialViscosity{};
+  scene.materials.push_back({"sand", 1624, concrete_sand::sand(components::ElasticUpdate::state)});
+  const int steel = add_elastic(scene, 7800, 2e10, 0.3);
+  add_box(scene, 0, {0, 0, 0}, {1, 0.14, 0});
+  add_box(scene, steel, {0, 0.15, 0}, {0.06, 0.21, 0}, {0, -100, 0});
+  scene.contacts.push_back({0, steel, 0.3});
+  return scene;
+}
+
+}  // namespace
+
+TEST_CASE("bodies that collide in free space keep their mass and momentum")
+{
+  const int dimension = GENERATE(2, 3);
+  const auto simulation = Simulation::make(collision(dimension), 2);
+  const ParticleReport before = simulation->report();
+
+  for (int i = 0; i < 60; ++i) {
+    simulation->advance(1e30);
+    const ParticleReport now = simulation->report();
+    REQUIRE((now.momentum() - before.momentum()).norm() < 1e-12 * before.momentum().norm());
+    REQUIRE(total_mass(now) == Approx(total_mass(before)).epsilon(1e-14));
+  }
+
+  // They did meet: the second has taken more than half of the momentum along x.
+  const ParticleReport after = simulation->report();
+  CHECK(after.bodies[1].momentum[0] > 0.5 * before.momentum()[0]);
+  CHECK(simulation->totals().contact > 0);
+  CHECK(simulation->totals().viscous > 0);
+  const GridImpulse& impulse = simulation->impulse();
+  for (const double value : impulse.value) CHECK(std::abs(value) < 1e-12 * before.momentum().norm());
+}
+
+TEST_CASE("what walls and gravity give is what the particles have gained")
+{
+  const auto simulation = Simulation::make(punch(), 2);
+  const ParticleReport before = simulation->report();
+
+  for (int i = 0; i < 100; ++i) simulation->advance(1e30);
+
+  const Eigen::Vector3d gained = simulation->report().momentum() - before.momentum();
+  const Eigen::Vector3d given = Eigen::Map<const Eigen::Vector3d>(simulation->impulse().value.data());
+  const double size = before.momentum().norm();
+  CHECK(given[1] > 0.01 * size);
+  CHECK((gained - given).norm() < 1e-12 * size);
+  // The sand has yielded.
+  CHECK(simulation->report().materials[0].plastic_volumetric > 0.01);
+}
+
+TEST_CASE("a run is the same, bit by bit, on any number of threads")
+{
+  const auto digest = [](int n_threads) {
+    const auto simulation = Simulation::make(punch(), n_threads);
+    for (int i = 0; i < 60; ++i) simulation->advance(1e30);
+    return simulation->digest() + " " + std::to_string(simulation->totals().plastic);
+  };
+
+  const std::string one = digest(1);
+
+  CHECK(digest(1) == one);
+  CHECK(digest(2) == one);
+  CHECK(digest(3) == one);
+}
+
+TEST_CASE("the digest sees the smallest change of a velocity")
+{
+  Scene scene = punch();
+  const std::string digest = Simulation::make(scene, 1)->digest();
+  scene.bodies[1].velocity[1] = std::nextafter(scene.bodies[1].velocity[1], 0);
+
+  CHECK(Simulation::make(scene, 1)->digest() != digest);
+}

@@ -1,0 +1,126 @@
+#include <catch2/catch.hpp>
+
+#include <cmath>
+#include <stdexcept>
+#include <string>
+
+#include "tasks/simulation_error.hpp"
+#include "tests/tasks/scenes.hpp"
+
+using namespace tamp;
+using namespace tamp::test;
+
+namespace
+{
+
+/// A block of rubber, 8 x 8 particles, in the middle of a grid of two patches.
+Scene block()
+{
+  Scene scene = empty_scene(2, {12, 12, 1}, 0.1);
+  scene.n_patches = {2, 1, 1};
+  add_box(scene, add_elastic(scene, 1000, 1e6, 0.3), {0.4, 0.4, 0}, {0.8, 0.8, 0});
+  return scene;
+}
+
+/// Advances until it cannot, and says why; the state must then be the one before.
+SimulationError failure_of(Simulation& simulation, int most_steps)
+{
+  for (int i = 0; i < most_steps; ++i) {
+    const std::string digest = simulation.digest();
+    const long n_steps = simulation.n_steps();
+    const double time = simulation.time(), elastic = simulation.totals().elastic;
+    try {
+      simulation.advance(1e30);
+    } catch (const SimulationError& error) {
+      CHECK(simulation.digest() == digest);
+      CHECK(simulation.n_steps() == n_steps);
+      CHECK(simulation.time() == time);
+      CHECK(simulation.totals().elastic == elastic);
+      CHECK(simulation.n_particles(0) == 64);
+      return error;
+    }
+  }
+  throw std::logic_error("no error in " + std::to_string(most_steps) + " steps");
+}
+
+}  // namespace
+
+TEST_CASE("a particle that inverts ends the run at the last good state")
+{
+  const int n_threads = GENERATE(1, 2);
+  Scene scene = block();
+  // Steps far beyond what is stable, as the published rule allows them.
+  scene.time.rule = StepRule::published;
+  scene.time.multiplier = 3;
+  scene.bodies[0].velocity_field = [](const Triple& x) { return Triple{x[0] < 0.6 ? 1.0 : -1.0, 0, 0}; };
+  const auto simulation = Simulation::make(scene, n_threads);
+
+  const SimulationError error = failure_of(*simulation, 100);
+
+  CHECK(simulation->n_steps() > 0);
+  CHECK(std::string(error.what()).find("inside out") != std::string::npos);
+  CHECK(error.material == "elastic 0");
+  CHECK(error.particle >= 0);
+  CHECK(error.particle < 64);
+  REQUIRE(error.position.size() == 2);
+  CHECK((error.position[0] > 0 && error.position[0] < 1.2));
+}
+
+TEST_CASE("a velocity that is not a number ends the run before it spreads")
+{
+  const int n_threads = GENERATE(1, 2);
+  Scene scene = block();
+  scene.bodies[0].velocity_field = [](const Triple& x) {
+    return Triple{x[0] < 0.43 && x[1] < 0.43 ? std::nan("") : 0.0, 0, 0};
+  };
+  const auto simulation = Simulation::make(scene, n_threads);
+
+  const SimulationError error = failure_of(*simulation, 1);
+
+  CHECK(error.particle >= 0);
+  REQUIRE(error.position.size() == 2);
+  // Within the reach of the particle at (0.425, 0.425).
+  CHECK(error.position[0] < 0.7);
+  CHECK(error.position[1] < 0.7);
+}
+
+TEST_CASE("a step below the scene's least one ends the run")
+{
+  Scene scene = block();
+  const double bound = Simulation::make(scene, 1)->totals().stable_step;
+  scene.time.minimum_step = scene.time.multiplier * bound * 1.001;
+  const auto simulation = Simulation::make(scene, 1);
+
+  const SimulationError error = failure_of(*simulation, 1);
+
+  CHECK(error.particle == -1);
+  CHECK(std::string(error.what()).find("below the minimum") != std::string::npos);
+}
+
+TEST_CASE("the last step of a run may be as short as it must to end in time")
+{
+  Scene scene = block();
+  const double step = scene.time.multiplier * Simulation::make(scene, 1)->totals().stable_step;
+  scene.time.minimum_step = 0.9 * step;
+  const auto simulation = Simulation::make(scene, 1);
+
+  advance_to(*simulation, 1.25 * step);
+
+  CHECK(simulation->time() == 1.25 * step);
+  CHECK(simulation->last_step_size() == Approx(0.25 * step));
+  CHECK(simulation->n_steps() == 2);
+}
+
+TEST_CASE("a run goes on from the last good state after an error")
+{
+  Scene scene = block();
+  scene.time.rule = StepRule::published;
+  scene.time.multiplier = 3;
+  scene.bodies[0].velocity_field = [](const Triple& x) { return Triple{x[0] < 0.6 ? 1.0 : -1.0, 0, 0}; };
+  const auto simulation = Simulation::make(scene, 2);
+  const std::string first = failure_of(*simulation, 100).what();
+
+  CHECK(std::string(failure_of(*simulation, 1).what()) == first);
+  // A step that is short enough succeeds.
+  simulation->advance(simulation->time() * (1 + 1e-9));
+}
