@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <optional>
 #include <span>
 
@@ -72,6 +73,12 @@ class TabularCap
   double shear_ratio_;
 };
 
+/// What the accuracy of a batch has cost.
+struct SubstepCounts {
+  std::size_t substeps = 0;  ///< taken, the whole increment counting as one
+  std::size_t limited = 0;   ///< of those, accepted with an estimated error beyond the tolerance
+};
+
 /// Advances a batch of particles by one strain increment each (spans of equal length, all in the frame that turns with
 /// the material).
 ///  - `stress` holds the old stress, already rotated to the end-of-step frame, and is replaced by the new. In state
@@ -81,13 +88,14 @@ class TabularCap
 ///  - `bulk_modulus` receives the tangent at the new state.
 ///  - `plastic_work` receives the work of the mean of old and new stress on the step's plastic strain, J per m3 of
 ///    current volume; in a step so large that it reverses the stress it can be negative.
-/// A large increment is cut into substeps so that the estimated stress error stays within the tolerance, or into
-/// `max_substeps` where that takes more; one larger than 0.2 is refused. The first particle that cannot be updated ends
-/// the batch: those before it are done, its own outputs are as they were.
+/// A large increment is cut into substeps so that the estimated stress error stays within the tolerance; none is
+/// smaller than the increment over `max_substeps`, and one of that size is taken whatever its error, and counted. An
+/// increment larger than 0.2 is refused. The first particle that cannot be updated ends the batch: those before it are
+/// done, its own outputs are as they were. `counts`, where given, is added to.
 template <int D>
 std::optional<UpdateFailure> update(const TabularCap& sand, std::span<const SymmetricTensor<D>> strain_increment,
                                     std::span<const CapState> state_old, std::span<SymmetricTensor<D>> stress,
                                     std::span<CapState> state, std::span<double> bulk_modulus,
-                                    std::span<double> plastic_work);
+                                    std::span<double> plastic_work, SubstepCounts* counts = nullptr);
 
 }  // namespace tamp::components

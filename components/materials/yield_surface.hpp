@@ -70,4 +70,11 @@ class YieldSurface
   double cap_ellipticity_;
 };
 
+/// h_p times the sine, from g, its slope and the cap: g' sin^2 - g rho / (X - kappa), bounded everywhere. At the apex
+/// and beyond it has its value at the apex.
+inline double cap_slope_sine(double strength, double slope, const YieldSurface::Cap& cap)
+{
+  return slope * cap.sine * cap.sine - strength * std::min(cap.rho, 1.0) / cap.half_axis;
+}
+
 }  // namespace tamp::components

@@ -1,9 +1,7 @@
 #include "components/moduli/unloading_table.hpp"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
-#include <cstdint>
 #include <string>
 
 #include "components/errors.hpp"
@@ -16,19 +14,6 @@ namespace
 {
 
 constexpr std::size_t n_elastic_cells = 384;
-constexpr int octave_bits = 6;  // 64 cells in each octave of pressure
-constexpr int cell_shift = 52 - octave_bits;
-
-std::size_t octave_cell(double shifted_pressure)
-{
-  return static_cast<std::size_t>(std::bit_cast<std::uint64_t>(shifted_pressure) >> cell_shift);
-}
-
-double start_of_octave_cell(std::size_t cell)
-{
-  return std::bit_cast<double>(static_cast<std::uint64_t>(cell) << cell_shift);
-}
-
 /// The extension of a curve beyond its end: compliance (1/K) of its last point, until that of the next curve at the
 /// same pressure is smaller; a jump down to the next curve is spread over a quarter of the end pressure.
 void extend_along(std::vector<double>& pressure, std::vector<double>& elastic, double end_compliance,
@@ -269,30 +254,14 @@ double UnloadingTable::elastic_volumetric_at(double pressure, double plastic) co
 void UnloadingTable::make_modulus_grid()
 {
   pressure_shift_ = last_pressure_ / 4096;
-  first_octave_cell_ = octave_cell(pressure_shift_);
+  first_octave_cell_ = octave_cell(pressure_shift_).number;
   // The first node lies at or below pressure zero, where a curve is straight.
-  const std::size_t n_cells = octave_cell(last_pressure_ + pressure_shift_) - first_octave_cell_ + 1;
+  const std::size_t n_cells = octave_cell(last_pressure_ + pressure_shift_).number - first_octave_cell_ + 1;
   for (std::size_t cell = 0; cell <= n_cells; ++cell) {
-    const double p = start_of_octave_cell(first_octave_cell_ + cell) - pressure_shift_;
+    const std::uint64_t bits = static_cast<std::uint64_t>(first_octave_cell_ + cell) << place_bits;
+    const double p = std::bit_cast<double>(bits) - pressure_shift_;
     for (const MonotoneCubic& curve : measured_) modulus_.push_back(1 / curve.at(p).slope);
   }
-}
-
-double UnloadingTable::bulk_modulus_at_pressure(double pressure, double plastic) const
-{
-  const double shifted = std::clamp(pressure, 0.0, last_pressure_) + pressure_shift_;
-  const std::size_t cell = octave_cell(shifted);
-  const double start = start_of_octave_cell(cell), end = start_of_octave_cell(cell + 1);
-  const double t = (shifted - start) / (end - start);
-
-  const double ep = std::clamp(plastic, 0.0, curve_plastic_.back());
-  const std::size_t k = curve_below(ep);
-  const double s = (ep - curve_plastic_[k]) / (curve_plastic_[k + 1] - curve_plastic_[k]);
-
-  const std::size_t n_curves = curve_plastic_.size();
-  const double* const low = &modulus_[(cell - first_octave_cell_) * n_curves + k];
-  const double* const high = low + n_curves;
-  return (1 - t) * ((1 - s) * low[0] + s * low[1]) + t * ((1 - s) * high[0] + s * high[1]);
 }
 
 void UnloadingTable::bulk_modulus_at_pressure(std::span<const double> pressure, std::span<const double> plastic,

@@ -1,7 +1,9 @@
 #pragma once
 
 #include <algorithm>
+#include <bit>
 #include <cstddef>
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -77,7 +79,20 @@ class UnloadingTable
           std::span<ElasticPoint> points) const;
 
   /// Rate form, for one state.
-  double bulk_modulus_at_pressure(double pressure, double plastic_volumetric) const;
+  double bulk_modulus_at_pressure(double pressure, double plastic_volumetric) const
+  {
+    const double shifted = std::min(std::max(pressure, 0.0), last_pressure_) + pressure_shift_;
+    const OctaveCell cell = octave_cell(shifted);
+    const double ep = std::min(std::max(plastic_volumetric, 0.0), curve_plastic_.back());
+    const std::size_t k = curve_below(ep);
+    const double s = (ep - curve_plastic_[k]) * lines_per_strain_[k] * (1.0 / n_lines_a_curve);
+
+    const std::size_t n_curves = curve_plastic_.size();
+    const double* const low = &modulus_[(cell.number - first_octave_cell_) * n_curves + k];
+    const double* const high = low + n_curves;
+    const double at_low = low[0] + s * (low[1] - low[0]), at_high = high[0] + s * (high[1] - high[0]);
+    return at_low + cell.fraction * (at_high - at_low);
+  }
 
   /// Rate form, for a batch: spans of equal length.
   void bulk_modulus_at_pressure(std::span<const double> pressure, std::span<const double> plastic_volumetric,
@@ -161,7 +176,21 @@ class UnloadingTable
   std::vector<double> lines_per_strain_;
   double least_bulk_modulus_ = 0;
 
-  // Rate form: [pressure node][curve], pressure nodes evenly spaced in each octave of (pressure + shift).
+  // Rate form: [pressure node][curve], pressure nodes evenly spaced in each octave of (pressure + shift): the leading
+  // bits of that number are the cell, the others the place in it.
+  static constexpr int octave_bits = 6;  // 64 cells in each octave
+  static constexpr int place_bits = 52 - octave_bits;
+  struct OctaveCell {
+    std::size_t number;
+    double fraction;
+  };
+  static OctaveCell octave_cell(double shifted_pressure)
+  {
+    const auto bits = std::bit_cast<std::uint64_t>(shifted_pressure);
+    const std::uint64_t place = bits & ((std::uint64_t{1} << place_bits) - 1);
+    return {static_cast<std::size_t>(bits >> place_bits),
+            static_cast<double>(place) * (1.0 / static_cast<double>(std::uint64_t{1} << place_bits))};
+  }
   std::vector<double> modulus_;
   double pressure_shift_ = 0;
   std::size_t first_octave_cell_ = 0;
