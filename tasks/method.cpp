@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "components/loads/time_step.hpp"
+
 namespace tamp::tasks
 {
 
@@ -30,6 +32,7 @@ Method<Interpolator>::Method(const Scene& scene)
       gravity(vector_of<dimension>(scene.gravity)),
       viscosity(scene.artificial_viscosity),
       time_step_rule(scene.time.rule),
+      step_factor(components::transfer_step_factor(scene.particles_per_axis)),
       friction(static_cast<int>(scene.materials.size())),
       materials(scene.materials)
 {

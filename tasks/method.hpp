@@ -42,6 +42,8 @@ struct Method {
   std::array<std::array<bool, 2>, std::size_t{dimension}> mirrors;
   std::optional<components::ArtificialViscosity> viscosity;
   StepRule time_step_rule;
+  /// On the bounds of the viscous rule; the published rule has none.
+  double step_factor;
   components::FrictionTable friction;
   std::span<const SceneMaterial> materials;
 };

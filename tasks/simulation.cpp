@@ -137,9 +137,10 @@ class SimulationOf : public Simulation
     for (const SceneBody& body : scene_.bodies) {
       const double c = initial_wave_speed(scene_.materials[static_cast<std::size_t>(body.material)]);
       const Vector<D> v = vector_of<D>(body.velocity);
-      bound = std::min(bound, method_.time_step_rule == StepRule::published
-                                  ? components::published_time_step<D>(method_.cell_size, c, v)
-                                  : components::viscous_time_step<D>(method_.cell_size, c, v, 0, viscosity));
+      bound = std::min(
+          bound, method_.time_step_rule == StepRule::published
+                     ? components::published_time_step<D>(method_.cell_size, c, v)
+                     : method_.step_factor * components::viscous_time_step<D>(method_.cell_size, c, v, 0, viscosity));
     }
     return bound;
   }

@@ -17,6 +17,9 @@ struct StepTotals {
   double plastic = 0;
   double viscous = 0;
   double contact = 0;
+  /// Substeps of sand, and those of them that were as short as they may be and still beyond the tolerance.
+  std::size_t substeps = 0;
+  std::size_t limited_substeps = 0;
 
   void combine(const StepTotals& other)
   {
@@ -25,6 +28,8 @@ struct StepTotals {
     plastic += other.plastic;
     viscous += other.viscous;
     contact += other.contact;
+    substeps += other.substeps;
+    limited_substeps += other.limited_substeps;
   }
 };
 

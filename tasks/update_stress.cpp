@@ -69,8 +69,9 @@ void account(const Method<Interpolator>& method, double dt, const StressArgument
     const double bound =
         method.time_step_rule == StepRule::published
             ? components::published_time_step<D>(method.cell_size, c, s.velocity[p])
-            : components::viscous_time_step<D>(method.cell_size, c, s.velocity[p], volume_rate,
-                                               method.viscosity.value_or(components::ArtificialViscosity{0, 0}));
+            : method.step_factor *
+                  components::viscous_time_step<D>(method.cell_size, c, s.velocity[p], volume_rate,
+                                                   method.viscosity.value_or(components::ArtificialViscosity{0, 0}));
     // Written so that what is not a number does not pass for a bound.
     totals.stable_step = bound >= totals.stable_step ? totals.stable_step : bound;
   }
@@ -150,13 +151,16 @@ runtime::TaskDeclaration update(const Method<Interpolator>& method, int group, c
                              StepTotals& totals, std::span<const CapState> old_state, std::span<CapState> state) {
         const StressArguments<D> s{id,     mass,   position,        velocity, old_volume, volume, old_viscous_pressure,
                                    strain, stress, viscous_pressure};
+        components::SubstepCounts counts;
         in_batches(method, at, s, sand.shear_ratio(), 0, totals,
                    [&](std::size_t first, std::size_t n, BatchAnswer& answer) {
                      return components::update<D>(sand, strain.subspan(first, n), old_state.subspan(first, n),
                                                   stress.subspan(first, n), state.subspan(first, n),
                                                   std::span(answer.bulk_modulus).first(n),
-                                                  std::span(answer.plastic_work).first(n));
+                                                  std::span(answer.plastic_work).first(n), &counts);
                    });
+        totals.substeps += counts.substeps;
+        totals.limited_substeps += counts.limited;
       });
 }
 

@@ -194,7 +194,10 @@ class Runner
             {"state_digest", simulation_->digest()},
             {"bodies", bodies()},
             {"materials", materials()},
-            {"monitors", {{"lost_particles", simulation_->lost().count}}}};
+            {"monitors",
+             {{"lost_particles", simulation_->lost().count},
+              {"substeps", simulation_->totals().substeps},
+              {"limited_substeps", simulation_->totals().limited_substeps}}}};
   }
 
   nlohmann::ordered_json bodies() const

@@ -17,8 +17,8 @@ namespace tamp::components
 struct ContactThresholds {
   /// kg
   double mass = 0;
-  /// Length of G_a - G_b, see below [m^(D-1)]; a small part, such as 1e-9, of (cell size)^(D-1) tells it from
-  /// round-off.
+  /// Length of the vector that the normal comes from, see `facing` [m^(D-1)]; a small part, such as 1e-9, of (cell
+  /// size)^(D-1) tells it from round-off.
   double surface_gradient = 0;
 };
 
@@ -66,12 +66,28 @@ ContactImpulse<D> collide(double mass_a, double mass_b, const Vector<D>& normal,
   return impulse;
 }
 
+/// The direction in which two materials face each other, from a to b; not of unit length, and zero where there is none.
+/// `gradient_a` and `gradient_b` are G = sum_p V_p grad S_ip, which points out of a material.
+///
+/// At a flat surface G is as long as it gets; at an edge, part of the surroundings is missing and G is shorter and
+/// leans. So the longer of the two speaks for both, and the shorter joins in only as it comes to the same length: a
+/// block's lower edges then slide along the ground instead of ploughing into it.
+template <int D>
+Vector<D> facing(const Vector<D>& gradient_a, const Vector<D>& gradient_b)
+{
+  constexpr double joins_from = 0.9;
+  const double length_a = gradient_a.norm(), length_b = gradient_b.norm();
+  const double ratio = std::min(length_a, length_b) / std::max(length_a, length_b);
+  const double share = std::max(0.0, (ratio - joins_from) / (1 - joins_from));
+  return length_a > length_b ? Vector<D>(gradient_a - share * gradient_b) : Vector<D>(share * gradient_a - gradient_b);
+}
+
 /// Contact between all materials at one node; one entry of each span a material (contact group), in the order of the
 /// friction table. `surface_gradient` of a material is G_a = sum_p V_p grad S_ip, which points out of the material.
-/// Two materials share one normal, along G_a - G_b, so that the impulse on one is exactly minus that on the other.
+/// Two materials share one normal, see `facing`, so that the impulse on one is exactly minus that on the other.
 /// Pairs a < b are resolved one after another, in that order, each with the velocities that the pairs before it left:
 /// with three or more materials a later pair may leave an earlier one with some approach, which the next step ends. A
-/// pair is left alone, sliding and all, where one of its masses is not above the threshold or where G_a - G_b is too
+/// pair is left alone, sliding and all, where one of its masses is not above the threshold or where that normal is too
 /// short to have a direction.
 template <int D>
 ContactOutcome resolve_contact(std::span<const double> mass, std::span<const Vector<D>> surface_gradient,
@@ -83,7 +99,7 @@ ContactOutcome resolve_contact(std::span<const double> mass, std::span<const Vec
     if (!(mass[a] > thresholds.mass)) continue;
     for (std::size_t b = a + 1; b < mass.size(); ++b) {
       if (!(mass[b] > thresholds.mass)) continue;
-      const Vector<D> outward = surface_gradient[a] - surface_gradient[b];
+      const Vector<D> outward = facing<D>(surface_gradient[a], surface_gradient[b]);
       const double length = outward.norm();
       if (!(length > thresholds.surface_gradient)) continue;
       const double coefficient = friction(static_cast<int>(a), static_cast<int>(b));

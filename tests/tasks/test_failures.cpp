@@ -117,7 +117,8 @@ TEST_CASE("a run goes on from the last good state after an error")
   scene.time.rule = StepRule::published;
   scene.time.multiplier = 3;
   scene.bodies[0].velocity_field = [](const Triple& x) { return Triple{x[0] < 0.6 ? 1.0 : -1.0, 0, 0}; };
-  const auto simulation = Simulation::make(scene, 2);
+  // On one thread, as of two patches that fail either may be the first.
+  const auto simulation = Simulation::make(scene, 1);
   const std::string first = failure_of(*simulation, 100).what();
 
   CHECK(std::string(failure_of(*simulation, 1).what()) == first);

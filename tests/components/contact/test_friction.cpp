@@ -63,6 +63,18 @@ Node<D> random_node(std::mt19937& random, std::size_t n_groups)
 
 }  // namespace
 
+TEST_CASE("of two surfaces the one with the longer gradient gives the normal, and alike ones share it")
+{
+  const Vector<2> flat(0, 1), edge(0.5, -0.6), like(0.1, -1);
+
+  CHECK(facing<2>(flat, edge) == flat);
+  CHECK(facing<2>(edge, flat) == -flat);
+  CHECK(facing<2>(flat, -flat) == 2 * flat);
+  // Joining in as lengths come together is gradual, and the same from both sides.
+  CHECK((facing<2>(flat, like) + facing<2>(like, flat)).norm() < 1e-15);
+  CHECK(facing<2>(flat, Vector<2>(0.05, -0.95)).x() == Approx(-0.05 * (std::hypot(0.05, 0.95) - 0.9) / 0.1));
+}
+
 TEST_CASE("bodies that meet without friction lose their approach and keep their sliding")
 {
   Node<2> node = body_on_body(4, 10);

@@ -66,3 +66,14 @@ TEST_CASE("bodies approach by no more than half a cell in the contact time step"
   CHECK(contact_time_step(0.01, 300) * 300 == Approx(0.005));
   CHECK(std::isinf(contact_time_step(0.01, 0)));
 }
+
+TEST_CASE("what particles hand back of the shortest wave bounds the step")
+{
+  for (const int n : {1, 2, 3, 4}) {
+    // The wave falls from +1 to -1 across a cell, and a particle in the middle of its share sees the value there.
+    double share = 0;
+    for (int k = 0; k < n; ++k) share += std::pow(1 - 2 * (k + 0.5) / n, 2) / n;
+
+    CHECK(transfer_step_factor(n) == Approx(1 / std::sqrt(2 - share)).epsilon(1e-14));
+  }
+}
