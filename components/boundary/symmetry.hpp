@@ -52,7 +52,6 @@ class SymmetryWall
   void constrain_and_mirror(std::span<Vector<D>> field) const;
 
  private:
-
   Vector<D> reversed(Vector<D> v) const
   {
     v[axis_] = -v[axis_];

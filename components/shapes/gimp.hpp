@@ -9,7 +9,8 @@
 #include "components/shapes/grid_block.hpp"
 #include "components/tensors.hpp"
 
-namespace tamp::components {
+namespace tamp::components
+{
 
 /// The weights <S_ip> of a particle at the nodes it reaches, and their gradients <grad S_ip> [1/m], as factors along
 /// each axis: node (i, j, k) has the weight w[0][i] w[1][j] w[2][k] and stands at `first` + i s_x + j s_y + k s_z.
@@ -23,7 +24,8 @@ struct Stencil {
 /// Generalised interpolation of particles of constant size: linear functions averaged over the particle's box
 /// (Bardenhagen & Kober 2004; PAR-10021867-092020-6, eq. 22 and 44). 3 nodes an axis: 9 in the plane, 27 in space.
 template <int D>
-class Gimp {
+class Gimp
+{
  public:
   static constexpr int dimension = D;
   static constexpr int support = 3;

@@ -6,7 +6,8 @@
 
 #include "components/tensors.hpp"
 
-namespace tamp::components {
+namespace tamp::components
+{
 
 /// The nodes of a part of a uniform grid, as kernels see them: where they are and how they lie in memory.
 template <int D>

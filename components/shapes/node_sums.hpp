@@ -4,7 +4,8 @@
 
 #include "components/tensors.hpp"
 
-namespace tamp::components {
+namespace tamp::components
+{
 
 /// What particles give to a node. The values of a node stand together, in whole vector registers (8 or 12 doubles),
 /// so that one particle's share is added with a few wide operations.

@@ -8,7 +8,8 @@
 #include "components/shapes/node_sums.hpp"
 #include "components/tensors.hpp"
 
-namespace tamp::components {
+namespace tamp::components
+{
 
 /// What particles bring to the grid; all spans of one length.
 template <int D>
