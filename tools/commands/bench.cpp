@@ -48,7 +48,7 @@ void run_benchmarks(const Options& options)
 
 CLI::App* add_bench_command(CLI::App& app)
 {
-  CLI::App* command = app.add_subcommand("bench", "Measure kernels and the scheduler on this machine");
+  CLI::App* command = app.add_subcommand("bench", "Measure TAMP on this machine");
   const auto options = std::make_shared<Options>();
   std::vector<std::string> known;
   for (const auto& [name, benchmark] : benchmarks()) known.push_back(name);
