@@ -7,6 +7,7 @@ namespace tamp::tasks
 {
 
 using components::NodeSums;
+using components::SymmetryWall;
 using runtime::GridView;
 using runtime::TaskContext;
 
@@ -26,12 +27,7 @@ runtime::TaskDeclaration particles_to_grid(const Method<Interpolator>& method)
         components::particles_to_grid(method.interpolator, block_of<D>(at.layout, sums),
                                       {position, velocity, mass, volume, stress, viscous_pressure}, sums.data());
         // The image behind a mirror gives to the grid as the particles do.
-        for_each_wall(method, at, sums.box(), [&](int axis, const components::SymmetryWall<D>& wall) {
-          wall.for_each_node([&](std::size_t on_wall, std::size_t ghost, std::size_t inside) {
-            sums.data()[on_wall].hold_on_mirror(axis);
-            sums.data()[inside].values += sums.data()[ghost].mirrored(axis).values;
-          });
-        });
+        for_each_wall(method, at, sums.box(), [&](const SymmetryWall<D>& wall) { wall.fold(sums.data()); });
       });
 }
 

@@ -7,6 +7,7 @@ namespace tamp::tasks
 
 using components::NodeMotion;
 using components::NodeSums;
+using components::SymmetryWall;
 using runtime::GridView;
 using runtime::Index;
 using runtime::PerGroup;
@@ -55,12 +56,8 @@ runtime::TaskDeclaration symmetry_walls(const Method<Interpolator>& method)
                       const PerGroup<GridView<NodeMotion<D>>>& motions, GridImpulse& impulse) {
         for (std::size_t g = 0; g < motions.size(); ++g) {
           const GridView<NodeMotion<D>>& motion = motions[g];
-          for_each_wall(method, at, motion.box(), [&](int axis, const components::SymmetryWall<D>& wall) {
-            wall.for_each_node([&](std::size_t on_wall, std::size_t ghost, std::size_t inside) {
-              motion.data()[on_wall].hold_on_mirror(axis);
-              motion.data()[ghost] = motion.data()[inside].mirrored(axis);
-            });
-          });
+          for_each_wall(method, at, motion.box(),
+                        [&](const SymmetryWall<D>& wall) { wall.constrain_and_mirror(motion.data()); });
           add_impulse(method, at, sums[g], motion, impulse);
         }
       });

@@ -6,7 +6,7 @@
 namespace tamp::tasks
 {
 
-/// Calls `visit(axis, wall)` for every mirroring face of the domain that the patch of `at` touches. `box` is the block
+/// Calls `visit(wall)` for every mirroring face of the domain that the patch of `at` touches. `box` is the block
 /// of nodes to work on, with its halo layer outside of the wall.
 template <class Interpolator, class Visit>
 void for_each_wall(const Method<Interpolator>& method, const runtime::TaskContext& at, const runtime::IndexBox& box,
@@ -18,11 +18,11 @@ void for_each_wall(const Method<Interpolator>& method, const runtime::TaskContex
   for (std::size_t k = 0; k < D; ++k) {
     const int axis = static_cast<int>(k);
     if (method.mirrors[k][0] && at.patch.cells.lower[k] == 0) {
-      visit(axis, components::SymmetryWall<D>(n_nodes, axis, -box.lower[k], -1));
+      visit(components::SymmetryWall<D>(n_nodes, axis, -box.lower[k], -1));
     }
     const int last = at.layout.grid().n_cells[k];
     if (method.mirrors[k][1] && at.patch.cells.upper[k] == last) {
-      visit(axis, components::SymmetryWall<D>(n_nodes, axis, last - box.lower[k], +1));
+      visit(components::SymmetryWall<D>(n_nodes, axis, last - box.lower[k], +1));
     }
   }
 }

@@ -36,33 +36,6 @@ SymmetryWall<D>::SymmetryWall(const std::array<int, std::size_t{D}>& n_nodes, in
   }
 }
 
-template <int D>
-void SymmetryWall<D>::fold(std::span<double> field) const
-{
-  for_each_node([&](std::size_t, std::size_t ghost, std::size_t inside) { field[inside] += field[ghost]; });
-}
-
-template <int D>
-void SymmetryWall<D>::fold(std::span<Vector<D>> field) const
-{
-  for_each_node([&](std::size_t, std::size_t ghost, std::size_t inside) { field[inside] += reversed(field[ghost]); });
-}
-
-template <int D>
-void SymmetryWall<D>::mirror(std::span<double> field) const
-{
-  for_each_node([&](std::size_t, std::size_t ghost, std::size_t inside) { field[ghost] = field[inside]; });
-}
-
-template <int D>
-void SymmetryWall<D>::constrain_and_mirror(std::span<Vector<D>> field) const
-{
-  for_each_node([&](std::size_t wall, std::size_t ghost, std::size_t inside) {
-    field[wall][axis_] = 0;
-    field[ghost] = reversed(field[inside]);
-  });
-}
-
 template class SymmetryWall<2>;
 template class SymmetryWall<3>;
 

@@ -2,7 +2,6 @@
 
 #include <array>
 #include <cstddef>
-#include <span>
 
 #include "components/tensors.hpp"
 
@@ -11,13 +10,13 @@ namespace tamp::components
 
 /// A mirror wall through the nodes of one plane of a block of nodes, for interpolators whose support reaches one node
 /// layer (the ghost layer) beyond it: the fields behave as if the mirror image of the material stood outside. Fields
-/// are linear arrays of the block, x fastest. Where walls meet, apply each function for one axis after another: the
+/// are linear arrays of the block, x fastest, of values that know their `mirrored(axis)`, can `hold_on_mirror(axis)`
+/// (drop what is normal to it), and be added. Where walls meet, apply each function for one axis after another: the
 /// ghosts of the corner then get their images of images, in any order of the axes.
 ///
 /// On the wall's own nodes the image would add as much again as the inside did, to masses, forces and tangential
 /// momenta alike. These nodes keep the half of the inside instead: their velocities and accelerations are the same, and
-/// sums over a half model are sums over half a body. The surface gradients of contact are a vector field like momentum:
-/// fold and constrain them too, or the missing image tilts the normals on the wall.
+/// sums over a half model are sums over half a body.
 template <int D>
 class SymmetryWall
 {
@@ -26,6 +25,29 @@ class SymmetryWall
   /// outside being -1 or +1. Throws BadValue if the block lacks the ghost layer, or the layer that mirrors it.
   SymmetryWall(const std::array<int, std::size_t{D}>& n_nodes, int axis, int plane, int outside);
 
+  /// Adds to each inside neighbour of the wall what the image scatters there: the ghost's value mirrored. On the wall
+  /// the image takes the normal components away. Ghosts keep what was scattered to them. Once a step, on parts or sums.
+  template <class Value>
+  void fold(Value* field) const
+  {
+    for_each_node([&](std::size_t wall, std::size_t ghost, std::size_t inside) {
+      field[wall].hold_on_mirror(axis_);
+      field[inside] += field[ghost].mirrored(axis_);
+    });
+  }
+
+  /// Takes the normal components away on the wall, so that nothing crosses it, and writes to each ghost the mirrored
+  /// value of its mirror node.
+  template <class Value>
+  void constrain_and_mirror(Value* field) const
+  {
+    for_each_node([&](std::size_t wall, std::size_t ghost, std::size_t inside) {
+      field[wall].hold_on_mirror(axis_);
+      field[ghost] = field[inside].mirrored(axis_);
+    });
+  }
+
+ private:
   /// Calls visit(wall node, ghost, mirror node), as places in the block, for every node of the wall.
   template <class Visit>
   void for_each_node(Visit&& visit) const
@@ -37,25 +59,6 @@ class SymmetryWall
               static_cast<std::size_t>(node - to_ghost_));
       }
     }
-  }
-
-  /// Adds to each inside neighbour of the wall what the image scatters there: the ghost's value, with the normal
-  /// component of vectors reversed. Ghosts keep what was scattered to them. Once a step, on complete sums.
-  void fold(std::span<double> field) const;
-  void fold(std::span<Vector<D>> field) const;
-
-  /// Writes to each ghost the value of its mirror node.
-  void mirror(std::span<double> field) const;
-
-  /// Sets the normal component on the wall to 0, so that nothing crosses it, and writes to each ghost the vector of its
-  /// mirror node with the normal component reversed.
-  void constrain_and_mirror(std::span<Vector<D>> field) const;
-
- private:
-  Vector<D> reversed(Vector<D> v) const
-  {
-    v[axis_] = -v[axis_];
-    return v;
   }
 
   int axis_;

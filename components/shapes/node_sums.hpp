@@ -25,6 +25,12 @@ struct NodeSums {
   /// sum V_p grad S_ip [m^(D-1)]: points out of the material at its surface, vanishes within.
   Vector<D> surface_gradient() const { return values.template segment<D>(1 + 2 * D).matrix(); }
 
+  NodeSums& operator+=(const NodeSums& other)
+  {
+    values += other.values;
+    return *this;
+  }
+
   /// On a mirror normal to `axis` the image brings the opposite of every normal component.
   void hold_on_mirror(int axis)
   {
