@@ -1,6 +1,7 @@
 #include "runtime/graph/label_streams.hpp"
 
 #include <algorithm>
+#include <numeric>
 #include <set>
 
 #include "runtime/graph/near_name.hpp"
@@ -21,6 +22,13 @@ bool contains(const std::vector<const Label*>& labels, const Label* label)
 bool on_grid(const Label& label)
 {
   return label.centring() == Centring::node || label.centring() == Centring::cell;
+}
+
+std::vector<int> all_groups(int n_groups)
+{
+  std::vector<int> all(static_cast<std::size_t>(n_groups));
+  std::iota(all.begin(), all.end(), 0);
+  return all;
 }
 
 /// Looks through the declarations and their streams, and writes down what does not fit.
@@ -182,18 +190,14 @@ std::vector<int> groups_of(const TaskDeclaration& declaration, int n_groups)
 {
   if (declaration.domain == Domain::patches) return {-1};
   if (!declaration.groups.empty()) return declaration.groups;
-  std::vector<int> all;
-  for (int g = 0; g < n_groups; ++g) all.push_back(g);
-  return all;
+  return all_groups(n_groups);
 }
 
 std::vector<int> groups_of(const Access& access, int group, int n_groups)
 {
   if (access.label->centring() == Centring::reduction) return {-1};
   if (!access.every_group) return {group};
-  std::vector<int> all;
-  for (int g = 0; g < n_groups; ++g) all.push_back(g);
-  return all;
+  return all_groups(n_groups);
 }
 
 LabelStreams collect_streams(const std::vector<TaskDeclaration>& declarations, int n_groups)

@@ -29,9 +29,9 @@ double DurationHistogram::quantile(double q) const
   for (std::size_t bin = 0; bin < bins_.size(); ++bin) {
     seen += bins_[bin];
     if (seen < wanted || bins_[bin] == 0) continue;
-    const double octave = static_cast<double>(bin / bins_per_octave);
+    const auto octave = static_cast<int>(bin / bins_per_octave);
     const double within = (static_cast<double>(bin % bins_per_octave) + 0.5) / bins_per_octave;
-    const double middle = std::exp2(octave) * (1 + within);
+    const double middle = std::ldexp(1 + within, octave);
     return std::clamp(middle, static_cast<double>(least()), static_cast<double>(most_));
   }
   return static_cast<double>(most_);
