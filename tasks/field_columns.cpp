@@ -88,6 +88,9 @@ std::vector<runtime::ParticleBlock> FieldColumns<Interpolator>::particles(const 
       add("cap", ColumnKind::scalar, [&](int patch, std::size_t p, auto& all) {
         all.push_back(sand->crush_pressure(state(particle::cap_state, patch, p).plastic_volumetric));
       });
+      add("failed_updates", ColumnKind::scalar, [&](int patch, std::size_t p, auto& all) {
+        all.push_back(static_cast<double>(state(particle::cap_state, patch, p).n_failures));
+      });
     }
     blocks.push_back(std::move(block));
   }

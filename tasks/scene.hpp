@@ -90,6 +90,8 @@ struct Scene {
   std::vector<SceneMaterial> materials;
   std::vector<SceneBody> bodies;
   std::vector<SceneContact> contacts;
+  /// Stress updates that may fail in a run before it stops; their particles keep their stress.
+  long failed_updates_allowed = 0;
   SceneOutput output;
 };
 

@@ -73,6 +73,7 @@ class SimulationOf : public Simulation
     } catch (const runtime::TaskError& error) {
       std::rethrow_exception(error.cause);
     }
+    check_failed_updates();
     warehouse_.advance();
     if (step_schedule_.recording) profiler_.add_step();
     take_totals();
@@ -143,6 +144,17 @@ class SimulationOf : public Simulation
                      : method_.step_factor * components::viscous_time_step<D>(method_.cell_size, c, v, 0, viscosity));
     }
     return bound;
+  }
+
+  void check_failed_updates()
+  {
+    const StepTotals& step = warehouse_.result(step_totals);
+    const std::size_t failures = totals_.updates.failures + step.updates.failures;
+    if (failures <= static_cast<std::size_t>(scene_.failed_updates_allowed)) return;
+    const FailedUpdate& failed = *step.failed;
+    throw SimulationError(fmt::format("{}; {} stress updates have failed, {} are allowed", failed.reason, failures,
+                                      scene_.failed_updates_allowed),
+                          failed.material, failed.particle, failed.position);
   }
 
   void take_totals()

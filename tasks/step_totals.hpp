@@ -3,10 +3,24 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <limits>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "components/materials/tabular_cap.hpp"
 
 namespace tamp::tasks
 {
+
+/// A particle whose stress could not be updated, and the state it was left in.
+struct FailedUpdate {
+  std::int64_t particle;
+  std::string material;
+  std::vector<double> position;  ///< m
+  std::string reason;            ///< with the particle's history variables
+};
 
 /// Sums and bounds over all particles and nodes of one step.
 struct StepTotals {
@@ -17,9 +31,10 @@ struct StepTotals {
   double plastic = 0;
   double viscous = 0;
   double contact = 0;
-  /// Substeps of sand, and those of them that were as short as they may be and still beyond the tolerance.
-  std::size_t substeps = 0;
-  std::size_t limited_substeps = 0;
+  /// Of all sand.
+  components::UpdateCounts updates;
+  /// Of those that failed, the one with the lowest id in the first step that had any.
+  std::optional<FailedUpdate> failed;
 
   void combine(const StepTotals& other)
   {
@@ -28,8 +43,8 @@ struct StepTotals {
     plastic += other.plastic;
     viscous += other.viscous;
     contact += other.contact;
-    substeps += other.substeps;
-    limited_substeps += other.limited_substeps;
+    updates.add(other.updates);
+    if (other.failed && !(failed && failed->particle <= other.failed->particle)) failed = other.failed;
   }
 };
 

@@ -1,3 +1,5 @@
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -77,7 +79,7 @@ void account(const Method<Interpolator>& method, double dt, const StressArgument
   }
 }
 
-/// Takes all particles to the material batch by batch; `answer(first, n, answer)` updates the stress in place.
+/// Takes all particles to the material batch by batch; `update(first, n, answer)` updates the stress in place.
 template <class Interpolator, int D, class Update>
 void in_batches(const Method<Interpolator>& method, const TaskContext& at, const StressArguments<D>& s,
                 double shear_ratio, double shear_modulus, StepTotals& totals, const Update& update)
@@ -87,20 +89,30 @@ void in_batches(const Method<Interpolator>& method, const TaskContext& at, const
   for (std::size_t first = 0; first < s.id.size(); first += batch_size) {
     const std::size_t n = std::min(batch_size, s.id.size() - first);
     std::copy_n(s.stress.begin() + static_cast<std::ptrdiff_t>(first), n, old_stress.begin());
-    const std::optional<components::UpdateFailure> failure = update(first, n, answer);
-    std::optional<std::size_t> failed;
-    if (failure) failed = first + failure->particle;
-    for (std::size_t p = first; p < first + n && !failed; ++p) {
-      if (!s.stress[p].allFinite() || !s.velocity[p].allFinite()) failed = p;
-    }
-    if (failed) {
-      const std::string reason = failure ? failure->reason : "stress or velocity is not finite";
-      throw SimulationError(reason, method.materials[static_cast<std::size_t>(at.group)].name, s.id[*failed],
-                            {s.position[*failed].begin(), s.position[*failed].end()});
+    update(first, n, answer);
+    for (std::size_t p = first; p < first + n; ++p) {
+      if (s.stress[p].allFinite() && s.velocity[p].allFinite()) continue;
+      throw SimulationError("stress or velocity is not finite",
+                            method.materials[static_cast<std::size_t>(at.group)].name, s.id[p],
+                            {s.position[p].begin(), s.position[p].end()});
     }
     account<Interpolator>(method, at.step.size, s, first, std::span<const SymmetricTensor<D>>(old_stress.data(), n),
                           answer, shear_ratio, shear_modulus, totals);
   }
+}
+
+/// What is known of a particle that could not be updated.
+template <int D>
+std::string with_history(const std::string& reason, const CapState& state, const SymmetricTensor<D>& stress,
+                         const SymmetricTensor<D>& strain)
+{
+  const SymmetricTensor<D> s = deviator(stress);
+  return fmt::format(
+      "{}; its stress stays p = {:.6g} Pa, q = {:.6g} Pa, its elastic and plastic volumetric strain {:.6g} and {:.6g} "
+      "(compression positive), the strain increment was {:.3g} of volume and {:.3g} of shape, and {} of its updates "
+      "have failed",
+      reason, -trace(stress) / 3, std::sqrt(1.5 * double_dot(s, s)), state.elastic_volumetric, state.plastic_volumetric,
+      -trace(strain), std::sqrt(double_dot(deviator(strain), deviator(strain))), state.n_failures);
 }
 
 /// What every material's task reads and makes.
@@ -133,7 +145,6 @@ runtime::TaskDeclaration update(const Method<Interpolator>& method, int group, c
                      std::fill_n(answer.plastic_work.begin(), n, 0.0);
                      std::fill_n(answer.bulk_modulus.begin(), n, steel.bulk_modulus);
                      components::update<D>(steel, strain.subspan(first, n), stress.subspan(first, n));
-                     return std::optional<components::UpdateFailure>{};
                    });
       });
 }
@@ -151,16 +162,19 @@ runtime::TaskDeclaration update(const Method<Interpolator>& method, int group, c
                              StepTotals& totals, std::span<const CapState> old_state, std::span<CapState> state) {
         const StressArguments<D> s{id,     mass,   position,        velocity, old_volume, volume, old_viscous_pressure,
                                    strain, stress, viscous_pressure};
-        components::SubstepCounts counts;
-        in_batches(method, at, s, sand.shear_ratio(), 0, totals,
-                   [&](std::size_t first, std::size_t n, BatchAnswer& answer) {
-                     return components::update<D>(sand, strain.subspan(first, n), old_state.subspan(first, n),
-                                                  stress.subspan(first, n), state.subspan(first, n),
-                                                  std::span(answer.bulk_modulus).first(n),
-                                                  std::span(answer.plastic_work).first(n), &counts);
-                   });
-        totals.substeps += counts.substeps;
-        totals.limited_substeps += counts.limited;
+        in_batches(
+            method, at, s, sand.shear_ratio(), 0, totals, [&](std::size_t first, std::size_t n, BatchAnswer& answer) {
+              const auto failure = components::update<D>(sand, strain.subspan(first, n), old_state.subspan(first, n),
+                                                         stress.subspan(first, n), state.subspan(first, n),
+                                                         std::span(answer.bulk_modulus).first(n),
+                                                         std::span(answer.plastic_work).first(n), totals.updates);
+              if (!failure || totals.failed) return;
+              const std::size_t p = first + failure->particle;
+              totals.failed = FailedUpdate{id[p],
+                                           method.materials[static_cast<std::size_t>(at.group)].name,
+                                           {position[p].begin(), position[p].end()},
+                                           with_history<D>(failure->reason, state[p], stress[p], strain[p])};
+            });
       });
 }
 

@@ -165,6 +165,7 @@ class Runner
     const double step_seconds = median_step_seconds();
     const std::size_t rss = peak_rss_bytes();
     const EnergyBalance& e = history_.energies();
+    const components::UpdateCounts& updates = simulation_->totals().updates;
     return {{"status", status},
             {"reason", reason},
             {"scene", scene.name},
@@ -196,8 +197,12 @@ class Runner
             {"materials", materials()},
             {"monitors",
              {{"lost_particles", simulation_->lost().count},
-              {"substeps", simulation_->totals().substeps},
-              {"limited_substeps", simulation_->totals().limited_substeps}}}};
+              {"substeps", updates.substeps},
+              {"split_updates", updates.split_updates},
+              {"limited_substeps", updates.limited_substeps},
+              {"modulus_evaluations", updates.modulus_evaluations},
+              {"modulus_extrapolations", updates.extrapolated},
+              {"failed_updates", updates.failures}}}};
   }
 
   nlohmann::ordered_json bodies() const
@@ -243,6 +248,13 @@ class Runner
     fmt::print("  energy error {:.3g}, momentum error {:.3g}, {} particles lost, state digest {}\n",
                history_.energy_error(), history_.momentum_error(), simulation_->lost().count,
                told["state_digest"].get<std::string>());
+    const components::UpdateCounts& updates = simulation_->totals().updates;
+    if (updates.extrapolated + updates.limited_substeps + updates.failures > 0) {
+      fmt::print(
+          "  of {} sand substeps {} kept an error beyond the tolerance; {} updates ended outside the modulus' "
+          "range, {} failed\n",
+          updates.substeps, updates.limited_substeps, updates.extrapolated, updates.failures);
+    }
     fmt::print("  written to {}\n", options_.folder.string());
   }
 

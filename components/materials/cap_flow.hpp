@@ -81,7 +81,9 @@ inline FlowStart flow_start(const YieldSurface& surface, double pressure, double
   const YieldSurface::Cap cap = surface.cap(p, crush_pressure);
   const SurfaceNormal normal{cap_slope_sine(g.value, g.slope, cap), cap.sine};
   FlowStart start{fraction, deviatoric.sqrt_j2(fraction * shear), normal};
-  if (!(g.segment && start.sqrt_j2 > 0 && cap.sine > 0)) return start;
+  // A deviator of nothing but round-off has no direction.
+  const bool sheared = start.sqrt_j2 > cap_return::no_shear * crush_pressure;
+  if (!(g.segment && sheared && cap.sine > 0)) return start;
 
   const double r = surface.cap_ellipticity(), slope = normal.slope_sine, sine = normal.sine;
   const double turned = deviatoric.mixed + 4 * fraction * shear * deviatoric.increment_j2;  // s:e there

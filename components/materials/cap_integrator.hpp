@@ -19,7 +19,6 @@ struct CapParticle {
   SymmetricTensor<D> deviator;  // of the stress
   double pressure;
   CapState state;
-  double bulk_modulus;
   double plastic_work;
   double error;  // estimated stress error of the step that led here, relative
   bool returned;
@@ -30,12 +29,14 @@ struct CapParticle {
 template <class Model>
 struct StatePath {
   const Model& model;
+  std::size_t& n_evaluations;
   const PiecewiseLinear& crush_curve;
   DeviatoricTrial deviatoric;
   double elastic_trial, plastic_old, modulus_old, shear_ratio;
 
   PathPoint operator()(double d) const
   {
+    ++n_evaluations;
     const double plastic = plastic_old + d;
     const ElasticPoint elastic = model.at(elastic_trial - d, plastic);
     const PiecewiseLinear::Value crush = crush_curve.at(std::max(plastic, 0.0));
@@ -92,36 +93,51 @@ class CapIntegrator
   {
   }
 
-  Particle start(const Tensor& stress, const CapState& state) const
-  {
-    if (form_ == ElasticUpdate::state) {
-      const ElasticPoint point = model_.at(state.elastic_volumetric, state.plastic_volumetric);
-      return {deviator(stress), point.pressure, state, point.bulk_modulus, 0, 0, true};
-    }
-    const double pressure = -trace(stress) / 3;
-    const double modulus = model_.bulk_modulus_at_pressure(pressure, state.plastic_volumetric);
-    return {deviator(stress), pressure, state, modulus, 0, 0, true};
-  }
-
   /// One step, in as many substeps as its error estimate asks for.
-  Particle advance(const Particle& old, const Tensor& strain_increment, SubstepCounts& counts) const
+  Particle advance(const Tensor& stress, const CapState& state, const Tensor& strain_increment)
   {
+    const Particle old = start(stress, state);
     const Tensor e = deviator(strain_increment);
     const double compaction = -trace(strain_increment);
-    const Particle whole = substep(old, e, compaction);
-    ++counts.substeps;
-    if (whole.error <= tolerance_ && whole.returned) return whole;
-    return advance_cut(old, e, compaction, whole, counts);
+    Particle now = substep(old, e, compaction);
+    if (now.error <= tolerance_ && now.returned) {
+      ++counts_.substeps;
+    } else {
+      now = advance_cut(old, e, compaction, now);
+    }
+    counts_.extrapolated += !model_.in_range(now.state.elastic_volumetric, now.state.plastic_volumetric);
+    return now;
   }
 
+  const UpdateCounts& counts() const { return counts_; }
+
  private:
+  Particle start(const Tensor& stress, const CapState& state)
+  {
+    Particle old{deviator(stress), -trace(stress) / 3, state, 0, 0, true};
+    if (!(state.bulk_modulus > 0)) old.state.bulk_modulus = initial_modulus(old);
+    return old;
+  }
+
+  double initial_modulus(const Particle& old)
+  {
+    const double elastic = old.state.elastic_volumetric, plastic = old.state.plastic_volumetric;
+    return form_ == ElasticUpdate::state ? model_.at(elastic, plastic).bulk_modulus
+                                         : rate_modulus(old.pressure, elastic, plastic);
+  }
+
+  double rate_modulus(double pressure, double elastic, double plastic)
+  {
+    ++counts_.modulus_evaluations;
+    return model_.rate_modulus(pressure, elastic, plastic);
+  }
+
   /// Substeps whose errors stay within their share of the tolerance.
-  Particle advance_cut(const Particle& old, const Tensor& e, double compaction, const Particle& whole,
-                       SubstepCounts& counts) const
+  Particle advance_cut(const Particle& old, const Tensor& e, double compaction, const Particle& whole)
   {
     Particle at = old;
     double done = 0, size = next_size(1, whole);
-    --counts.substeps;  // the whole step does not count
+    ++counts_.split_updates;
     while (done < 1) {
       // The remainder is cut evenly.
       const double rest = 1 - done;
@@ -131,8 +147,8 @@ class CapIntegrator
       const bool accurate = now.returned && now.error <= tolerance_ * size;
       const double next = next_size(size, now);
       if (accurate || least) {
-        ++counts.substeps;
-        counts.limited += !accurate;
+        ++counts_.substeps;
+        counts_.limited_substeps += !accurate;
         at = now;
         if (!now.returned || last) return at;
         done += size;
@@ -150,25 +166,28 @@ class CapIntegrator
     return std::max(size * factor, least_size_);
   }
 
-  Particle substep(const Particle& old, const Tensor& e, double compaction) const
+  Particle substep(const Particle& old, const Tensor& e, double compaction)
   {
     const DeviatoricTrial deviatoric = deviatoric_trial(old.deviator, e);
     if (form_ == ElasticUpdate::state) {
       const auto path = [&](const DeviatoricTrial& products, double d, double) {
         return StatePath<Model>{model_,
+                                counts_.modulus_evaluations,
                                 crush_curve_,
                                 products,
                                 old.state.elastic_volumetric + compaction - d,
                                 old.state.plastic_volumetric + d,
-                                old.bulk_modulus,
+                                old.state.bulk_modulus,
                                 shear_ratio_};
       };
       return substep_along(path, old, e, compaction, deviatoric);
     }
     // The modulus of the step's middle.
     const auto path = [&](const DeviatoricTrial& products, double d, double d_middle) {
-      const double middle = old.pressure + old.bulk_modulus * (0.5 * compaction - d_middle);
-      const double modulus = model_.bulk_modulus_at_pressure(middle, old.state.plastic_volumetric + d_middle);
+      const double elastic = 0.5 * compaction - d_middle;
+      const double modulus =
+          rate_modulus(old.pressure + old.state.bulk_modulus * elastic, old.state.elastic_volumetric + elastic,
+                       old.state.plastic_volumetric + d_middle);
       const double shear = shear_ratio_ * modulus;
       return RatePath{crush_curve_,
                       old.pressure + modulus * (compaction - d),
@@ -184,7 +203,7 @@ class CapIntegrator
   /// where it is d_middle in the middle of the step.
   template <class MakePath>
   Particle substep_along(const MakePath& path, const Particle& old, const Tensor& e, double compaction,
-                         const DeviatoricTrial& deviatoric) const
+                         const DeviatoricTrial& deviatoric)
   {
     const auto whole = path(deviatoric, 0, 0);
     const PathPoint trial = whole(0);
@@ -196,7 +215,7 @@ class CapIntegrator
   template <class MakePath, class Path>
   [[gnu::noinline]] Particle flowing(const MakePath& path, const Path& whole, const PathPoint& trial,
                                      const Particle& old, const Tensor& e, double compaction,
-                                     const DeviatoricTrial& deviatoric) const
+                                     const DeviatoricTrial& deviatoric)
   {
     if (trial.pressure < yield_.vertex_pressure()) {
       // At the vertex the surface has no one normal, and a return alone is exact.
@@ -224,7 +243,7 @@ class CapIntegrator
   /// All the flow along the normal at the end. The rate form returns twice, to know the middle of the step.
   template <class MakePath, class Path>
   ReturnPoint return_alone(const MakePath& path, const DeviatoricTrial& deviatoric, const Path& whole,
-                           const PathPoint& trial) const
+                           const PathPoint& trial)
   {
     const ReturnPoint first = return_to_surface(yield_, whole, trial);
     if (form_ == ElasticUpdate::state) return first;
@@ -236,10 +255,10 @@ class CapIntegrator
   {
     CapState state = old.state;
     state.elastic_volumetric += compaction;
-    const double modulus = modulus_at(trial, state);
-    const double error = modulus_error(old, modulus, trial.pressure, deviatoric, trial) /
+    state.bulk_modulus = trial.bulk_modulus;
+    const double error = modulus_error(old, trial.pressure, deviatoric, trial) /
                          error_scale(old, trial.pressure, trial.trial_sqrt_j2, trial);
-    return {old.deviator + 2 * trial.shear_modulus * e, trial.pressure, state, modulus, old.plastic_work, error, true};
+    return {old.deviator + 2 * trial.shear_modulus * e, trial.pressure, state, old.plastic_work, error, true};
   }
 
   /// The end of a step that flowed: the stress deviator was `along` when that started, and `left` of the deviatoric
@@ -255,8 +274,8 @@ class CapIntegrator
     now.deviator = trial > 0 ? Tensor(trial_deviator * (point.sqrt_j2 / trial)) : trial_deviator;
     now.pressure = point.at.pressure;
     now.state = {old.state.elastic_volumetric + compaction - d, old.state.plastic_volumetric + d,
-                 old.state.equivalent_plastic + multiplier / std::numbers::sqrt3};
-    now.bulk_modulus = modulus_at(point.at, now.state);
+                 old.state.equivalent_plastic + multiplier / std::numbers::sqrt3, point.at.bulk_modulus,
+                 old.state.n_failures};
     now.plastic_work = old.plastic_work + 0.5 * (old.pressure + now.pressure) * d;
     if (multiplier > 0 && trial > 0) {
       // The plastic strain's deviator is dl s / (2 sqrt(J2)).
@@ -264,7 +283,7 @@ class CapIntegrator
       now.plastic_work += 0.5 * double_dot(Tensor(old.deviator + now.deviator), plastic);
     }
     const double scale = error_scale(old, now.pressure, point.sqrt_j2, point.at);
-    double error = modulus_error(old, now.bulk_modulus, now.pressure, deviatoric, point.at);
+    double error = modulus_error(old, now.pressure, deviatoric, point.at);
     if (point.status == ReturnStatus::cone_or_cap) {
       const double both = 2 * start.sqrt_j2 * trial;
       error += flow_error(start, point, both > 0 ? double_dot(along, trial_deviator) / both : 1);
@@ -274,24 +293,23 @@ class CapIntegrator
     return now;
   }
 
-  double modulus_at(const PathPoint& at, const CapState& state) const
-  {
-    if (form_ == ElasticUpdate::state) return at.bulk_modulus;
-    return model_.bulk_modulus_at_pressure(at.pressure, state.plastic_volumetric);
-  }
-
   static double error_scale(const Particle& old, double pressure, double sqrt_j2, const PathPoint& at)
   {
     return std::max(std::max(old.pressure, pressure), std::max(sqrt_j2, 0.1 * at.crush_pressure));
   }
 
   /// Of one modulus for the step, in the deviator and in rate form in the pressure too: Pa.
-  double modulus_error(const Particle& old, double bulk_modulus, double pressure, const DeviatoricTrial& deviatoric,
+  double modulus_error(const Particle& old, double pressure, const DeviatoricTrial& deviatoric,
                        const PathPoint& at) const
   {
-    const double change = (bulk_modulus - old.bulk_modulus) / (bulk_modulus + old.bulk_modulus);
+    const double modulus_old = old.state.bulk_modulus;
+    double change = (at.bulk_modulus - modulus_old) / (at.bulk_modulus + modulus_old);
     double stress = 2 * at.shear_modulus * std::sqrt(deviatoric.increment_j2);
-    if (form_ == ElasticUpdate::rate) stress += std::abs(pressure - old.pressure);
+    if (form_ == ElasticUpdate::rate) {
+      // This modulus is of the step's middle, the old one may be of its start.
+      change *= 2;
+      stress += std::abs(pressure - old.pressure);
+    }
     return change * change * stress;
   }
 
@@ -300,6 +318,7 @@ class CapIntegrator
   const Model& model_;
   double shear_ratio_, tolerance_, least_size_;
   ElasticUpdate form_;
+  UpdateCounts counts_;
 };
 
 }  // namespace tamp::components

@@ -1,16 +1,10 @@
 #pragma once
 
-#include <variant>
-
 #include "components/materials/piecewise_linear.hpp"
-#include "components/moduli/unloading_table.hpp"
+#include "components/moduli/modulus.hpp"
 
 namespace tamp::components
 {
-
-/// The elastic models a tabular cap can have. Each gives `ElasticPoint at(elastic, plastic)` for the state form,
-/// `bulk_modulus_at_pressure(pressure, plastic)` for the rate form, and both for batches.
-using Modulus = std::variant<UnloadingTable>;
 
 /// Smallest crush pressure of a sand in the state form, Pa. The hydrostat starts plastic, so that the consistent crush
 /// curve starts from zero; a cap of zero size has no inside. What it costs: the hydrostat is not followed below this

@@ -41,7 +41,7 @@ double TabularCap::bulk_modulus(const CapState& state, double pressure) const
       [&](const auto& model) {
         return parameters_.elastic_update == ElasticUpdate::state
                    ? model.at(state.elastic_volumetric, state.plastic_volumetric).bulk_modulus
-                   : model.bulk_modulus_at_pressure(pressure, state.plastic_volumetric);
+                   : model.rate_modulus(pressure, state.elastic_volumetric, state.plastic_volumetric);
       },
       parameters_.modulus);
 }
@@ -57,7 +57,8 @@ CapState TabularCap::state_at_pressure(double pressure, double plastic_volumetri
 {
   return std::visit(
       [&](const auto& model) {
-        return CapState{model.elastic_volumetric_at(pressure, plastic_volumetric), plastic_volumetric, 0};
+        return CapState{.elastic_volumetric = elastic_volumetric_at(model, pressure, plastic_volumetric),
+                        .plastic_volumetric = plastic_volumetric};
       },
       parameters_.modulus);
 }
@@ -100,45 +101,48 @@ template <int D>
 std::optional<UpdateFailure> update(const TabularCap& sand, std::span<const SymmetricTensor<D>> strain_increment,
                                     std::span<const CapState> state_old, std::span<SymmetricTensor<D>> stress,
                                     std::span<CapState> state, std::span<double> bulk_modulus,
-                                    std::span<double> plastic_work, SubstepCounts* counts)
+                                    std::span<double> plastic_work, UpdateCounts& counts)
 {
-  return std::visit(
-      [&]<class Model>(const Model& model) -> std::optional<UpdateFailure> {
-        const CapIntegrator<D, Model> integrator(sand, model);
-        SubstepCounts done;
-        std::optional<UpdateFailure> failure;
+  std::optional<UpdateFailure> first_failure;
+  const auto fail = [&](std::size_t i, const std::string& reason) {
+    if (!first_failure) first_failure = UpdateFailure{i, reason};
+    ++counts.failures;
+    state[i] = state_old[i];
+    ++state[i].n_failures;
+    bulk_modulus[i] = state[i].bulk_modulus > 0 ? state[i].bulk_modulus : sand.initial_bulk_modulus();
+    plastic_work[i] = 0;
+  };
+  std::visit(
+      [&]<class Model>(const Model& model) {
+        CapIntegrator<D, Model> integrator(sand, model);
         for (std::size_t i = 0; i < strain_increment.size(); ++i) {
           if (!sound<D>(strain_increment[i], stress[i], state_old[i])) {
-            failure = UpdateFailure{i, why_unsound<D>(strain_increment[i])};
-            break;
+            fail(i, why_unsound<D>(strain_increment[i]));
+            continue;
           }
-          const CapParticle<D> now =
-              integrator.advance(integrator.start(stress[i], state_old[i]), strain_increment[i], done);
+          const CapParticle<D> now = integrator.advance(stress[i], state_old[i], strain_increment[i]);
           if (!now.returned) {
-            failure = UpdateFailure{i, "no stress on the yield surface was found"};
-            break;
+            fail(i, "no stress on the yield surface was found");
+            continue;
           }
+          bulk_modulus[i] = now.state.bulk_modulus;
           stress[i] = now.deviator - isotropic<n_symmetric<D>>(now.pressure);
           state[i] = now.state;
-          bulk_modulus[i] = now.bulk_modulus;
           plastic_work[i] = now.plastic_work;
         }
-        if (counts) {
-          counts->substeps += done.substeps;
-          counts->limited += done.limited;
-        }
-        return failure;
+        counts.add(integrator.counts());
       },
       sand.parameters().modulus);
+  return first_failure;
 }
 
 template std::optional<UpdateFailure> update<2>(const TabularCap&, std::span<const SymmetricTensor<2>>,
                                                 std::span<const CapState>, std::span<SymmetricTensor<2>>,
                                                 std::span<CapState>, std::span<double>, std::span<double>,
-                                                SubstepCounts*);
+                                                UpdateCounts&);
 template std::optional<UpdateFailure> update<3>(const TabularCap&, std::span<const SymmetricTensor<3>>,
                                                 std::span<const CapState>, std::span<SymmetricTensor<3>>,
                                                 std::span<CapState>, std::span<double>, std::span<double>,
-                                                SubstepCounts*);
+                                                UpdateCounts&);
 
 }  // namespace tamp::components

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <span>
 
@@ -26,6 +27,8 @@ struct CapState {
   double elastic_volumetric = 0;  ///< compression positive
   double plastic_volumetric = 0;  ///< compression positive
   double equivalent_plastic = 0;  ///< sum of sqrt(2/3 de:de), e the plastic strain's deviator
+  double bulk_modulus = 0;        ///< that the last update ended with; 0 before the first
+  std::int64_t n_failures = 0;    ///< updates that failed, and left stress and strains as they were
 };
 
 struct TabularCapParameters {
@@ -73,29 +76,42 @@ class TabularCap
   double shear_ratio_;
 };
 
-/// What the accuracy of a batch has cost.
-struct SubstepCounts {
-  std::size_t substeps = 0;  ///< taken, the whole increment counting as one
-  std::size_t limited = 0;   ///< of those, accepted with an estimated error beyond the tolerance
+/// What a batch has cost, and what was out of the ordinary in it.
+struct UpdateCounts {
+  std::size_t substeps = 0;             ///< taken, a whole increment counting as one
+  std::size_t split_updates = 0;        ///< that took more than one substep
+  std::size_t limited_substeps = 0;     ///< accepted with an estimated error beyond the tolerance
+  std::size_t modulus_evaluations = 0;  ///< of the elastic model
+  std::size_t extrapolated = 0;         ///< updates that ended outside the range that the elastic model was made for
+  std::size_t failures = 0;             ///< updates that found no stress
+
+  void add(const UpdateCounts& other)
+  {
+    substeps += other.substeps;
+    split_updates += other.split_updates;
+    limited_substeps += other.limited_substeps;
+    modulus_evaluations += other.modulus_evaluations;
+    extrapolated += other.extrapolated;
+    failures += other.failures;
+  }
 };
 
 /// Advances a batch of particles by one strain increment each (spans of equal length, all in the frame that turns with
 /// the material).
 ///  - `stress` holds the old stress, already rotated to the end-of-step frame, and is replaced by the new. In state
-///  form
-///    its mean is that of the old state: only its deviator is read.
+///    form its mean must be that of the old state.
 ///  - `state` receives the new states; it may be the same memory as `state_old`.
-///  - `bulk_modulus` receives the tangent at the new state.
+///  - `bulk_modulus` receives the tangent: in state form of the new state, in rate form of the last substep's middle.
 ///  - `plastic_work` receives the work of the mean of old and new stress on the step's plastic strain, J per m3 of
 ///    current volume; in a step so large that it reverses the stress it can be negative.
 /// A large increment is cut into substeps so that the estimated stress error stays within the tolerance; none is
 /// smaller than the increment over `max_substeps`, and one of that size is taken whatever its error, and counted. An
-/// increment larger than 0.2 is refused. The first particle that cannot be updated ends the batch: those before it are
-/// done, its own outputs are as they were. `counts`, where given, is added to.
+/// increment larger than 0.2 is refused. A particle that cannot be updated keeps its stress and strains, and is marked
+/// in its state and counted; the answer is the first of them. `counts` is added to.
 template <int D>
 std::optional<UpdateFailure> update(const TabularCap& sand, std::span<const SymmetricTensor<D>> strain_increment,
                                     std::span<const CapState> state_old, std::span<SymmetricTensor<D>> stress,
                                     std::span<CapState> state, std::span<double> bulk_modulus,
-                                    std::span<double> plastic_work, SubstepCounts* counts = nullptr);
+                                    std::span<double> plastic_work, UpdateCounts& counts);
 
 }  // namespace tamp::components

@@ -44,7 +44,7 @@ UnloadingTable::UnloadingTable(std::span<const double> plastic, std::span<const 
   extend_curves();
   check_curves_do_not_cross();
   make_surface_grid();
-  make_modulus_grid();
+  pressure_modulus_.emplace(curve_plastic_, measured_);
 }
 
 void UnloadingTable::read_curves(std::span<const double> plastic, std::span<const double> elastic,
@@ -206,10 +206,12 @@ void UnloadingTable::make_surface_grid()
   }
 }
 
-void UnloadingTable::at(std::span<const double> elastic, std::span<const double> plastic,
-                        std::span<ElasticPoint> points) const
+bool UnloadingTable::in_range(double elastic, double plastic) const
 {
-  for (std::size_t i = 0; i < points.size(); ++i) points[i] = at(elastic[i], plastic[i]);
+  if (!(elastic >= least_elastic && plastic >= 0 && plastic <= curve_plastic_.back())) return false;
+  const std::size_t k = curve_below(plastic);
+  const double s = (plastic - curve_plastic_[k]) / (curve_plastic_[k + 1] - curve_plastic_[k]);
+  return elastic <= (1 - s) * measured_[k].y().back() + s * measured_[k + 1].y().back();
 }
 
 ElasticPoint UnloadingTable::defined_at(double elastic, double plastic) const
@@ -228,48 +230,6 @@ ElasticPoint UnloadingTable::defined_at(double elastic, double plastic) const
   const double modulus = (p + dp - from) / (strain_at(p + dp, ep).elastic - strain_at(from, ep).elastic);
   const double coupling = plastic == ep ? -strain_at(p, ep).by_plastic * modulus : 0;
   return {p + modulus * (elastic - ee), modulus, coupling};
-}
-
-double UnloadingTable::elastic_volumetric_at(double pressure, double plastic) const
-{
-  const ElasticPoint unstrained = at(0, plastic);
-  if (pressure <= 0) return pressure / unstrained.bulk_modulus;
-  const ElasticPoint end = at(last_elastic_, plastic);
-  if (pressure >= end.pressure) return last_elastic_ + (pressure - end.pressure) / end.bulk_modulus;
-  double low = 0, high = last_elastic_;
-  double e = std::min(pressure / unstrained.bulk_modulus, high);
-  for (int i = 0; i < 100; ++i) {
-    const ElasticPoint point = at(e, plastic);
-    const double excess = point.pressure - pressure;
-    (excess < 0 ? low : high) = e;
-    if (std::abs(excess) <= 1e-14 * pressure) break;
-    const double newton = e - excess / point.bulk_modulus;
-    const double next = newton > low && newton < high ? newton : 0.5 * (low + high);
-    if (next == e) break;
-    e = next;
-  }
-  return e;
-}
-
-void UnloadingTable::make_modulus_grid()
-{
-  pressure_shift_ = last_pressure_ / 4096;
-  first_octave_cell_ = octave_cell(pressure_shift_).number;
-  // The first node lies at or below pressure zero, where a curve is straight.
-  const std::size_t n_cells = octave_cell(last_pressure_ + pressure_shift_).number - first_octave_cell_ + 1;
-  for (std::size_t cell = 0; cell <= n_cells; ++cell) {
-    const std::uint64_t bits = static_cast<std::uint64_t>(first_octave_cell_ + cell) << place_bits;
-    const double p = std::bit_cast<double>(bits) - pressure_shift_;
-    for (const MonotoneCubic& curve : measured_) modulus_.push_back(1 / curve.at(p).slope);
-  }
-}
-
-void UnloadingTable::bulk_modulus_at_pressure(std::span<const double> pressure, std::span<const double> plastic,
-                                              std::span<double> bulk_modulus) const
-{
-  for (std::size_t i = 0; i < bulk_modulus.size(); ++i) {
-    bulk_modulus[i] = bulk_modulus_at_pressure(pressure[i], plastic[i]);
-  }
 }
 
 }  // namespace tamp::components

@@ -1,23 +1,17 @@
 #pragma once
 
 #include <algorithm>
-#include <bit>
 #include <cstddef>
-#include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
 #include "components/materials/monotone_cubic.hpp"
+#include "components/moduli/elastic_model.hpp"
+#include "components/moduli/pressure_modulus.hpp"
 
 namespace tamp::components
 {
-
-/// What an elastic model says of one state. Pascal; compression positive.
-struct ElasticPoint {
-  double pressure;
-  double bulk_modulus;  ///< d pressure / d elastic volumetric strain
-  double coupling;      ///< d pressure / d plastic volumetric strain, at the same elastic strain
-};
 
 /// Pressure and bulk modulus of a sand from its measured unloading curves, each of which starts from its own plastic
 /// strain. All strains are volumetric; strains and pressures are compression positive.
@@ -27,9 +21,7 @@ struct ElasticPoint {
 ///    interpolated in the plastic strain by a monotone cubic. Total strain then always rises with plastic strain at
 ///    equal pressure, that is, bulk_modulus > coupling, so plastic compaction at fixed total strain always relieves
 ///    pressure, and a return mapping has one answer.
-///  - rate form, `bulk_modulus_at_pressure`: bulk modulus as a function of pressure along each curve, constant beyond
-///    the curve's ends, linear in plastic strain between curves: the report's Table model (Banerjee, Brannon, Fox,
-///    Regueiro 2021, PAR-10021867-092020-6).
+///  - rate form, `rate_modulus`: bulk modulus as a function of pressure, see PressureModulus: the report's Table model.
 ///
 /// Below the first curve's plastic strain its shape is kept (as the report's tables do), negative plastic strain counts
 /// as zero, and beyond the last curve the last is kept. In tension the pressure goes on straight with the modulus at
@@ -47,64 +39,35 @@ class UnloadingTable
   UnloadingTable(std::span<const double> plastic_volumetric, std::span<const double> elastic_volumetric,
                  std::span<const double> pressure);
 
-  /// State form, for one state.
   ElasticPoint at(double elastic_volumetric, double plastic_volumetric) const
   {
-    const double ep = std::min(std::max(plastic_volumetric, 0.0), curve_plastic_.back());
-    const std::size_t k = curve_below(ep);
-    const double line = (ep - curve_plastic_[k]) * lines_per_strain_[k];
-    const std::size_t j = std::min(static_cast<std::size_t>(line), n_lines_a_curve - 1);
-
-    const double ee = std::min(std::max(elastic_volumetric, 0.0), last_elastic_);
-    const double cell = ee * elastic_per_spacing_;
-    const std::size_t i = std::min(static_cast<std::size_t>(cell), n_elastic_ - 2);
-
-    const Node* const low = &nodes_[(k * n_lines_a_curve + j) * n_elastic_ + i];
-    const Node* const high = low + n_elastic_;
-    const Across across(line - static_cast<double>(j), lines_per_strain_[k]);
-    const Node left = across(low[0], high[0]), right = across(low[1], high[1]);
-
-    const double t = cell - static_cast<double>(i);
-    const CubicValue p = cubic(1, left.pressure, left.by_elastic, right.pressure, right.by_elastic, t);
-    const CubicValue c =
-        cubic(1, left.coupling, left.coupling_by_elastic, right.coupling, right.coupling_by_elastic, t);
-    // Not zero in tension and beyond the grid's end: straight on.
-    const double beyond = (elastic_volumetric - ee) * elastic_per_spacing_;
-    const bool held = plastic_volumetric != ep;
-    return {p.value + p.slope * beyond, p.slope * elastic_per_spacing_, held ? 0 : c.value + c.slope * beyond};
+    const Located here = locate(elastic_volumetric, plastic_volumetric);
+    const CubicValue &p = here.pressure, &c = here.coupling;
+    // `beyond` is not zero in tension and beyond the grid's end: straight on.
+    return {p.value + p.slope * here.beyond, p.slope * elastic_per_spacing_,
+            here.held ? 0 : c.value + c.slope * here.beyond};
   }
 
-  /// State form, for a batch: spans of equal length.
-  void at(std::span<const double> elastic_volumetric, std::span<const double> plastic_volumetric,
-          std::span<ElasticPoint> points) const;
-
-  /// Rate form, for one state.
-  double bulk_modulus_at_pressure(double pressure, double plastic_volumetric) const
+  double rate_modulus(double pressure, double /*elastic*/, double plastic_volumetric) const
   {
-    const double shifted = std::min(std::max(pressure, 0.0), last_pressure_) + pressure_shift_;
-    const OctaveCell cell = octave_cell(shifted);
-    const double ep = std::min(std::max(plastic_volumetric, 0.0), curve_plastic_.back());
-    const std::size_t k = curve_below(ep);
-    const double s = (ep - curve_plastic_[k]) * lines_per_strain_[k] * (1.0 / n_lines_a_curve);
+    return pressure_modulus()(pressure, plastic_volumetric);
+  }
+  const PressureModulus& pressure_modulus() const { return *pressure_modulus_; }
 
-    const std::size_t n_curves = curve_plastic_.size();
-    const double* const low = &modulus_[(cell.number - first_octave_cell_) * n_curves + k];
-    const double* const high = low + n_curves;
-    const double at_low = low[0] + s * (low[1] - low[0]), at_high = high[0] + s * (high[1] - high[0]);
-    return at_low + cell.fraction * (at_high - at_low);
+  double modulus_by_plastic(double elastic_volumetric, double plastic_volumetric) const
+  {
+    const Located here = locate(elastic_volumetric, plastic_volumetric);
+    return here.held ? 0 : here.coupling.slope * elastic_per_spacing_;
   }
 
-  /// Rate form, for a batch: spans of equal length.
-  void bulk_modulus_at_pressure(std::span<const double> pressure, std::span<const double> plastic_volumetric,
-                                std::span<double> bulk_modulus) const;
-
-  /// The elastic strain at which the state form has this pressure.
-  double elastic_volumetric_at(double pressure, double plastic_volumetric) const;
+  /// On or between the measured curves: not beyond their ends, and no more than 0.1 % in tension, which was not
+  /// measured.
+  bool in_range(double elastic_volumetric, double plastic_volumetric) const;
+  /// Of the surface, up to the end of the longest curve.
+  StrainRange range() const { return {least_elastic, last_elastic_, 0, curve_plastic_.back()}; }
 
   /// The smallest modulus of the surface, from the grid's nodes and half way between them; positive.
   double least_bulk_modulus() const { return least_bulk_modulus_; }
-  double last_plastic_volumetric() const { return curve_plastic_.back(); }
-  double last_elastic_volumetric() const { return last_elastic_; }
 
   /// The surface by its definition, without the grid: slow, and the reference that tests compare `at` with.
   ElasticPoint defined_at(double elastic_volumetric, double plastic_volumetric) const;
@@ -114,13 +77,15 @@ class UnloadingTable
   void extend_curves();
   void check_curves_do_not_cross() const;
   void make_surface_grid();
-  void make_modulus_grid();
 
   /// Elastic strain at a pressure, and its derivatives, by the definition.
   struct StrainAtPressure {
     double elastic, by_plastic;
   };
   StrainAtPressure strain_at(double pressure, double plastic) const;
+
+  static constexpr double least_elastic = -1e-3;
+
   // One entry a curve, the first for plastic strain zero; curves are elastic strain of pressure.
   std::vector<double> curve_plastic_;
   std::vector<std::ptrdiff_t> curve_row_;
@@ -169,6 +134,35 @@ class UnloadingTable
                   high_change * b.coupling_by_elastic};
     }
   };
+
+  /// Cubics in the elastic strain, per spacing, at one plastic strain, which is `held` where it is outside the curves'.
+  struct Located {
+    CubicValue pressure, coupling;
+    double beyond;  // spacings outside the grid
+    bool held;
+  };
+  Located locate(double elastic_volumetric, double plastic_volumetric) const
+  {
+    const double ep = std::min(std::max(plastic_volumetric, 0.0), curve_plastic_.back());
+    const std::size_t k = curve_below(ep);
+    const double line = (ep - curve_plastic_[k]) * lines_per_strain_[k];
+    const std::size_t j = std::min(static_cast<std::size_t>(line), n_lines_a_curve - 1);
+
+    const double ee = std::min(std::max(elastic_volumetric, 0.0), last_elastic_);
+    const double cell = ee * elastic_per_spacing_;
+    const std::size_t i = std::min(static_cast<std::size_t>(cell), n_elastic_ - 2);
+
+    const Node* const low = &nodes_[(k * n_lines_a_curve + j) * n_elastic_ + i];
+    const Node* const high = low + n_elastic_;
+    const Across across(line - static_cast<double>(j), lines_per_strain_[k]);
+    const Node left = across(low[0], high[0]), right = across(low[1], high[1]);
+
+    const double t = cell - static_cast<double>(i);
+    return {cubic(1, left.pressure, left.by_elastic, right.pressure, right.by_elastic, t),
+            cubic(1, left.coupling, left.coupling_by_elastic, right.coupling, right.coupling_by_elastic, t),
+            (elastic_volumetric - ee) * elastic_per_spacing_, plastic_volumetric != ep};
+  }
+
   std::vector<Node> nodes_;
   std::size_t n_elastic_ = 0;  // nodes a line
   double last_elastic_ = 0;
@@ -176,24 +170,7 @@ class UnloadingTable
   std::vector<double> lines_per_strain_;
   double least_bulk_modulus_ = 0;
 
-  // Rate form: [pressure node][curve], pressure nodes evenly spaced in each octave of (pressure + shift): the leading
-  // bits of that number are the cell, the others the place in it.
-  static constexpr int octave_bits = 6;  // 64 cells in each octave
-  static constexpr int place_bits = 52 - octave_bits;
-  struct OctaveCell {
-    std::size_t number;
-    double fraction;
-  };
-  static OctaveCell octave_cell(double shifted_pressure)
-  {
-    const auto bits = std::bit_cast<std::uint64_t>(shifted_pressure);
-    const std::uint64_t place = bits & ((std::uint64_t{1} << place_bits) - 1);
-    return {static_cast<std::size_t>(bits >> place_bits),
-            static_cast<double>(place) * (1.0 / static_cast<double>(std::uint64_t{1} << place_bits))};
-  }
-  std::vector<double> modulus_;
-  double pressure_shift_ = 0;
-  std::size_t first_octave_cell_ = 0;
+  std::optional<PressureModulus> pressure_modulus_;
 };
 
 }  // namespace tamp::components

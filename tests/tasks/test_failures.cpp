@@ -1,10 +1,12 @@
 #include <catch2/catch.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 #include <string>
 
 #include "tasks/simulation_error.hpp"
+#include "tests/components/materials/concrete_sand.hpp"
 #include "tests/tasks/scenes.hpp"
 
 using namespace tamp;
@@ -124,4 +126,59 @@ TEST_CASE("a run goes on from the last good state after an error")
   CHECK(std::string(failure_of(*simulation, 1).what()) == first);
   // A step that is short enough succeeds.
   simulation->advance(simulation->time() * (1 + 1e-9));
+}
+
+namespace
+{
+
+/// A block of sand that is torn apart faster than a step can take.
+Scene torn_sand()
+{
+  Scene scene = empty_scene(2, {12, 12, 1}, 0.1);
+  scene.n_patches = {2, 1, 1};
+  const components::TabularCap sand = concrete_sand::sand(components::ElasticUpdate::state);
+  const double c = std::sqrt((sand.initial_bulk_modulus() + 4 * sand.initial_shear_modulus() / 3) / 1600);
+  scene.materials.push_back({"sand", 1600, sand});
+  scene.time.rule = StepRule::published;
+  scene.time.multiplier = 1;
+  add_box(scene, 0, {0.4, 0.4, 0}, {0.8, 0.8, 0}).velocity_field = [c](const Triple& x) {
+    return Triple{x[0] < 0.6 ? -0.5 * c : 0.5 * c, 0, 0};
+  };
+  return scene;
+}
+
+}  // namespace
+
+TEST_CASE("a stress update that fails ends the run with its particle's history, the same for any threads")
+{
+  std::vector<std::string> reasons;
+  for (int n_threads : {1, 2}) {
+    const auto simulation = Simulation::make(torn_sand(), n_threads);
+    reasons.emplace_back(failure_of(*simulation, 10).what());
+  }
+
+  CHECK(reasons[0] == reasons[1]);
+  CHECK(reasons[0].find("strain increment of size") != std::string::npos);
+  CHECK(reasons[0].find("1 of its updates have failed") != std::string::npos);
+  CHECK(reasons[0].find("0 are allowed") != std::string::npos);
+}
+
+TEST_CASE("updates that may fail are counted, and their particles marked")
+{
+  Scene scene = torn_sand();
+  scene.failed_updates_allowed = 1000;
+  const auto simulation = Simulation::make(scene, 2);
+
+  simulation->advance(1e30);
+
+  const std::size_t failures = simulation->totals().updates.failures;
+  CHECK(failures > 0);
+  const auto blocks = simulation->particle_columns();
+  const auto& columns = blocks[0].columns;
+  const auto marks =
+      std::find_if(columns.begin(), columns.end(), [](const auto& c) { return c.name == "failed_updates"; });
+  REQUIRE(marks != columns.end());
+  double marked = 0;
+  for (const double n : std::get<std::span<const double>>(marks->values)) marked += n;
+  CHECK(marked == static_cast<double>(failures));
 }

@@ -38,6 +38,7 @@ class SceneReader
     read_materials();
     read_bodies(dimension_is_good, grid_is_good);
     read_contacts();
+    scene_.failed_updates_allowed = root_.integer("failed_updates_allowed", 0, 1'000'000'000, 0);
     read_output();
     root_.finish();
     return std::move(scene_);

@@ -70,11 +70,12 @@ struct Sample {
   tamp::SymmetricTensor<D> stress = tamp::SymmetricTensor<D>::Zero();
   tamp::components::CapState state;
   double bulk_modulus = 0, plastic_work = 0;
+  tamp::components::UpdateCounts counts;
 
   void strain(const tamp::components::TabularCap& material, const tamp::SymmetricTensor<D>& increment)
   {
     const auto failure = tamp::components::update<D>(material, {&increment, 1}, {&state, 1}, {&stress, 1}, {&state, 1},
-                                                     {&bulk_modulus, 1}, {&plastic_work, 1});
+                                                     {&bulk_modulus, 1}, {&plastic_work, 1}, counts);
     if (failure) throw std::runtime_error(failure->reason);
   }
 

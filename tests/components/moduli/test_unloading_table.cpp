@@ -109,7 +109,7 @@ TEST_CASE("the elastic strain at a pressure gives that pressure back")
 
   for (double pressure : {-2e4, 0.0, 3e3, 1e5, 2e7, 6e8, 9e9}) {
     for (double plastic : {0.0, 0.15, 0.31}) {
-      const double elastic = table.elastic_volumetric_at(pressure, plastic);
+      const double elastic = elastic_volumetric_at(table, pressure, plastic);
       CHECK(table.at(elastic, plastic).pressure == Approx(pressure).epsilon(1e-12).margin(1e-6));
     }
   }
@@ -124,12 +124,12 @@ TEST_CASE("the modulus by pressure is the slope of the measured curve, and const
     if (rows[0][i - 1] != rows[0][i + 1]) continue;
     const double below = (rows[2][i] - rows[2][i - 1]) / (rows[1][i] - rows[1][i - 1]);
     const double above = (rows[2][i + 1] - rows[2][i]) / (rows[1][i + 1] - rows[1][i]);
-    const double modulus = table.bulk_modulus_at_pressure(rows[2][i], rows[0][i]);
+    const double modulus = table.rate_modulus(rows[2][i], 0, rows[0][i]);
     REQUIRE(modulus > 0.995 * std::min(below, above));
     REQUIRE(modulus < 1.005 * std::max(below, above));
   }
-  CHECK(table.bulk_modulus_at_pressure(1e9, 0.05) == Approx(table.bulk_modulus_at_pressure(1.7e7, 0.05)).epsilon(1e-3));
-  CHECK(table.bulk_modulus_at_pressure(-1e6, 0.2) == table.bulk_modulus_at_pressure(0, 0.2));
+  CHECK(table.rate_modulus(1e9, 0, 0.05) == Approx(table.rate_modulus(1.7e7, 0, 0.05)).epsilon(1e-3));
+  CHECK(table.rate_modulus(-1e6, 0, 0.2) == table.rate_modulus(0, 0, 0.2));
 }
 
 TEST_CASE("a batch of states gives bitwise what each state gives alone")
@@ -139,13 +139,13 @@ TEST_CASE("a batch of states gives bitwise what each state gives alone")
   std::vector<ElasticPoint> points(4);
   std::vector<double> moduli(4);
 
-  table.at(elastic, plastic, points);
-  table.bulk_modulus_at_pressure(pressure, plastic, moduli);
+  evaluate<UnloadingTable>(table, elastic, plastic, points);
+  evaluate_rate<UnloadingTable>(table, pressure, elastic, plastic, moduli);
 
   for (std::size_t i = 0; i < 4; ++i) {
     CHECK(points[i].pressure == table.at(elastic[i], plastic[i]).pressure);
     CHECK(points[i].coupling == table.at(elastic[i], plastic[i]).coupling);
-    CHECK(moduli[i] == table.bulk_modulus_at_pressure(pressure[i], plastic[i]));
+    CHECK(moduli[i] == table.rate_modulus(pressure[i], 0, plastic[i]));
   }
 }
 
@@ -159,4 +159,28 @@ TEST_CASE("unloading curves that are out of order, do not start at zero, or cros
   const BadValue crossing = refusal({0, 0, 0, .1, .1, .1}, {0, .1, .2, 0, .005, .01}, {0, 1, 2, 0, 1, 2});
   CHECK(crossing.row == 3);
   CHECK(crossing.expected == "more total strain on the curve of more plastic strain");
+}
+
+TEST_CASE("the modulus' derivative by plastic strain is that of the surface")
+{
+  const UnloadingTable& table = concrete_sand::unloading();
+  const double h = 1e-7;
+
+  for (double plastic : {0.02, 0.1, 0.2, 0.31}) {
+    for (double elastic : {0.002, 0.02, 0.05}) {
+      const double change = table.at(elastic, plastic + h).bulk_modulus - table.at(elastic, plastic - h).bulk_modulus;
+      CHECK(table.modulus_by_plastic(elastic, plastic) == Approx(change / (2 * h)).epsilon(0.05).margin(1e9));
+    }
+  }
+}
+
+TEST_CASE("states beyond the measured curves are out of range")
+{
+  const UnloadingTable& table = concrete_sand::unloading();
+
+  CHECK(table.in_range(0.02, 0.05));
+  CHECK(table.in_range(0.13, 0.32));
+  CHECK_FALSE(table.in_range(0.13, 0.05));
+  CHECK_FALSE(table.in_range(0.01, 0.33));
+  CHECK_FALSE(table.in_range(-0.01, 0.1));
 }

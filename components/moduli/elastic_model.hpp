@@ -1,0 +1,98 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <concepts>
+#include <cstddef>
+#include <span>
+
+namespace tamp::components
+{
+
+/// What an elastic model says of one state. Pascal; compression positive.
+struct ElasticPoint {
+  double pressure;
+  double bulk_modulus;  ///< K = d pressure / d elastic volumetric strain, positive
+  double coupling;      ///< d pressure / d plastic volumetric strain, at the same elastic strain
+};
+
+/// The elastic volumetric strains (logarithmic, compression positive) that a model was made for, and the plastic ones.
+/// What a model answers outside is its own stated extrapolation: continuous, with K positive and bounded.
+struct StrainRange {
+  double least_elastic, most_elastic;
+  double least_plastic, most_plastic;
+
+  bool contains(double elastic, double plastic) const
+  {
+    return elastic >= least_elastic && elastic <= most_elastic && plastic >= least_plastic && plastic <= most_plastic;
+  }
+};
+
+/// A model of the sand's elasticity, in two readings:
+///  - state form, `at`: pressure as a function of elastic and plastic volumetric strain;
+///  - rate form, `rate_modulus`: the K of dp = K d(elastic), which the published Table takes at the pressure, and the
+///    published SVR and MLP at the strains.
+/// `modulus_by_plastic` is dK/d(plastic) at the same elastic strain, in state form. `in_range` is false where the
+/// answer is an extrapolation; `range` is the box around all that the model was made for.
+template <class Model>
+concept ElasticModel = requires(const Model& model, double x)
+{
+  {
+    model.at(x, x)
+    } -> std::same_as<ElasticPoint>;
+  {
+    model.rate_modulus(x, x, x)
+    } -> std::same_as<double>;  // (pressure, elastic, plastic)
+  {
+    model.modulus_by_plastic(x, x)
+    } -> std::same_as<double>;
+  {
+    model.in_range(x, x)
+    } -> std::same_as<bool>;
+  {
+    model.range()
+    } -> std::same_as<StrainRange>;
+};
+
+/// The state form of a batch: spans of equal length.
+template <ElasticModel Model>
+void evaluate(const Model& model, std::span<const double> elastic, std::span<const double> plastic,
+              std::span<ElasticPoint> points)
+{
+  for (std::size_t i = 0; i < points.size(); ++i) points[i] = model.at(elastic[i], plastic[i]);
+}
+
+/// The rate form of a batch: spans of equal length.
+template <ElasticModel Model>
+void evaluate_rate(const Model& model, std::span<const double> pressure, std::span<const double> elastic,
+                   std::span<const double> plastic, std::span<double> bulk_modulus)
+{
+  for (std::size_t i = 0; i < bulk_modulus.size(); ++i) {
+    bulk_modulus[i] = model.rate_modulus(pressure[i], elastic[i], plastic[i]);
+  }
+}
+
+/// The elastic strain at which the state form has this pressure.
+template <ElasticModel Model>
+double elastic_volumetric_at(const Model& model, double pressure, double plastic)
+{
+  // Beyond the range the pressure goes on with a positive modulus, so that doubling finds a bracket.
+  double width = std::max(model.range().most_elastic, 1e-3);
+  double low = 0, high = 0;
+  while (model.at(high, plastic).pressure < pressure) high += width, width *= 2;
+  while (model.at(low, plastic).pressure > pressure) low -= width, width *= 2;
+  double e = 0.5 * (low + high);
+  for (int i = 0; i < 200 && low < high; ++i) {
+    const ElasticPoint point = model.at(e, plastic);
+    const double excess = point.pressure - pressure;
+    (excess < 0 ? low : high) = e;
+    if (std::abs(excess) <= 1e-14 * std::abs(pressure)) break;
+    const double newton = e - excess / point.bulk_modulus;
+    const double next = newton > low && newton < high ? newton : 0.5 * (low + high);
+    if (next == e) break;
+    e = next;
+  }
+  return e;
+}
+
+}  // namespace tamp::components

@@ -1,0 +1,88 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+
+#include "components/moduli/elastic_model.hpp"
+
+namespace tamp::components
+{
+
+/// The logarithmic volumetric strain -ln(J) of an engineering one, 1 - J, and back. Compression positive.
+inline double logarithmic_strain(double engineering)
+{
+  return -std::log1p(-engineering);
+}
+inline double engineering_strain(double logarithmic)
+{
+  return -std::expm1(-logarithmic);
+}
+
+/// A model that was fitted to engineering strains, asked in logarithmic ones. Total strain t = e + ep and plastic
+/// strain ep are converted; the model's elastic strain is their difference.
+template <ElasticModel Model>
+class EngineeringStrain
+{
+ public:
+  explicit EngineeringStrain(Model model) : model_(std::move(model)) {}
+
+  ElasticPoint at(double elastic, double plastic) const
+  {
+    const Measured m = measured(elastic, plastic);
+    const ElasticPoint point = model_.at(m.elastic, m.plastic);
+    return {point.pressure, point.bulk_modulus * m.total_rate,
+            point.bulk_modulus * (m.total_rate - m.plastic_rate) + point.coupling * m.plastic_rate};
+  }
+
+  double rate_modulus(double pressure, double elastic, double plastic) const
+  {
+    const Measured m = measured(elastic, plastic);
+    return model_.rate_modulus(pressure, m.elastic, m.plastic) * m.total_rate;
+  }
+
+  double modulus_by_plastic(double elastic, double plastic) const
+  {
+    // d/d(plastic) of K(m.elastic, m.plastic) total_rate; the model's dK/d(elastic) by a difference: for reports only.
+    const Measured m = measured(elastic, plastic);
+    constexpr double h = 1e-6;
+    const double by_elastic =
+        (model_.at(m.elastic + h, m.plastic).bulk_modulus - model_.at(m.elastic - h, m.plastic).bulk_modulus) / (2 * h);
+    const double along =
+        by_elastic * (m.total_rate - m.plastic_rate) + model_.modulus_by_plastic(m.elastic, m.plastic) * m.plastic_rate;
+    return (along - model_.at(m.elastic, m.plastic).bulk_modulus) * m.total_rate;
+  }
+
+  bool in_range(double elastic, double plastic) const
+  {
+    const Measured m = measured(elastic, plastic);
+    return model_.in_range(m.elastic, m.plastic);
+  }
+
+  /// Inside the model's: an elastic strain is longest in logarithms where there is plastic strain ahead of it.
+  StrainRange range() const
+  {
+    const StrainRange own = model_.range();
+    const double last = std::min(own.most_plastic, largest_engineering);
+    const auto total = [&](double elastic, double plastic) { return logarithmic_strain(elastic + plastic); };
+    return {total(own.least_elastic, own.least_plastic) - logarithmic_strain(own.least_plastic),
+            total(own.most_elastic, own.least_plastic) - logarithmic_strain(own.least_plastic),
+            logarithmic_strain(own.least_plastic), logarithmic_strain(last)};
+  }
+
+ private:
+  static constexpr double largest_engineering = 0.95;
+
+  struct Measured {
+    double elastic, plastic;          // engineering
+    double total_rate, plastic_rate;  // d(engineering) / d(logarithmic)
+  };
+  static Measured measured(double elastic, double plastic)
+  {
+    const double total_rate = std::exp(-(elastic + plastic)), plastic_rate = std::exp(-plastic);
+    return {plastic_rate - total_rate, 1 - plastic_rate, total_rate, plastic_rate};
+  }
+
+  Model model_;
+};
+
+}  // namespace tamp::components
