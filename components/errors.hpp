@@ -23,10 +23,26 @@ struct BadValue : std::runtime_error {
   std::ptrdiff_t row;
 };
 
-/// Why the stress of a particle could not be updated; `particle` is its place in the batch.
+/// Why the stress of a particle could not be updated.
+enum class UpdateFault { not_finite, too_large, no_return };
+
+inline const char* to_string(UpdateFault fault)
+{
+  switch (fault) {
+    case UpdateFault::not_finite:
+      return "its strain increment, stress or state is not finite";
+    case UpdateFault::too_large:
+      return "its strain increment in one step is larger than 0.2";
+    case UpdateFault::no_return:
+      return "no stress on the yield surface was found";
+  }
+  return "";
+}
+
+/// `particle` is its place in the batch.
 struct UpdateFailure {
   std::size_t particle;
-  std::string reason;
+  UpdateFault fault;
 };
 
 }  // namespace tamp::components

@@ -151,10 +151,11 @@ class SimulationOf : public Simulation
     const StepTotals& step = warehouse_.result(step_totals);
     const std::size_t failures = totals_.updates.failures + step.updates.failures;
     if (failures <= static_cast<std::size_t>(scene_.failed_updates_allowed)) return;
-    const FailedUpdate& failed = *step.failed;
-    throw SimulationError(fmt::format("{}; {} stress updates have failed, {} are allowed", failed.reason, failures,
+    const FailedUpdate& failed = step.failed;
+    throw SimulationError(fmt::format("{}; {} stress updates have failed, {} are allowed", failed.reason(), failures,
                                       scene_.failed_updates_allowed),
-                          failed.material, failed.particle, failed.position);
+                          scene_.materials[static_cast<std::size_t>(failed.material)].name, failed.particle,
+                          {failed.position.begin(), failed.position.begin() + D});
   }
 
   void take_totals()

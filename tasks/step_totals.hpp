@@ -5,10 +5,9 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
-#include <optional>
 #include <string>
-#include <vector>
 
+#include "components/errors.hpp"
 #include "components/materials/tabular_cap.hpp"
 
 namespace tamp::tasks
@@ -16,10 +15,16 @@ namespace tamp::tasks
 
 /// A particle whose stress could not be updated, and the state it was left in.
 struct FailedUpdate {
-  std::int64_t particle;
-  std::string material;
-  std::vector<double> position;  ///< m
-  std::string reason;            ///< with the particle's history variables
+  std::int64_t particle = -1;  ///< -1: none
+  int material = -1;
+  std::array<double, 3> position{};  ///< m
+  components::UpdateFault fault{};
+  components::CapState state;
+  double pressure = 0, q = 0;                                 ///< Pa, compression positive
+  double volumetric_increment = 0, deviatoric_increment = 0;  ///< of strain, refused; compression positive
+
+  /// With all of the above in words.
+  std::string reason() const;
 };
 
 /// Sums and bounds over all particles and nodes of one step.
@@ -34,7 +39,12 @@ struct StepTotals {
   /// Of all sand.
   components::UpdateCounts updates;
   /// Of those that failed, the one with the lowest id in the first step that had any.
-  std::optional<FailedUpdate> failed;
+  FailedUpdate failed;
+
+  void note(const FailedUpdate& other)
+  {
+    if (failed.particle < 0 || other.particle < failed.particle) failed = other;
+  }
 
   void combine(const StepTotals& other)
   {
@@ -44,7 +54,7 @@ struct StepTotals {
     viscous += other.viscous;
     contact += other.contact;
     updates.add(other.updates);
-    if (other.failed && !(failed && failed->particle <= other.failed->particle)) failed = other.failed;
+    if (other.failed.particle >= 0) note(other.failed);
   }
 };
 

@@ -1,5 +1,3 @@
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -101,18 +99,21 @@ void in_batches(const Method<Interpolator>& method, const TaskContext& at, const
   }
 }
 
-/// What is known of a particle that could not be updated.
 template <int D>
-std::string with_history(const std::string& reason, const CapState& state, const SymmetricTensor<D>& stress,
-                         const SymmetricTensor<D>& strain)
+FailedUpdate failed_update(std::int64_t id, int material, components::UpdateFault fault, const Vector<D>& position,
+                           const CapState& state, const SymmetricTensor<D>& stress, const SymmetricTensor<D>& strain)
 {
-  const SymmetricTensor<D> s = deviator(stress);
-  return fmt::format(
-      "{}; its stress stays p = {:.6g} Pa, q = {:.6g} Pa, its elastic and plastic volumetric strain {:.6g} and {:.6g} "
-      "(compression positive), the strain increment was {:.3g} of volume and {:.3g} of shape, and {} of its updates "
-      "have failed",
-      reason, -trace(stress) / 3, std::sqrt(1.5 * double_dot(s, s)), state.elastic_volumetric, state.plastic_volumetric,
-      -trace(strain), std::sqrt(double_dot(deviator(strain), deviator(strain))), state.n_failures);
+  const SymmetricTensor<D> s = deviator(stress), e = deviator(strain);
+  FailedUpdate failed{.particle = id,
+                      .material = material,
+                      .fault = fault,
+                      .state = state,
+                      .pressure = -trace(stress) / 3,
+                      .q = std::sqrt(1.5 * double_dot(s, s)),
+                      .volumetric_increment = -trace(strain),
+                      .deviatoric_increment = std::sqrt(double_dot(e, e))};
+  std::copy(position.begin(), position.end(), failed.position.begin());
+  return failed;
 }
 
 /// What every material's task reads and makes.
@@ -168,12 +169,10 @@ runtime::TaskDeclaration update(const Method<Interpolator>& method, int group, c
                                                          stress.subspan(first, n), state.subspan(first, n),
                                                          std::span(answer.bulk_modulus).first(n),
                                                          std::span(answer.plastic_work).first(n), totals.updates);
-              if (!failure || totals.failed) return;
+              if (!failure) return;
               const std::size_t p = first + failure->particle;
-              totals.failed = FailedUpdate{id[p],
-                                           method.materials[static_cast<std::size_t>(at.group)].name,
-                                           {position[p].begin(), position[p].end()},
-                                           with_history<D>(failure->reason, state[p], stress[p], strain[p])};
+              totals.note(
+                  failed_update<D>(id[p], at.group, failure->fault, position[p], state[p], stress[p], strain[p]));
             });
       });
 }

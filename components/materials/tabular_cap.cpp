@@ -78,21 +78,16 @@ namespace
 /// A strain increment larger than this in one step is no step of a sound simulation, and is refused.
 constexpr double largest_increment = 0.2;
 
-/// Whether numbers can be updated at all. A sum is finite if its terms are (and one that overflows is no better).
+/// What makes an update impossible from the start. A sum is finite if its terms are (and one that overflows is no
+/// better).
 template <int D>
-bool sound(const SymmetricTensor<D>& strain, const SymmetricTensor<D>& stress, const CapState& state)
+std::optional<UpdateFault> fault_of(const SymmetricTensor<D>& strain, const SymmetricTensor<D>& stress,
+                                    const CapState& state)
 {
   const double sum = strain.sum() + stress.sum() + state.elastic_volumetric + state.plastic_volumetric;
-  return std::isfinite(sum) && double_dot(strain, strain) <= largest_increment * largest_increment;
-}
-
-template <int D>
-std::string why_unsound(const SymmetricTensor<D>& strain)
-{
-  const double size = std::sqrt(double_dot(strain, strain));
-  if (!(size > largest_increment)) return "its strain increment, stress or state is not finite";
-  return "a strain increment of size " + std::to_string(size) + " in one step, more than " +
-         std::to_string(largest_increment);
+  if (!std::isfinite(sum)) return UpdateFault::not_finite;
+  if (double_dot(strain, strain) > largest_increment * largest_increment) return UpdateFault::too_large;
+  return std::nullopt;
 }
 
 }  // namespace
@@ -104,8 +99,8 @@ std::optional<UpdateFailure> update(const TabularCap& sand, std::span<const Symm
                                     std::span<double> plastic_work, UpdateCounts& counts)
 {
   std::optional<UpdateFailure> first_failure;
-  const auto fail = [&](std::size_t i, const std::string& reason) {
-    if (!first_failure) first_failure = UpdateFailure{i, reason};
+  const auto fail = [&](std::size_t i, UpdateFault fault) {
+    if (!first_failure) first_failure = UpdateFailure{i, fault};
     ++counts.failures;
     state[i] = state_old[i];
     ++state[i].n_failures;
@@ -116,13 +111,13 @@ std::optional<UpdateFailure> update(const TabularCap& sand, std::span<const Symm
       [&]<class Model>(const Model& model) {
         CapIntegrator<D, Model> integrator(sand, model);
         for (std::size_t i = 0; i < strain_increment.size(); ++i) {
-          if (!sound<D>(strain_increment[i], stress[i], state_old[i])) {
-            fail(i, why_unsound<D>(strain_increment[i]));
+          if (const auto fault = fault_of<D>(strain_increment[i], stress[i], state_old[i])) {
+            fail(i, *fault);
             continue;
           }
           const CapParticle<D> now = integrator.advance(stress[i], state_old[i], strain_increment[i]);
           if (!now.returned) {
-            fail(i, "no stress on the yield surface was found");
+            fail(i, UpdateFault::no_return);
             continue;
           }
           bulk_modulus[i] = now.state.bulk_modulus;

@@ -158,7 +158,7 @@ TEST_CASE("a stress update that fails ends the run with its particle's history, 
   }
 
   CHECK(reasons[0] == reasons[1]);
-  CHECK(reasons[0].find("strain increment of size") != std::string::npos);
+  CHECK(reasons[0].find("strain increment in one step is larger") != std::string::npos);
   CHECK(reasons[0].find("1 of its updates have failed") != std::string::npos);
   CHECK(reasons[0].find("0 are allowed") != std::string::npos);
 }

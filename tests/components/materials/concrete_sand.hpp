@@ -76,7 +76,7 @@ struct Sample {
   {
     const auto failure = tamp::components::update<D>(material, {&increment, 1}, {&state, 1}, {&stress, 1}, {&state, 1},
                                                      {&bulk_modulus, 1}, {&plastic_work, 1}, counts);
-    if (failure) throw std::runtime_error(failure->reason);
+    if (failure) throw std::runtime_error(to_string(failure->fault));
   }
 
   void strain(const tamp::components::TabularCap& material, const tamp::SymmetricTensor<D>& total, int n_steps)

@@ -459,7 +459,7 @@ TEST_CASE("an increment that is no number is reported and marked, and only its p
 
   REQUIRE(failure);
   CHECK(failure->particle == 1);
-  CHECK(failure->reason.find("not finite") != std::string::npos);
+  CHECK(failure->fault == UpdateFault::not_finite);
   CHECK(state[0].elastic_volumetric > 0);
   CHECK(state[1].elastic_volumetric == 0);
   CHECK(state[1].n_failures == 1);
@@ -468,7 +468,7 @@ TEST_CASE("an increment that is no number is reported and marked, and only its p
   CHECK(counts.failures == 1);
 }
 
-TEST_CASE("an increment of half the sand's volume in one step is refused with its size")
+TEST_CASE("an increment of half the sand's volume in one step is refused")
 {
   std::vector<SymmetricTensor<3>> increment(1, compaction(0.5)), stress(1, SymmetricTensor<3>::Zero());
   std::vector<CapState> state(1);
@@ -478,7 +478,7 @@ TEST_CASE("an increment of half the sand's volume in one step is refused with it
   const auto failure = update<3>(state_sand(), increment, state, stress, state, modulus, work, counts);
 
   REQUIRE(failure);
-  CHECK(failure->reason.find("0.288") != std::string::npos);
+  CHECK(failure->fault == UpdateFault::too_large);
 }
 
 TEST_CASE("no sequence of random strains makes the update fail or leave the yield surface")
