@@ -29,11 +29,11 @@ struct StrainIncrement {
 /// of the positions is v dt with nothing left out (Banerjee, Brannon, Fox, Regueiro, PAR-10021867-092020-6, eqs 54-57).
 /// Row of g: component of velocity; column: direction of the gradient. det F_n must be above 0.
 ///
-/// Read at the middle of the step, the velocity gradient is l dt = g (I + g/2)^-1 with respect to the particle's shape
-/// there. Its symmetric part vanishes for every rigid rotation, however large the step (T. J. R. Hughes and J. Winget,
-/// Finite rotation effects in numerical integration of rate constitutive equations arising in large-deformation
-/// analysis, Int. J. Numer. Meth. Eng. 15, 1980), and it is second order in dt otherwise. It belongs to the frame of
-/// R_{n+1/2}, the rotation of (I + g/2) F_n, and is turned from there to the end of the step.
+/// Freed of the rotations of its two ends, f is the stretching S = R_{n+1}^T f R_n = U_{n+1} U_n^-1. Its rate, read at
+/// the middle of the step, is 2 (S - I) (S + I)^-1; the strain increment is the symmetric part of that, turned to the
+/// end of the step. A rotation laid over the motion, however large and however fast, leaves S as it is: the increment
+/// is objective to round-off, and second order in dt. (With the rate of f itself at mid-step, as T. J. R. Hughes and J.
+/// Winget have it, Int. J. Numer. Meth. Eng. 15, 1980, it would be objective for rigid motions only.)
 template <int D>
 StrainIncrement<D> strain_increment(const Matrix<D>& deformation_gradient, const Matrix<D>& g)
 {
@@ -43,11 +43,13 @@ StrainIncrement<D> strain_increment(const Matrix<D>& deformation_gradient, const
                           f_mid.determinant()};
   if (!step.admissible()) return step;
 
-  const Matrix<D> mid_deformation_gradient = f_mid * deformation_gradient;
-  const Matrix<D> rotation = polar_rotation(step.deformation_gradient);
-  step.rotation_increment = rotation * polar_rotation(deformation_gradient).transpose();
-  const Matrix<D> from_mid_step = rotation * polar_rotation(mid_deformation_gradient).transpose();
-  step.strain_increment = rotated<D>(symmetric_part<D>(g * f_mid.inverse()), from_mid_step);
+  const Matrix<D> rotation = polar_rotation(step.deformation_gradient),
+                  old_rotation = polar_rotation(deformation_gradient);
+  step.rotation_increment = rotation * old_rotation.transpose();
+  // f without the rotations of its two ends: U_{n+1} U_n^-1.
+  const Matrix<D> stretching = rotation.transpose() * f * old_rotation;
+  const Matrix<D> rate = 2 * (stretching - identity) * (stretching + identity).inverse();
+  step.strain_increment = rotated<D>(symmetric_part<D>(rate), rotation);
   return step;
 }
 

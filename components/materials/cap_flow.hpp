@@ -32,6 +32,7 @@ DeviatoricTrial deviatoric_trial(const Eigen::Matrix<double, Size, 1>& s, const 
 /// the rate it starts with.
 struct FlowStart {
   double fraction = 0;  ///< of the step, elastic
+  double pressure = 0;  ///< there
   double sqrt_j2 = 0;   ///< there
   SurfaceNormal normal{};
   double multiplier = 0;          ///< half the flow: dl; zero where it does not load
@@ -80,10 +81,15 @@ inline FlowStart flow_start(const YieldSurface& surface, double pressure, double
   const YieldSurface::Strength g = surface.strength(p);
   const YieldSurface::Cap cap = surface.cap(p, crush_pressure);
   const SurfaceNormal normal{cap_slope_sine(g.value, g.slope, cap), cap.sine};
-  FlowStart start{fraction, deviatoric.sqrt_j2(fraction * shear), normal};
+  FlowStart start{fraction, p, deviatoric.sqrt_j2(fraction * shear), normal};
   // A deviator of nothing but round-off has no direction.
   const bool sheared = start.sqrt_j2 > cap_return::no_shear * crush_pressure;
   if (!(g.segment && sheared && cap.sine > 0)) return start;
+  if (const auto slopes = surface.slopes_at_kink(p)) {
+    // Which of the two normals counts would be for round-off to say.
+    start.normal.slope_sine = cap_slope_sine(g.value, 0.5 * (slopes->first + slopes->second), cap);
+    return start;
+  }
 
   const double r = surface.cap_ellipticity(), slope = normal.slope_sine, sine = normal.sine;
   const double turned = deviatoric.mixed + 4 * fraction * shear * deviatoric.increment_j2;  // s:e there
@@ -114,7 +120,10 @@ inline double flow_error(const FlowStart& start, const ReturnPoint& point, doubl
   const auto length = [&](double volumetric, double deviatoric) {
     return std::sqrt(bulk * volumetric * volumetric + shear * deviatoric * deviatoric);
   };
-  const SurfaceNormal &a = start.normal, &b = point.normal;
+  const SurfaceNormal& a = start.normal;
+  // That of the flow itself, which on a kink of the envelope is neither side's.
+  SurfaceNormal b = point.normal;
+  if (point.multiplier > 0) b.slope_sine = -point.plastic_volumetric / point.multiplier * b.sine;
   const double product = bulk * a.slope_sine * b.slope_sine + shear * a.sine * b.sine * cosine;
   const double lengths = length(a.slope_sine, a.sine) * length(b.slope_sine, b.sine);
   const double turn = std::sqrt(std::max(2 - 2 * product / lengths, 0.0));

@@ -221,7 +221,7 @@ class CapIntegrator
       // At the vertex the surface has no one normal, and a return alone is exact.
       const ReturnPoint point = return_alone(path, deviatoric, whole, trial);
       if (point.status == ReturnStatus::tension_vertex) {
-        return after(old, e, compaction, deviatoric, {}, old.deviator, Tensor::Zero(), point);
+        return after(old, e, compaction, deviatoric, {}, old.deviator, point);
       }
     }
     const double old_crush = crush_curve_(std::max(old.state.plastic_volumetric, 0.0));
@@ -232,12 +232,12 @@ class CapIntegrator
       const auto rest = path(deviatoric_trial(old.deviator, left), start.plastic_volumetric, start.plastic_volumetric);
       const ReturnPoint point = return_to_surface(yield_, rest, rest(0), start.guess);
       if (point.status == ReturnStatus::cone_or_cap) {
-        return after(old, left, compaction, deviatoric, start, along, plastic, point);
+        return after(old, left, compaction, deviatoric, start, along, point);
       }
       start.multiplier = start.plastic_volumetric = 0;
     }
     const ReturnPoint point = return_alone(path, deviatoric, whole, trial);
-    return after(old, e, compaction, deviatoric, start, along, Tensor::Zero(), point);
+    return after(old, e, compaction, deviatoric, start, along, point);
   }
 
   /// All the flow along the normal at the end. The rate form returns twice, to know the middle of the step.
@@ -262,10 +262,9 @@ class CapIntegrator
   }
 
   /// The end of a step that flowed: the stress deviator was `along` when that started, and `left` of the deviatoric
-  /// strain when `plastic_ahead` had been taken off it.
+  /// strain when the plastic strain ahead of the return had been taken off it.
   Particle after(const Particle& old, const Tensor& left, double compaction, const DeviatoricTrial& deviatoric,
-                 const FlowStart& start, const Tensor& along, const Tensor& plastic_ahead,
-                 const ReturnPoint& point) const
+                 const FlowStart& start, const Tensor& along, const ReturnPoint& point) const
   {
     const double d = start.plastic_volumetric + point.plastic_volumetric, trial = point.at.trial_sqrt_j2;
     const double multiplier = start.multiplier + point.multiplier;
@@ -276,17 +275,20 @@ class CapIntegrator
     now.state = {old.state.elastic_volumetric + compaction - d, old.state.plastic_volumetric + d,
                  old.state.equivalent_plastic + multiplier / std::numbers::sqrt3, point.at.bulk_modulus,
                  old.state.n_failures};
-    now.plastic_work = old.plastic_work + 0.5 * (old.pressure + now.pressure) * d;
-    if (multiplier > 0 && trial > 0) {
-      // The plastic strain's deviator is dl s / (2 sqrt(J2)).
-      const Tensor plastic = plastic_ahead + (0.5 * point.multiplier / trial) * trial_deviator;
-      now.plastic_work += 0.5 * double_dot(Tensor(old.deviator + now.deviator), plastic);
-    }
+    // Each half of the flow works at its own end of the step, where the stress is on the surface: that is never
+    // negative, as the surface is convex around zero. At the apex flow has one direction, and the mean pressure is more
+    // accurate.
+    const double flow_pressure =
+        point.status == ReturnStatus::apex ? 0.5 * (start.pressure + now.pressure) : now.pressure;
+    now.plastic_work = old.plastic_work + start.pressure * start.plastic_volumetric + start.sqrt_j2 * start.multiplier +
+                       flow_pressure * point.plastic_volumetric + point.sqrt_j2 * point.multiplier;
     const double scale = error_scale(old, now.pressure, point.sqrt_j2, point.at);
     double error = modulus_error(old, now.pressure, deviatoric, point.at);
     if (point.status == ReturnStatus::cone_or_cap) {
-      const double both = 2 * start.sqrt_j2 * trial;
-      error += flow_error(start, point, both > 0 ? double_dot(along, trial_deviator) / both : 1);
+      // A deviator of nothing but round-off has no direction.
+      const bool sheared = start.sqrt_j2 > cap_return::no_shear * point.at.crush_pressure && trial > 0;
+      const double cosine = sheared ? double_dot(along, trial_deviator) / (2 * start.sqrt_j2 * trial) : 1;
+      error += flow_error(start, point, cosine);
     }
     now.error = error / scale;
     now.returned = point.status != ReturnStatus::failed && std::isfinite(now.pressure + point.sqrt_j2 + now.error);

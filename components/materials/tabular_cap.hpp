@@ -102,8 +102,7 @@ struct UpdateCounts {
 ///    form its mean must be that of the old state.
 ///  - `state` receives the new states; it may be the same memory as `state_old`.
 ///  - `bulk_modulus` receives the tangent: in state form of the new state, in rate form of the last substep's middle.
-///  - `plastic_work` receives the work of the mean of old and new stress on the step's plastic strain, J per m3 of
-///    current volume; in a step so large that it reverses the stress it can be negative.
+///  - `plastic_work` receives the work on the step's plastic strain, J per m3 of current volume; it is not negative.
 /// A large increment is cut into substeps so that the estimated stress error stays within the tolerance; none is
 /// smaller than the increment over `max_substeps`, and one of that size is taken whatever its error, and counted. An
 /// increment larger than 0.2 is refused. A particle that cannot be updated keeps its stress and strains, and is marked

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <optional>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "components/materials/piecewise_linear.hpp"
@@ -36,6 +37,15 @@ class YieldSurface
     if (pressure < vertex_pressure_) return {0, hull_.slope_of_segment(0), std::nullopt};
     const PiecewiseLinear::Value g = hull_.at(pressure);
     return {g.value, g.slope, g.segment};
+  }
+
+  /// The slopes to the left and right of a kink of g, where the pressure is at one but for round-off.
+  std::optional<std::pair<double, double>> slopes_at_kink(double pressure) const
+  {
+    const double width = 1e-7 * std::abs(pressure);
+    const std::size_t left = hull_.at(pressure - width).segment, right = hull_.at(pressure + width).segment;
+    if (left == right) return std::nullopt;
+    return std::pair{hull_.slope_of_segment(left), hull_.slope_of_segment(right)};
   }
 
   /// The cap of one crush pressure. `sine` is Fc, 1 on the cone, 0 at and beyond the apex; `rho` is 0 on the cone.

@@ -33,7 +33,7 @@ struct StrainRange {
 ///  - rate form, `rate_modulus`: the K of dp = K d(elastic), which the published Table takes at the pressure, and the
 ///    published SVR and MLP at the strains.
 /// `modulus_by_plastic` is dK/d(plastic) at the same elastic strain, in state form. `in_range` is false where the
-/// answer is an extrapolation; `range` is the box around all that the model was made for.
+/// answer is an extrapolation; `range` is a rectangle on which it is none.
 template <class Model>
 concept ElasticModel = requires(const Model& model, double x)
 {

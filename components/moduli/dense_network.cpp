@@ -1,0 +1,341 @@
+#include "components/moduli/dense_network.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <numbers>
+#include <string>
+#include <type_traits>
+#include <utility>
+
+#include "components/errors.hpp"
+
+#ifdef __AVX512F__
+#  include <immintrin.h>
+#endif
+
+namespace tamp::components
+{
+
+namespace
+{
+
+#if defined(__AVX512F__)
+constexpr std::size_t register_bytes = 64;
+#elif defined(__AVX__)
+constexpr std::size_t register_bytes = 32;
+#else
+constexpr std::size_t register_bytes = 16;
+#endif
+
+/// Neurons that the processor takes at a time.
+using Pack [[gnu::vector_size(register_bytes), gnu::may_alias]] = double;
+using PackBits [[gnu::vector_size(register_bytes)]] = std::int64_t;
+
+constexpr std::size_t pack_size = register_bytes / sizeof(double);
+constexpr std::size_t block_packs = 8, block_size = pack_size * block_packs;
+constexpr std::size_t none = 64;  // the place of the first of no set bits
+constexpr std::size_t most_blocks = DenseNetwork::most_neurons / block_size;
+
+/// Rows of weights are padded to multiples of eight, the largest pack.
+constexpr std::size_t padded(std::size_t n)
+{
+  return (n + 7) / 8 * 8;
+}
+constexpr std::size_t packs_for(std::size_t n_neurons)
+{
+  return padded(n_neurons) / pack_size;
+}
+
+/// body(0), ..., body(n - 1), written out, so that arrays indexed by it can stay in registers.
+template <std::size_t n, class Body>
+inline void unrolled(const Body& body)
+{
+  [&]<std::size_t... i>(std::index_sequence<i...>)
+  {
+    (body(std::integral_constant<std::size_t, i>()), ...);
+  }
+  (std::make_index_sequence<n>());
+}
+
+/// sum += a b: fused, where the processor has it.
+inline void add_product(Pack& sum, double a, const Pack& b)
+{
+#ifdef __AVX512F__
+  sum = _mm512_fmadd_pd(_mm512_set1_pd(a), b, sum);
+#else
+  sum += a * b;
+#endif
+}
+
+/// Bit i is set where the i-th neuron is positive.
+inline std::uint64_t positive(const Pack& neurons)
+{
+#ifdef __AVX512F__
+  return _mm512_cmp_pd_mask(neurons, Pack{}, _CMP_GT_OQ);
+#else
+  std::uint64_t bits = 0;
+  for (std::size_t i = 0; i < pack_size; ++i) bits |= std::uint64_t{neurons[i] > 0} << i;
+  return bits;
+#endif
+}
+
+/// e^x to 1e-15 of it for |x| < 700, and held beyond: x = k ln 2 + r, and a series for r.
+inline void exponential(Pack& x)
+{
+  constexpr double limit = 700, ln2_high = 0x1.62e42fefap-1, ln2_low = 0x1.cf79abc9e3b39p-40;
+  constexpr double rounding = 0x1.8p52;  // beside it no fraction is left
+  x = x < -limit ? Pack{} - limit : x > limit ? Pack{} + limit : x;
+  const Pack k = (x * std::numbers::log2e + rounding) - rounding;
+  const Pack r = x - k * ln2_high - k * ln2_low;
+  Pack series = Pack{} + 1;
+  for (int term = 13; term > 0; --term) series = 1 + series * r * (1.0 / term);
+  const PackBits power_of_two = (__builtin_convertvector(k, PackBits) + 1023) << 52;
+  x = series * reinterpret_cast<const Pack&>(power_of_two);
+}
+
+/// Up to eight packs of a layer's neurons: the values and, for a gradient, the derivatives by both inputs. `active` has
+/// a bit for each that may be other than zero. In a relu layer that is less than half, and the rest is not multiplied
+/// by anything.
+template <std::size_t n_streams>
+struct alignas(64) Block {
+  double streams[n_streams][none + pack_size];  // [none] is zero
+  std::uint64_t active;
+
+  Pack& pack(std::size_t stream, std::size_t j) { return reinterpret_cast<Pack&>(streams[stream][j * pack_size]); }
+  const Pack& pack(std::size_t stream, std::size_t j) const
+  {
+    return reinterpret_cast<const Pack&>(streams[stream][j * pack_size]);
+  }
+};
+
+/// n packs of neurons before their activation.
+template <std::size_t n, std::size_t n_streams>
+struct Sums {
+  Pack packs[n_streams * n];
+};
+
+/// sums += inputs kernel. Since an addition waits for the one before, inputs go by turns to two sums if these are few.
+template <std::size_t n, std::size_t n_streams>
+inline void add_products(const Block<n_streams>& inputs, const Pack* kernel, std::size_t packs_per_row,
+                         Sums<n, n_streams>& sums)
+{
+  constexpr std::size_t n_turns = n_streams * n < 8 ? 2 : 1;
+  Sums<n, n_streams> by_turns[n_turns] = {sums};
+  std::uint64_t left = inputs.active;
+  while (left != 0) {
+    unrolled<n_turns>([&](auto turn) {
+      const auto i = static_cast<std::size_t>(std::countr_zero(left));
+      const Pack* const row = kernel + i % block_size * packs_per_row;
+      unrolled<n_streams * n>(
+          [&](auto k) { add_product(by_turns[turn].packs[k], inputs.streams[k / n][i], row[k % n]); });
+      left &= left - 1;
+    });
+  }
+  sums = by_turns[0];
+  if constexpr (n_turns == 2) unrolled<n_streams * n>([&](auto k) { sums.packs[k] += by_turns[1].packs[k]; });
+}
+
+template <std::size_t n, std::size_t n_streams>
+inline void rectify(const Sums<n, n_streams>& sums, Block<n_streams>& outputs)
+{
+  outputs.active = 0;
+  unrolled<n_streams * n>([&](auto k) {
+    outputs.pack(k / n, k % n) = sums.packs[k % n] > 0 ? sums.packs[k] : Pack{};
+    if (k < n) outputs.active |= positive(sums.packs[k]) << (k * pack_size);
+  });
+}
+
+/// Sigmoid or tanh of a block's j-th pack. tanh x = 2 sigmoid(2 x) - 1
+template <std::size_t n_streams>
+void bend(Activation activation, Block<n_streams>& block, std::size_t j)
+{
+  const double stretch = activation == Activation::tanh ? 2 : 1;
+  Pack power = -stretch * block.pack(0, j);
+  exponential(power);
+  const Pack sigmoid = 1 / (1 + power);
+  block.pack(0, j) = stretch * sigmoid - (stretch - 1);
+  for (std::size_t s = 1; s < n_streams; ++s) block.pack(s, j) *= stretch * stretch * sigmoid * (1 - sigmoid);
+}
+
+/// A layer's weights, from one pack of outputs on.
+struct LayerView {
+  Activation activation;
+  std::size_t n_inputs, n_outputs;
+  std::size_t packs_per_row;
+  const Pack* bias;
+  const Pack* kernel;
+};
+
+/// n packs of a layer's outputs.
+template <std::size_t n, std::size_t n_streams>
+inline void make_block(const LayerView& layer, const Block<n_streams>* inputs, Block<n_streams>& outputs)
+{
+  Sums<n, n_streams> sums{};
+  unrolled<n>([&](auto j) { sums.packs[j] = layer.bias[j]; });
+  for (std::size_t i = 0; i < layer.n_inputs; i += block_size) {
+    add_products(inputs[i / block_size], layer.kernel + i * layer.packs_per_row, layer.packs_per_row, sums);
+  }
+
+  for (auto& stream : outputs.streams) stream[none] = 0;
+  if (layer.activation == Activation::relu) return rectify(sums, outputs);
+  outputs.active = ~std::uint64_t{0} >> (64 - layer.n_outputs);
+  unrolled<n_streams * n>([&](auto k) { outputs.pack(k / n, k % n) = sums.packs[k]; });
+  if (layer.activation == Activation::linear) return;
+  for (std::size_t j = 0; j < n; ++j) bend(layer.activation, outputs, j);
+}
+
+template <std::size_t n_streams>
+inline void make_layer(LayerView layer, const Block<n_streams>* inputs, Block<n_streams>* outputs)
+{
+  for (std::size_t left = layer.n_outputs; left > 0; left -= layer.n_outputs) {
+    layer.n_outputs = std::min(left, block_size);
+    const std::size_t n = packs_for(layer.n_outputs);
+    unrolled<block_packs>([&](auto less_one) {
+      if (n == less_one + 1) make_block<less_one + 1>(layer, inputs, *outputs);
+    });
+    layer.bias += n;
+    layer.kernel += n;
+    ++outputs;
+  }
+}
+
+template <std::size_t n_streams>
+inline void set_inputs(double first, double second, Block<n_streams>& block)
+{
+  for (auto& stream : block.streams) {
+    std::fill_n(stream, padded(2), 0);
+    stream[none] = 0;
+  }
+  block.streams[0][0] = first;
+  block.streams[0][1] = second;
+  for (std::size_t s = 1; s < n_streams; ++s) block.streams[s][s - 1] = 1;
+  block.active = 3;
+}
+
+/// The sums of the neurons' products with a row of weights.
+template <std::size_t n_streams>
+inline std::array<double, n_streams> dot(const Block<n_streams>* neurons, std::size_t n, const Pack* row)
+{
+  Pack products[n_streams] = {};
+  for (std::size_t j = 0; j < packs_for(n); ++j) {
+    for (std::size_t s = 0; s < n_streams; ++s) {
+      products[s] += neurons[j / block_packs].pack(s, j % block_packs) * row[j];
+    }
+  }
+  std::array<double, n_streams> sums{};
+  for (std::size_t s = 0; s < n_streams; ++s) {
+    for (std::size_t i = 0; i < pack_size; ++i) sums[s] += products[s][i];
+  }
+  return sums;
+}
+
+struct Activated {
+  double value, slope;
+};
+inline Activated activated(Activation activation, double x)
+{
+  switch (activation) {
+    case Activation::relu:
+      return x > 0 ? Activated{x, 1} : Activated{0, 0};
+    case Activation::sigmoid: {
+      const double y = 1 / (1 + std::exp(-x));
+      return {y, y * (1 - y)};
+    }
+    case Activation::tanh: {
+      const double y = std::tanh(x);
+      return {y, 1 - y * y};
+    }
+    case Activation::linear:
+      break;
+  }
+  return {x, 1};
+}
+
+void check(const DenseLayer& layer, std::size_t n_inputs, std::ptrdiff_t row)
+{
+  const auto demand = [&](std::size_t found, std::size_t expected, const std::string& what) {
+    if (found != expected) {
+      throw BadValue("a layer with " + std::to_string(found) + " " + what, std::to_string(expected), row);
+    }
+  };
+  demand(layer.n_inputs, n_inputs, "inputs");
+  if (layer.n_outputs == 0 || layer.n_outputs > DenseNetwork::most_neurons) {
+    throw BadValue("a layer with " + std::to_string(layer.n_outputs) + " outputs",
+                   "1 to " + std::to_string(DenseNetwork::most_neurons), row);
+  }
+  demand(layer.kernel.size(), layer.n_inputs * layer.n_outputs, "weights in its kernel");
+  demand(layer.bias.size(), layer.n_outputs, "biases");
+  const auto finite = [](double x) { return std::isfinite(x); };
+  if (!std::ranges::all_of(layer.kernel, finite) || !std::ranges::all_of(layer.bias, finite)) {
+    throw BadValue("a weight or bias that is not finite", "finite numbers", row);
+  }
+}
+
+}  // namespace
+
+DenseNetwork::DenseNetwork(std::span<const DenseLayer> layers)
+{
+  if (layers.empty()) throw BadValue("a network without a layer", "at least one");
+  std::size_t n_inputs = 2;
+  for (std::size_t l = 0; l < layers.size(); ++l) {
+    check(layers[l], n_inputs, static_cast<std::ptrdiff_t>(l));
+    n_inputs = layers[l].n_outputs;
+  }
+  if (n_inputs != 1) throw BadValue("a network with " + std::to_string(n_inputs) + " outputs", "one");
+
+  for (const DenseLayer& layer : layers.first(layers.size() - 1)) {
+    hidden_.push_back({layer.activation, layer.n_outputs, weights_.size()});
+    append_row(layer.bias);
+    for (std::size_t i = 0; i < layer.n_inputs; ++i) {
+      append_row(std::span(layer.kernel).subspan(i * layer.n_outputs, layer.n_outputs));
+    }
+  }
+  output_activation_ = layers.back().activation;
+  output_bias_ = layers.back().bias.front();
+  output_row_ = weights_.size();
+  append_row(layers.back().kernel);
+}
+
+void DenseNetwork::append_row(std::span<const double> row)
+{
+  const std::size_t first = weights_.size();
+  weights_.resize(first + padded(row.size()) / 8);
+  for (std::size_t i = 0; i < row.size(); ++i) weights_[first + i / 8].of[i % 8] = row[i];
+}
+
+template <std::size_t n_streams>
+std::array<double, n_streams> DenseNetwork::evaluate(double first, double second) const
+{
+  Block<n_streams> blocks[2][most_blocks];
+  Block<n_streams>*inputs = blocks[0], *outputs = blocks[1];
+  set_inputs(first, second, *inputs);
+  std::size_t n_inputs = 2;
+  for (const HiddenLayer& layer : hidden_) {
+    const auto bias = reinterpret_cast<const Pack*>(&weights_[layer.first_row]);
+    const std::size_t n_packs = packs_for(layer.n_outputs);
+    make_layer({layer.activation, n_inputs, layer.n_outputs, n_packs, bias, bias + n_packs}, inputs, outputs);
+    std::swap(inputs, outputs);
+    n_inputs = layer.n_outputs;
+  }
+
+  std::array<double, n_streams> answer = dot(inputs, n_inputs, reinterpret_cast<const Pack*>(&weights_[output_row_]));
+  const auto [value, slope] = activated(output_activation_, answer[0] + output_bias_);
+  answer[0] = value;
+  for (std::size_t s = 1; s < n_streams; ++s) answer[s] *= slope;
+  return answer;
+}
+
+double DenseNetwork::value(double first, double second) const
+{
+  return evaluate<1>(first, second)[0];
+}
+
+DenseNetwork::Gradient DenseNetwork::with_gradient(double first, double second) const
+{
+  const auto [value, by_first, by_second] = evaluate<3>(first, second);
+  return {value, by_first, by_second};
+}
+
+}  // namespace tamp::components

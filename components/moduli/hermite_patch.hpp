@@ -1,0 +1,73 @@
+#pragma once
+
+#include <array>
+
+namespace tamp::components
+{
+
+/// A pressure surface at one point: pressure, its derivatives by elastic and by plastic strain, and by both.
+struct SurfaceNode {
+  double pressure;
+  double bulk_modulus;
+  double coupling;
+  double modulus_by_plastic;
+
+  /// The same in other units of strain: each derivative is multiplied with the units it is taken by.
+  SurfaceNode per(double elastic, double plastic) const
+  {
+    return {pressure, bulk_modulus * elastic, coupling * plastic, modulus_by_plastic * elastic * plastic};
+  }
+
+  bool operator==(const SurfaceNode&) const = default;
+};
+
+/// The bicubic on the unit square that has given values, first derivatives and mixed derivatives at the corners
+/// (Hermite's). Two patches that share the nodes of an edge join with continuous value and slope.
+struct alignas(64) HermitePatch {
+  std::array<SurfaceNode, 4> corner;  ///< (0, 0), (1, 0), (0, 1), (1, 1); elastic strain first
+
+  bool operator==(const HermitePatch&) const = default;
+
+  SurfaceNode at(double elastic, double plastic) const
+  {
+    const Weights value = Weights::of_value(plastic), slope = Weights::of_slope(plastic);
+    const SurfaceNode left = between(corner[0], corner[2], value, slope);
+    const SurfaceNode right = between(corner[1], corner[3], value, slope);
+    const Weights v = Weights::of_value(elastic), s = Weights::of_slope(elastic);
+    return {v(left.pressure, right.pressure, left.bulk_modulus, right.bulk_modulus),
+            s(left.pressure, right.pressure, left.bulk_modulus, right.bulk_modulus),
+            v(left.coupling, right.coupling, left.modulus_by_plastic, right.modulus_by_plastic),
+            s(left.coupling, right.coupling, left.modulus_by_plastic, right.modulus_by_plastic)};
+  }
+
+ private:
+  /// What the values and slopes at the ends of the unit interval weigh in the cubic between them, or in its slope.
+  struct Weights {
+    double low, high, low_slope, high_slope;
+
+    static Weights of_value(double t)
+    {
+      const double s = 1 - t, high = t * t * (3 - 2 * t);
+      return {1 - high, high, t * s * s, -t * t * s};
+    }
+    static Weights of_slope(double t)
+    {
+      const double s = 1 - t, change = 6 * t * s;
+      return {-change, change, s * (1 - 3 * t), t * (3 * t - 2)};
+    }
+    double operator()(double at_low, double at_high, double slope_at_low, double slope_at_high) const
+    {
+      return low * at_low + high * at_high + low_slope * slope_at_low + high_slope * slope_at_high;
+    }
+  };
+
+  static SurfaceNode between(const SurfaceNode& a, const SurfaceNode& b, const Weights& value, const Weights& slope)
+  {
+    return {value(a.pressure, b.pressure, a.coupling, b.coupling),
+            value(a.bulk_modulus, b.bulk_modulus, a.modulus_by_plastic, b.modulus_by_plastic),
+            slope(a.pressure, b.pressure, a.coupling, b.coupling),
+            slope(a.bulk_modulus, b.bulk_modulus, a.modulus_by_plastic, b.modulus_by_plastic)};
+  }
+};
+
+}  // namespace tamp::components

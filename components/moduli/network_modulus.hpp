@@ -1,0 +1,89 @@
+#pragma once
+
+#include <algorithm>
+
+#include "components/moduli/dense_network.hpp"
+#include "components/moduli/hermite_surface.hpp"
+
+namespace tamp::components
+{
+
+/// The sand's elasticity by a fitted network for the bulk modulus: K of elastic and plastic volumetric strain, as in
+/// the report's MLP (Banerjee, Brannon, Fox, Regueiro 2021, PAR-10021867-092020-6). Strains and pressure are
+/// compression positive.
+///
+///  - K is the network's own, not that of a grid. In tension it is the one at zero elastic strain, as published; beyond
+///    the fit's elastic strains that of their end; plastic strain is held to the fit's. Where the network answers less
+///    than `least_share` of the largest K in the fit's range, be it zero or negative, K is held at that share.
+///  - Pressure, in state form, is the integral of this K over the elastic strain from zero, at the same plastic strain,
+///    to within `pressure_tolerance` (|p| + 1e-3 K) over the fit's range, and rises with it. It is resampled on
+///    construction, which takes about a second for a network of the report's shape: the kinks of K are what costs.
+///  - An answer is out of range outside the fit's range, and where K is held from below.
+class NetworkModulus
+{
+ public:
+  static constexpr double pressure_tolerance = 1e-4;
+  static constexpr double least_share = 1e-3;
+
+  /// Throws BadValue for what is no network of two inputs and one output, for a range that is empty or all in tension,
+  /// for scalings that are not finite, and for a modulus that is not, or is nowhere positive.
+  explicit NetworkModulus(const NetworkFit& fit);
+
+  ElasticPoint at(double elastic, double plastic) const
+  {
+    const ElasticPoint on_surface = pressure_.at(elastic, plastic);
+    return {on_surface.pressure, modulus_.at(elastic, plastic), on_surface.coupling};
+  }
+  double rate_modulus(double /*pressure*/, double elastic, double plastic) const
+  {
+    return modulus_.at(elastic, plastic);
+  }
+  double modulus_by_plastic(double elastic, double plastic) const
+  {
+    return modulus_.with_slopes(elastic, plastic).by_plastic;
+  }
+  bool in_range(double elastic, double plastic) const
+  {
+    return range().contains(elastic, plastic) && modulus_.at(elastic, plastic) > modulus_.least;
+  }
+  StrainRange range() const { return modulus_.range; }
+
+  double least_bulk_modulus() const { return modulus_.least; }
+  const SurfaceErrors& pressure_errors() const { return pressure_.errors(); }
+
+ private:
+  /// Strain to an input of the network.
+  struct Input {
+    double mean, per_deviation;
+
+    explicit Input(const Scaling& scaling);
+    double operator()(double strain) const { return (strain - mean) * per_deviation; }
+  };
+
+  /// K of the strains, with its bounds.
+  struct Modulus {
+    DenseNetwork network;
+    Input elastic, plastic;
+    double mean, deviation;  // of K
+    StrainRange range;
+    double least;  // K
+
+    explicit Modulus(const NetworkFit& fit);
+    double largest() const;  // of a sample over the range
+
+    double held_elastic(double e) const { return std::min(std::max(e, 0.0), range.most_elastic); }
+    double held_plastic(double ep) const { return std::min(std::max(ep, range.least_plastic), range.most_plastic); }
+
+    double at(double e, double ep) const;
+    struct Slopes {
+      double bulk_modulus, by_elastic, by_plastic;
+    };
+    Slopes with_slopes(double e, double ep) const;
+  };
+  static HermiteSurface pressure_of(const Modulus& modulus);
+
+  Modulus modulus_;
+  HermiteSurface pressure_;
+};
+
+}  // namespace tamp::components

@@ -1,0 +1,55 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <span>
+#include <vector>
+
+namespace tamp::components
+{
+
+/// One side of a rectangle of strains, divided into squares: sections between given strains, each divided evenly.
+class StrainAxis
+{
+ public:
+  struct Section {
+    double start;
+    double squares_per_strain;
+    double first_square;
+  };
+
+  /// `lines` ascend, two at least. From the first to the last there are about `n_squares`; each section has that number
+  /// halved until it is its share, so that cutting squares in halves meets whatever divides it likewise.
+  StrainAxis(std::span<const double> lines, int n_squares)
+  {
+    for (std::size_t i = 0; i + 1 < lines.size(); ++i) {
+      const double width = lines[i + 1] - lines[i];
+      const long n_halvings = std::lround(std::log2((lines.back() - lines.front()) / width));
+      const int n = n_halvings > 30 ? 1 : std::max(n_squares >> n_halvings, 1);
+      sections_.push_back({lines[i], n / width, static_cast<double>(n_squares_)});
+      n_squares_ += n;
+    }
+  }
+
+  const Section& section_of(double strain) const
+  {
+    const Section* section = sections_.data();
+    while (section != &sections_.back() && strain >= section[1].start) ++section;
+    return *section;
+  }
+  const Section& section_of_square(double square) const
+  {
+    const Section* section = sections_.data();
+    while (section != &sections_.back() && square >= section[1].first_square) ++section;
+    return *section;
+  }
+
+  int n_squares() const { return n_squares_; }
+
+ private:
+  std::vector<Section> sections_;
+  int n_squares_ = 0;
+};
+
+}  // namespace tamp::components

@@ -1,0 +1,65 @@
+#include "components/moduli/gaussian_sum.hpp"
+
+#include <catch2/catch.hpp>
+#include <cmath>
+
+using tamp::components::Gaussians;
+using tamp::components::GaussianSum;
+
+namespace
+{
+
+GaussianSum::Values plain(const Gaussians& gaussians, double x, double y)
+{
+  GaussianSum::Values sum{};
+  const double a = 2 * gaussians.sharpness_x, b = 2 * gaussians.sharpness_y;
+  for (const auto& peak : gaussians.peaks) {
+    const double dx = peak.x - x, dy = peak.y - y;
+    const double g = peak.weight * std::exp(-0.5 * (a * dx * dx + b * dy * dy));
+    sum.f += g;
+    sum.by_x += a * dx * g;
+    sum.by_y += b * dy * g;
+    sum.by_xx += (a * dx * a * dx - a) * g;
+    sum.by_xy += a * dx * b * dy * g;
+  }
+  return sum;
+}
+
+// One in the rectangle (1 to 3, 0 to 2), one at its corner, one far away.
+const Gaussians three_peaks{5, 2, {{1.7, 0.4, 3}, {3, 2, -1}, {-4, 1, 1000}}};
+
+}  // namespace
+
+TEST_CASE("a sum of Gaussians and its derivatives are those of each Gaussian, added up")
+{
+  const GaussianSum sum(three_peaks, {1, 3}, {0, 2});
+
+  for (int i = 0; i <= 50; ++i) {
+    for (int j = 0; j <= 50; ++j) {
+      const double x = 1 + 0.04 * i, y = 0.04 * j;
+      const GaussianSum::Values fast = sum.at(x, y), slow = plain(three_peaks, x, y);
+      REQUIRE(std::abs(fast.f - slow.f) < 5e-15);
+      REQUIRE(std::abs(fast.by_x - slow.by_x) < 5e-14);
+      REQUIRE(std::abs(fast.by_y - slow.by_y) < 5e-14);
+      REQUIRE(std::abs(fast.by_xx - slow.by_xx) < 2e-12);
+      REQUIRE(std::abs(fast.by_xy - slow.by_xy) < 2e-12);
+    }
+  }
+}
+
+TEST_CASE("what is subtracted on the diagonal changes a sum of Gaussians by the same all along x")
+{
+  GaussianSum sum(three_peaks, {1, 3}, {0, 2});
+
+  sum.subtract_diagonal(three_peaks);
+
+  for (const double y : {0.0, 0.3, 1.1, 2.0}) {
+    const GaussianSum::Values diagonal = plain(three_peaks, y, y);
+    for (const double x : {1.0, 1.6, 3.0}) {
+      const GaussianSum::Values fast = sum.at(x, y), slow = plain(three_peaks, x, y);
+      CHECK(std::abs(fast.f - (slow.f - diagonal.f)) < 1e-14);
+      CHECK(std::abs(fast.by_x - slow.by_x) < 5e-14);
+      CHECK(std::abs(fast.by_y - (slow.by_y - diagonal.by_x - diagonal.by_y)) < 5e-14);
+    }
+  }
+}
