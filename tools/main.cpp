@@ -37,6 +37,9 @@ int run_program(int argc, char** argv)
   tamp::tools::add_check_command(app);
   tamp::tools::add_graph_command(app);
   tamp::tools::add_profile_command(app);
+  tamp::tools::add_drive_command(app);
+  tamp::tools::add_compare_command(app);
+  tamp::tools::add_modulus_command(app);
   tamp::tools::add_bench_command(app);
 
   try {

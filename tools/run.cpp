@@ -16,6 +16,7 @@
 #include "tools/progress.hpp"
 #include "tools/run_folder.hpp"
 #include "tools/run_history.hpp"
+#include "tools/scene/compiled_moduli.hpp"
 #include "tools/version.hpp"
 
 namespace tamp::tools
@@ -276,6 +277,9 @@ class Runner
 void run(const CheckedScene& scene, const RunOptions& options)
 {
   prepare_run_folder(options.folder, options.force);
+  if (!options.quiet) {
+    for (const std::string& line : compiled_moduli(scene)) fmt::print("{}\n", line);
+  }
   Runner(scene, options).run();
 }
 

@@ -183,17 +183,29 @@ NetworkModulus::Modulus::Slopes NetworkModulus::Modulus::with_slopes(double e, d
           held_ep == ep ? deviation * by_plastic * plastic.per_deviation : 0};
 }
 
+void NetworkModulus::Modulus::on_line(double ep, std::span<const double> e, std::span<SurfaceNode> nodes) const
+{
+  Integral integral(*this, ep, range.most_elastic / 32);
+  for (std::size_t i = 0; i < nodes.size(); ++i) nodes[i] = integral.advance_to(e[i]);
+}
+
 HermiteSurface NetworkModulus::pressure_of(const Modulus& modulus)
 {
   const StrainRange& range = modulus.range;
   const auto line = [&](double plastic, std::span<const double> elastic, std::span<SurfaceNode> nodes) {
-    Integral integral(modulus, plastic, range.most_elastic / 32);
-    for (std::size_t i = 0; i < nodes.size(); ++i) nodes[i] = integral.advance_to(elastic[i]);
+    modulus.on_line(plastic, elastic, nodes);
   };
   constexpr SurfaceTolerance tolerance{pressure_tolerance, 0.5};  // of K, so that the pressure always rises
   return HermiteSurface({0, range.most_elastic, range.least_plastic, range.most_plastic}, line, tolerance);
 }
 
-NetworkModulus::NetworkModulus(const NetworkFit& fit) : modulus_(fit), pressure_(pressure_of(modulus_)) {}
+NetworkModulus::NetworkModulus(const NetworkFit& fit)
+    : modulus_(fit),
+      pressure_(pressure_of(modulus_)),
+      in_range_({std::min(fit.range.least_elastic, -tension_in_range), fit.range.most_elastic, fit.range.least_plastic,
+                 fit.range.most_plastic},
+                [&](double e, double ep) { return modulus_.at(e, ep) > modulus_.least; })
+{
+}
 
 }  // namespace tamp::components

@@ -1,9 +1,11 @@
 #pragma once
 
 #include <algorithm>
+#include <span>
 
 #include "components/moduli/dense_network.hpp"
 #include "components/moduli/hermite_surface.hpp"
+#include "components/moduli/range_mask.hpp"
 
 namespace tamp::components
 {
@@ -18,12 +20,13 @@ namespace tamp::components
 ///  - Pressure, in state form, is the integral of this K over the elastic strain from zero, at the same plastic strain,
 ///    to within `pressure_tolerance` (|p| + 1e-3 K) over the fit's range, and rises with it. It is resampled on
 ///    construction, which takes about a second for a network of the report's shape: the kinks of K are what costs.
-///  - An answer is out of range outside the fit's range, and where K is held from below.
+///  - An answer is out of range outside the fit's range, but for 0.1 % of tension, and where K is held from below.
 class NetworkModulus
 {
  public:
   static constexpr double pressure_tolerance = 1e-4;
   static constexpr double least_share = 1e-3;
+  static constexpr double tension_in_range = 1e-3;
 
   /// Throws BadValue for what is no network of two inputs and one output, for a range that is empty or all in tension,
   /// for scalings that are not finite, and for a modulus that is not, or is nowhere positive.
@@ -42,11 +45,14 @@ class NetworkModulus
   {
     return modulus_.with_slopes(elastic, plastic).by_plastic;
   }
-  bool in_range(double elastic, double plastic) const
-  {
-    return range().contains(elastic, plastic) && modulus_.at(elastic, plastic) > modulus_.least;
-  }
+  bool in_range(double elastic, double plastic) const { return in_range_(elastic, plastic); }
   StrainRange range() const { return modulus_.range; }
+
+  /// Along one line of equal plastic strain, elastic strains ascending, the pressure as the integral itself.
+  void on_line(double plastic, std::span<const double> elastic, std::span<SurfaceNode> nodes) const
+  {
+    modulus_.on_line(plastic, elastic, nodes);
+  }
 
   double least_bulk_modulus() const { return modulus_.least; }
   const SurfaceErrors& pressure_errors() const { return pressure_.errors(); }
@@ -79,11 +85,13 @@ class NetworkModulus
       double bulk_modulus, by_elastic, by_plastic;
     };
     Slopes with_slopes(double e, double ep) const;
+    void on_line(double ep, std::span<const double> e, std::span<SurfaceNode> nodes) const;
   };
   static HermiteSurface pressure_of(const Modulus& modulus);
 
   Modulus modulus_;
   HermiteSurface pressure_;
+  RangeMask in_range_;
 };
 
 }  // namespace tamp::components

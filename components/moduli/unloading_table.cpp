@@ -15,23 +15,24 @@ namespace
 
 constexpr std::size_t n_elastic_cells = 384;
 /// The extension of a curve beyond its end: compliance (1/K) of its last point, until that of the next curve at the
-/// same pressure is smaller; a jump down to the next curve is spread over a quarter of the end pressure.
+/// same pressure is smaller; a jump down to the next curve is spread over a quarter of the end pressure, or over less
+/// where the curve would use up more than half of `gap`, its distance in total strain from the next one.
 void extend_along(std::vector<double>& pressure, std::vector<double>& elastic, double end_compliance,
-                  const MonotoneCubic& next, double last_pressure)
+                  const MonotoneCubic& next, double gap, double last_pressure)
 {
   constexpr int n_steps = 400;
   const double start = pressure.back();
   const double ratio = std::pow(last_pressure / start, 1.0 / n_steps);
   const double jump = std::max(end_compliance - next.at(start).slope, 0.0);
-  const auto compliance = [&](double p) {
-    return std::min(end_compliance, next.at(p).slope + jump * std::exp(-4 * (p - start) / start));
-  };
+  const double spread = gap > 0 ? std::min(start / 4, gap / (2 * jump)) : start / 4;
+  const auto compliance = [&](double p) { return std::min(end_compliance, next.at(p).slope); };
+  const auto lag = [&](double p) { return jump * spread * std::exp(-(p - start) / spread); };
   for (int i = 1; i <= n_steps; ++i) {
     const double from = pressure.back();
     const double to = i == n_steps ? last_pressure : from * ratio;
     const double simpson = compliance(from) + 4 * compliance(0.5 * (from + to)) + compliance(to);
     pressure.push_back(to);
-    elastic.push_back(elastic.back() + (to - from) / 6 * simpson);
+    elastic.push_back(elastic.back() + (to - from) / 6 * simpson + lag(from) - lag(to));
   }
 }
 
@@ -103,7 +104,9 @@ void UnloadingTable::extend_curves()
     std::vector<double> pressure(own.x().begin(), own.x().end());
     std::vector<double> elastic(own.y().begin(), own.y().end());
     const double end_compliance = own.at(pressure.back()).slope;
-    extend_along(pressure, elastic, end_compliance, extended_[k + 1], last_pressure_);
+    const double next = curve_plastic_[k + 1] + extended_[k + 1].at(pressure.back()).value;
+    const double gap = std::max(next - curve_plastic_[k] - elastic.back(), 0.0);
+    extend_along(pressure, elastic, end_compliance, extended_[k + 1], gap, last_pressure_);
     extended_[k] = MonotoneCubic(std::move(pressure), std::move(elastic));
   }
 }

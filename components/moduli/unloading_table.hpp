@@ -66,6 +66,9 @@ class UnloadingTable
   /// Of the surface, up to the end of the longest curve.
   StrainRange range() const { return {least_elastic, last_elastic_, 0, curve_plastic_.back()}; }
 
+  /// Plastic strains of the curves, ascending; the surface is smooth between them.
+  std::span<const double> curve_plastic() const { return curve_plastic_; }
+
   /// The smallest modulus of the surface, from the grid's nodes and half way between them; positive.
   double least_bulk_modulus() const { return least_bulk_modulus_; }
 

@@ -1,31 +1,9 @@
-#include <sys/wait.h>
-
 #include <catch2/catch.hpp>
 
+#include "tests/tools/program.hpp"
 #include "tests/tools/scene/small_scene.hpp"
 
 using namespace tamp::test;
-
-namespace
-{
-
-struct Outcome {
-  int exit_code;
-  std::string out;
-  std::string err;
-};
-
-/// What the program answers to a command line.
-Outcome tamp_with(const std::string& arguments)
-{
-  const TemporaryFolder folder;
-  const std::string out = (folder.path() / "out").string(), err = (folder.path() / "err").string();
-  const std::string line = std::string(TAMP_PROGRAM) + " " + arguments + " >" + out + " 2>" + err;
-  const int status = std::system(line.c_str());
-  return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, read_text(out), read_text(err)};
-}
-
-}  // namespace
 
 TEST_CASE("the version names the build, the compiler and every library")
 {

@@ -19,4 +19,8 @@ struct Result {
 /// needs at least, and what recording costs.
 Result punch(const std::filesystem::path& scene);
 
+/// Time for p and K of one state, in a batch of 4096 spread over the data: Table, SVR, MLP, and SVR and MLP compiled,
+/// each against its definition evaluated plainly. The plain network gives K alone.
+Result moduli(const std::filesystem::path& material);
+
 }  // namespace tamp::tools::bench

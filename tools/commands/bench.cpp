@@ -25,6 +25,7 @@ struct Options {
 const std::map<std::string, std::function<bench::Result()>>& benchmarks()
 {
   static const std::map<std::string, std::function<bench::Result()>> all{
+      {"moduli", [] { return bench::moduli(shipped_input("materials/concrete-sand")); }},
       {"punch", [] { return bench::punch(shipped_input("punch/table.json")); }}};
   return all;
 }

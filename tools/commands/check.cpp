@@ -4,6 +4,7 @@
 
 #include "tasks/simulation.hpp"
 #include "tools/commands/commands.hpp"
+#include "tools/scene/compiled_moduli.hpp"
 #include "tools/scene/print_json.hpp"
 #include "tools/scene/read_scene.hpp"
 
@@ -35,6 +36,7 @@ void check(const CheckOptions& options)
     const std::string& material = scene.materials[static_cast<std::size_t>(body.material)].name;
     fmt::print(stderr, "  body  {}: {} particles of {}\n", body.name, body.n_particles, material);
   }
+  for (const std::string& line : compiled_moduli(checked)) fmt::print(stderr, "  {}\n", line);
   const auto simulation = tasks::Simulation::make(scene, 1);
   const double forecast = static_cast<double>(simulation->forecast_bytes()) / (1 << 20);
   fmt::print(stderr, "  in all {} particles; fields and particles take {:.2f} MiB at the start\n", total, forecast);

@@ -60,16 +60,16 @@ class TableReader
     ++line_;
     line = trimmed(line);
     if (line.empty() || line.front() == '#') return;
-    if (place_.empty()) {
+    if (place_in_line_.empty()) {
       read_header(split(line));
     } else {
       read_row(split(line));
     }
   }
 
-  CsvTable finished()
+  Table finished()
   {
-    if (place_.empty()) {
+    if (place_in_line_.empty()) {
       add("no line with the names of the columns", fmt::format("expected {}", fmt::join(wanted_, ",")));
     } else if (problems_.empty() && table_.n_rows() == 0) {
       add("a table without rows", "expected numbers");
@@ -79,18 +79,18 @@ class TableReader
   }
 
  private:
-  void add(const std::string& found, const std::string& expected)
-  {
-    problems_.push_back({fmt::format("{}:{}", table_.file.string(), line_), found, expected});
-  }
+  void add(const std::string& found, const std::string& expected) { problems_.push_back({place(), found, expected}); }
+
+  std::string place() const { return fmt::format("{}:{}", table_.file.string(), line_); }
 
   void read_header(const std::vector<std::string_view>& names)
   {
     for (const std::string& name : wanted_) {
       const auto at = std::find(names.begin(), names.end(), name);
-      place_.push_back(static_cast<std::size_t>(at - names.begin()));
+      place_in_line_.push_back(static_cast<std::size_t>(at - names.begin()));
     }
-    const bool all_found = std::all_of(place_.begin(), place_.end(), [&](std::size_t i) { return i < names.size(); });
+    const bool all_found =
+        std::all_of(place_in_line_.begin(), place_in_line_.end(), [&](std::size_t i) { return i < names.size(); });
     if (!all_found || names.size() != wanted_.size()) {
       add(fmt::format("columns {}", fmt::join(names, ",")), fmt::format("expected {}", fmt::join(wanted_, ",")));
       throw InputError(std::move(problems_));
@@ -104,32 +104,25 @@ class TableReader
       return;
     }
     for (std::size_t i = 0; i < wanted_.size(); ++i) {
-      const std::string_view text = parts[place_[i]];
+      const std::string_view text = parts[place_in_line_[i]];
       const std::optional<double> value = finite_number(text);
       if (!value) add(fmt::format("\"{}\" for {}", text, wanted_[i]), "expected a finite number");
       table_.columns[i].push_back(value.value_or(0));
     }
-    table_.line_of_row.push_back(line_);
+    table_.place_of_row.push_back(place());
   }
 
   const std::vector<std::string>& wanted_;
-  CsvTable table_;
+  Table table_;
   /// Where in a line each wanted column stands; empty before the header.
-  std::vector<std::size_t> place_;
+  std::vector<std::size_t> place_in_line_;
   std::vector<Problem> problems_;
   int line_ = 0;
 };
 
 }  // namespace
 
-Problem CsvTable::problem(std::ptrdiff_t row, const std::string& found, const std::string& expected) const
-{
-  const bool in_table = row >= 0 && row < static_cast<std::ptrdiff_t>(n_rows());
-  if (!in_table) return {file.string(), found, expected};
-  return {fmt::format("{}:{}", file.string(), line_of_row[static_cast<std::size_t>(row)]), found, expected};
-}
-
-CsvTable read_csv_table(const std::filesystem::path& file, const std::vector<std::string>& columns)
+Table read_csv_table(const std::filesystem::path& file, const std::vector<std::string>& columns)
 {
   std::ifstream stream(file);
   if (!stream) throw runtime::FileError(file.string(), "cannot be read");

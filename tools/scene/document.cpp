@@ -2,6 +2,8 @@
 
 #include <fmt/core.h>
 
+#include <set>
+
 #include "tools/scene/parse_json.hpp"
 
 namespace tamp::tools
@@ -22,6 +24,18 @@ Json parsed_or_text(const std::string& text)
 {
   Json value = Json::parse(text, nullptr, false);
   return value.is_discarded() ? Json(text) : value;
+}
+
+/// As RFC 7386, but that a null stays: it may remove a key of a file that comes in later.
+void lay_over(Json& base, const Json& patch)
+{
+  for (const auto& [key, value] : patch.items()) {
+    if (value.is_object() && base.contains(key) && base[key].is_object()) {
+      lay_over(base[key], value);
+    } else {
+      base[key] = value;
+    }
+  }
 }
 
 }  // namespace
@@ -49,56 +63,81 @@ void Document::set(const std::string& assignment)
 
 void Document::merge_file_named_at(const JsonPointer& pointer)
 {
-  Json patch = root.at(pointer);
-  if (!patch.is_object() || !patch.contains("file")) return;
   const JsonPointer here = pointer / "file";
-  const Json name = patch["file"];
-  if (!name.is_string()) {
-    add_problem(here, name.dump(), "expected the path of a JSON file");
-    return;
+  std::set<std::filesystem::path> merged{std::filesystem::weakly_canonical(file_)};
+  while (root.at(pointer).is_object() && root.at(pointer).contains("file")) {
+    const std::filesystem::path path = file_named_at(here);
+    if (path.empty()) return;
+    if (!merged.insert(std::filesystem::weakly_canonical(path)).second) {
+      add_problem(here, fmt::format("{} names itself", path.string()),
+                  "expected files that end in one without \"file\"");
+      return;
+    }
+    Json base = object_of(path, here);
+    if (base.is_null()) return;
+    Json patch = root.at(pointer);
+    patch.erase("file");
+    note_merge(base, patch, pointer, path.string());
+    if (base.contains("file")) {
+      lay_over(base, patch);
+    } else {
+      base.merge_patch(patch);
+    }
+    root.at(pointer) = std::move(base);
   }
-  patch.erase("file");
-
-  const std::filesystem::path path = (folder(here) / name.get<std::string>()).lexically_normal();
-  if (!std::filesystem::is_regular_file(path)) {
-    add_problem(here, fmt::format("there is no file {}", path.string()), "expected the path of a JSON file");
-    return;
-  }
-  Json merged;
-  try {
-    merged = parse_json(path);
-  } catch (const InputError& error) {
-    problems.insert(problems.end(), error.problems.begin(), error.problems.end());
-    return;
-  }
-  if (!merged.is_object()) {
-    add_problem(here, fmt::format("{} holds no object", path.string()), "expected the path of a JSON object");
-    return;
-  }
-
-  // What --set put below here stays noted as such: these origins come before it.
-  const std::vector<Origin> set = std::move(origins_);
-  origins_.clear();
-  for (const Origin& o : set) {
-    if (!lies_below(o.pointer, pointer.to_string())) origins_.push_back(o);
-  }
-  origins_.push_back({pointer.to_string(), path.string(), ""});
-  note_overrides(merged, patch, pointer);
-  for (const Origin& o : set) {
-    if (lies_below(o.pointer, pointer.to_string())) origins_.push_back(o);
-  }
-  merged.merge_patch(patch);
-  root.at(pointer) = std::move(merged);
 }
 
-void Document::note_overrides(const Json& base, const Json& patch, const JsonPointer& pointer)
+std::filesystem::path Document::file_named_at(const JsonPointer& pointer)
+{
+  const Json& name = root.at(pointer);
+  if (!name.is_string()) {
+    add_problem(pointer, name.dump(), "expected the path of a JSON file");
+    return {};
+  }
+  const std::filesystem::path path = (folder(pointer) / name.get<std::string>()).lexically_normal();
+  if (std::filesystem::is_regular_file(path)) return path;
+  add_problem(pointer, fmt::format("there is no file {}", path.string()), "expected the path of a JSON file");
+  return {};
+}
+
+Json Document::object_of(const std::filesystem::path& path, const JsonPointer& named_at)
+{
+  try {
+    Json value = parse_json(path);
+    if (value.is_object()) return value;
+    add_problem(named_at, fmt::format("{} holds no object", path.string()), "expected the path of a JSON object");
+  } catch (const InputError& error) {
+    problems.insert(problems.end(), error.problems.begin(), error.problems.end());
+  }
+  return nullptr;
+}
+
+void Document::note_merge(const Json& base, const Json& patch, const JsonPointer& pointer, const std::string& path)
+{
+  const std::string here = pointer.to_string();
+  std::vector<Origin> kept;
+  for (const Origin& o : origins_) {
+    if (!lies_below(o.pointer, here)) kept.push_back(o);
+  }
+  kept.push_back({here, path, ""});
+  keep_origins(base, patch, pointer, kept);
+  for (const Origin& o : origins_) {
+    if (lies_below(o.pointer, here) && o.pointer != here && o.pointer != here + "/file") kept.push_back(o);
+  }
+  origins_ = std::move(kept);
+}
+
+void Document::keep_origins(const Json& base, const Json& patch, const JsonPointer& pointer,
+                            std::vector<Origin>& kept) const
 {
   for (const auto& [key, value] : patch.items()) {
     const JsonPointer here = pointer / key;
     if (value.is_object() && base.contains(key) && base[key].is_object()) {
-      note_overrides(base[key], value, here);
+      keep_origins(base[key], value, here, kept);
     } else {
-      origins_.push_back({here.to_string(), file_.string(), here.to_string()});
+      const std::string text = here.to_string();
+      const Origin from = origin(text);
+      kept.push_back({text, from.file, from.pointer_there + text.substr(from.pointer.size())});
     }
   }
 }

@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -28,7 +29,8 @@ class Document
   void set(const std::string& assignment);
 
   /// Replaces the object at `pointer`, which has the key "file", by that file's JSON with the object's other keys
-  /// merged over it (RFC 7386). Without that key nothing happens; what goes wrong is added to the problems.
+  /// merged over it (RFC 7386); again if that file names another. Without that key nothing happens; what goes wrong is
+  /// added to the problems.
   void merge_file_named_at(const JsonPointer& pointer);
 
   /// FILE#/pointer of the value, in the file that it came from.
@@ -52,10 +54,29 @@ class Document
     std::string pointer_there;
   };
   Origin origin(const std::string& pointer) const;
-  void note_overrides(const Json& base, const Json& patch, const JsonPointer& pointer);
+
+  /// The path at `pointer`; empty, with a problem noted, if no file is there.
+  std::filesystem::path file_named_at(const JsonPointer& pointer);
+  /// The object of a file; null, with problems noted, if it holds none.
+  Json object_of(const std::filesystem::path& path, const JsonPointer& named_at);
+  /// All at `pointer` comes from `path` now, but for what `patch` overrides in `base`: that stays from where it was.
+  void note_merge(const Json& base, const Json& patch, const JsonPointer& pointer, const std::string& path);
+  void keep_origins(const Json& base, const Json& patch, const JsonPointer& pointer, std::vector<Origin>& kept) const;
 
   std::filesystem::path file_;
   std::vector<Origin> origins_;
 };
+
+/// What `read` gives, or nothing if it throws InputError, whose problems are then the document's.
+template <class Read>
+auto noting_problems(Document& document, Read read) -> std::optional<decltype(read())>
+{
+  try {
+    return read();
+  } catch (const InputError& error) {
+    document.problems.insert(document.problems.end(), error.problems.begin(), error.problems.end());
+    return std::nullopt;
+  }
+}
 
 }  // namespace tamp::tools

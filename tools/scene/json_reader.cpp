@@ -235,13 +235,29 @@ std::filesystem::path JsonReader::existing_file(const std::string& key)
     add_problem(key, shown(*value), expected);
     return {};
   }
-  const auto path = (document_->folder(pointer_ / key) / value->get<std::string>()).lexically_normal();
-  if (!std::filesystem::is_regular_file(path)) {
-    add_problem(key, fmt::format("there is no file {}", path.string()), expected);
+  const std::filesystem::path file = path(key, value->get<std::string>());
+  if (!std::filesystem::is_regular_file(file)) {
+    add_problem(key, fmt::format("there is no file {}", file.string()), expected);
     return {};
   }
+  write_path(key, file);
+  return file;
+}
+
+void JsonReader::allow_file(const std::string& key)
+{
+  const Json* value = find(key);
+  if (value != nullptr && value->is_string()) write_path(key, path(key, value->get<std::string>()));
+}
+
+std::filesystem::path JsonReader::path(const std::string& key, const std::string& text) const
+{
+  return (document_->folder(pointer_ / key) / text).lexically_normal();
+}
+
+void JsonReader::write_path(const std::string& key, const std::filesystem::path& path)
+{
   write(key, std::filesystem::absolute(path).lexically_normal().string());
-  return path;
 }
 
 JsonReader JsonReader::object(const std::string& key)

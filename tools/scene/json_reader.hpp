@@ -55,6 +55,8 @@ class JsonReader
   std::string choice(const std::string& key, const std::vector<std::string>& choices, bool has_default = false);
   /// The path of a file that exists, made absolute in the document too.
   std::filesystem::path existing_file(const std::string& key);
+  /// The key has a meaning, and its path is made absolute in the document, but its file is not needed.
+  void allow_file(const std::string& key);
 
   /// The object at a key. Without it a reader that finds nothing and complains of nothing.
   JsonReader object(const std::string& key);
@@ -89,6 +91,9 @@ class JsonReader
   std::vector<T> list(const std::string& key, std::size_t n, const std::string& expected, bool (*fits)(const Json&),
                       bool compulsory);
   static JsonReader nothing(Document& document);
+  /// A path that stands at a key, seen from the current folder.
+  std::filesystem::path path(const std::string& key, const std::string& text) const;
+  void write_path(const std::string& key, const std::filesystem::path& path);
 
   Document* document_;
   JsonPointer pointer_;

@@ -2,7 +2,9 @@
 
 #include "components/errors.hpp"
 #include "components/materials/tabular_cap.hpp"
-#include "tools/scene/csv_table.hpp"
+#include "tools/scene/read_modulus.hpp"
+#include "tools/scene/strain_measure.hpp"
+#include "tools/scene/table.hpp"
 
 namespace tamp::tools
 {
@@ -15,39 +17,21 @@ using components::BadValue;
 /// A table and what was made from it. Problems of either are the document's.
 template <class Make>
 auto from_table(JsonReader& reader, const std::string& key, const std::vector<std::string>& columns, Make make)
-    -> std::optional<decltype(make(std::declval<CsvTable&>()))>
+    -> std::optional<decltype(make(std::declval<Table&>()))>
 {
   const std::filesystem::path file = reader.existing_file(key);
   if (file.empty()) return std::nullopt;
-  std::vector<Problem>& problems = reader.document().problems;
-  try {
-    CsvTable table = read_csv_table(file, columns);
-    try {
-      return make(table);
-    } catch (const BadValue& bad) {
-      problems.push_back(table.problem(bad.row, bad.found, "expected " + bad.expected));
-    }
-  } catch (const InputError& error) {
-    problems.insert(problems.end(), error.problems.begin(), error.problems.end());
-  }
-  return std::nullopt;
-}
-
-components::PiecewiseLinear curve(CsvTable& table)
-{
-  return {std::move(table.columns[0]), std::move(table.columns[1])};
-}
-
-std::optional<components::Modulus> read_modulus(JsonReader& material)
-{
-  JsonReader reader = material.object("modulus");
-  reader.choice("type", {"table"});
-  const std::vector<std::string> columns{"plastic_volumetric[-]", "elastic_volumetric[-]", "pressure[Pa]"};
-  auto modulus = from_table(reader, "file", columns, [](CsvTable& t) -> components::Modulus {
-    return components::UnloadingTable(t.columns[0], t.columns[1], t.columns[2]);
+  return noting_problems(reader.document(), [&] {
+    Table table = read_table(file, columns);
+    return made_from(table, make);
   });
-  reader.finish();
-  return modulus;
+}
+
+/// A curve whose abscissa is a total or a plastic strain.
+components::PiecewiseLinear curve_of_strain(Table& table, StrainMeasure measure)
+{
+  convert_to_logarithmic(table, 0, measure);
+  return {std::move(table.columns[0]), std::move(table.columns[1])};
 }
 
 std::optional<components::YieldSurface> read_yield(JsonReader& material)
@@ -57,7 +41,7 @@ std::optional<components::YieldSurface> read_yield(JsonReader& material)
   const std::size_t before = reader.document().problems.size();
   const double ellipticity = reader.number("cap_ellipticity", inside);
   const bool ellipticity_is_good = reader.document().problems.size() == before && reader.has("cap_ellipticity");
-  auto yield = from_table(reader, "file", {"pressure[Pa]", "sqrt_J2[Pa]"}, [&](CsvTable& t) {
+  auto yield = from_table(reader, "file", {"pressure[Pa]", "sqrt_J2[Pa]"}, [&](Table& t) {
     return components::YieldSurface(t.columns[0], t.columns[1], ellipticity_is_good ? ellipticity : 0.5);
   });
   reader.finish();
@@ -67,20 +51,20 @@ std::optional<components::YieldSurface> read_yield(JsonReader& material)
 /// X(plastic strain), and the table it came from where it did.
 struct CrushCurve {
   components::PiecewiseLinear curve;
-  std::optional<CsvTable> table;
+  std::optional<Table> table;
 };
 
-std::optional<CrushCurve> read_tabulated_crush_curve(JsonReader& reader)
+std::optional<CrushCurve> read_tabulated_crush_curve(JsonReader& reader, StrainMeasure measure)
 {
-  return from_table(reader, "crush_curve", {"plastic_volumetric[-]", "pressure[Pa]"}, [](CsvTable& table) {
-    CsvTable kept = table;
-    return CrushCurve{curve(table), std::move(kept)};
+  return from_table(reader, "crush_curve", {"plastic_volumetric[-]", "pressure[Pa]"}, [&](Table& table) {
+    Table kept = table;
+    return CrushCurve{curve_of_strain(table, measure), std::move(kept)};
   });
 }
 
 /// In the state form the crush curve follows from the modulus and the hydrostat. In the rate form it is tabulated. The
 /// table that is not needed may be left out; it is read only to be checked.
-std::optional<CrushCurve> read_crush_curve(JsonReader& reader, components::ElasticUpdate update,
+std::optional<CrushCurve> read_crush_curve(JsonReader& reader, components::ElasticUpdate update, StrainMeasure measure,
                                            const std::optional<components::Modulus>& modulus)
 {
   const bool state_form = update == components::ElasticUpdate::state;
@@ -88,10 +72,11 @@ std::optional<CrushCurve> read_crush_curve(JsonReader& reader, components::Elast
   reader.allow("crush_curve");
   std::optional<components::PiecewiseLinear> hydrostat;
   if (state_form || reader.has("hydrostat")) {
-    hydrostat = from_table(reader, "hydrostat", {"total_volumetric[-]", "pressure[Pa]"}, curve);
+    hydrostat = from_table(reader, "hydrostat", {"total_volumetric[-]", "pressure[Pa]"},
+                           [&](Table& table) { return curve_of_strain(table, measure); });
   }
   std::optional<CrushCurve> tabulated;
-  if (!state_form || reader.has("crush_curve")) tabulated = read_tabulated_crush_curve(reader);
+  if (!state_form || reader.has("crush_curve")) tabulated = read_tabulated_crush_curve(reader, measure);
 
   if (!state_form) return tabulated;
   if (!modulus || !hydrostat) return std::nullopt;
@@ -113,9 +98,11 @@ std::optional<tasks::MaterialModel> read_tabular_cap(JsonReader& reader)
   const auto update = form == "rate" ? components::ElasticUpdate::rate : components::ElasticUpdate::state;
   const double tolerance = reader.number("tolerance", {.lower = 0, .upper = 1, .holds_lower = false}, 1e-3);
   const int max_substeps = reader.integer("max_substeps", 1, 1'000'000, 100);
-  const auto modulus = read_modulus(reader);
+  const bool engineering = reader.choice("strain_measure", {"logarithmic", "engineering"}, true) == "engineering";
+  const auto measure = engineering ? StrainMeasure::engineering : StrainMeasure::logarithmic;
+  const auto modulus = read_modulus(reader, measure);
   const auto yield = read_yield(reader);
-  const auto crush = read_crush_curve(reader, update, modulus);
+  const auto crush = read_crush_curve(reader, update, measure, modulus);
   if (problems.size() > n_before || !modulus || !yield || !crush) return std::nullopt;
   try {
     return components::TabularCap({poisson_ratio, update, *modulus, crush->curve, *yield, tolerance, max_substeps});
@@ -150,6 +137,16 @@ std::optional<tasks::SceneMaterial> read_material(const std::string& name, JsonR
   reader.finish();
   if (!model) return std::nullopt;
   return tasks::SceneMaterial{name, density, *model};
+}
+
+tasks::SceneMaterial read_material_file(const std::filesystem::path& file, const std::vector<std::string>& assignments)
+{
+  Document document(file);
+  for (const std::string& assignment : assignments) document.set(assignment);
+  document.merge_file_named_at(JsonPointer());
+  auto material = read_material(file.stem().string(), JsonReader(document));
+  if (!document.problems.empty()) throw InputError(std::move(document.problems));
+  return std::move(*material);
 }
 
 }  // namespace tamp::tools

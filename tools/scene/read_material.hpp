@@ -1,7 +1,9 @@
 #pragma once
 
+#include <filesystem>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "tasks/scene.hpp"
 #include "tools/scene/json_reader.hpp"
@@ -11,5 +13,10 @@ namespace tamp::tools
 
 /// Reads one material, tables and all. Empty if there is a problem, which the reader's document then knows.
 std::optional<tasks::SceneMaterial> read_material(const std::string& name, JsonReader reader);
+
+/// Reads a material's file by itself, after `assignments` (POINTER=VALUE, pointers into the file). The material's name
+/// is the file's without its ending. Throws FileError if the file cannot be read, and InputError with every problem.
+tasks::SceneMaterial read_material_file(const std::filesystem::path& file,
+                                        const std::vector<std::string>& assignments = {});
 
 }  // namespace tamp::tools

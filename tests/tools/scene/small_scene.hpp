@@ -3,8 +3,8 @@
 #include <string>
 #include <vector>
 
+#include "tests/tools/problems.hpp"
 #include "tests/tools/temporary_folder.hpp"
-#include "tools/errors.hpp"
 #include "tools/scene/read_scene.hpp"
 
 namespace tamp::test
@@ -28,7 +28,7 @@ inline void write_sand(const TemporaryFolder& folder)
 {
   folder.write("sand.json", R"({
     "type": "tabular_cap", "density": 1600, "poisson_ratio": 0.2, "elastic_update": "rate",
-    "modulus": { "type": "table", "file": "tables/unloading.csv" },
+    "modulus": { "type": "table", "table": "tables/unloading.csv" },
     "crush_curve": "tables/crush_curve.csv",
     "yield": { "file": "tables/yield.csv", "cap_ellipticity": 0.7 }
   })");
@@ -43,17 +43,7 @@ inline void write_sand(const TemporaryFolder& folder)
 inline std::string problems_of(const TemporaryFolder& folder, const std::filesystem::path& file,
                                const std::vector<std::string>& assignments = {})
 {
-  try {
-    tools::read_scene(file, assignments);
-    return "";
-  } catch (const tools::InputError& error) {
-    std::string text = error.what();
-    const std::string prefix = folder.path().string() + "/";
-    for (std::size_t at = text.find(prefix); at != std::string::npos; at = text.find(prefix)) {
-      text.erase(at, prefix.size());
-    }
-    return text;
-  }
+  return problems_of_reading(folder, [&] { tools::read_scene(file, assignments); });
 }
 
 /// The problems of the small scene after some assignments.

@@ -1,0 +1,101 @@
+#include <catch2/catch.hpp>
+
+#include "tools/compare/comparison.hpp"
+#include "tools/compare/comparison_report.hpp"
+#include "tools/compare/report_page.hpp"
+
+using namespace tamp::tools::compare;
+using Catch::Contains;
+
+namespace
+{
+
+/// A model whose steps took these times, one round each of two steps.
+ModelResult model_of(const std::string& name, const std::vector<double>& step_seconds)
+{
+  ModelResult model;
+  model.name = name;
+  for (std::size_t r = 0; r < step_seconds.size(); ++r) {
+    model.rounds.push_back({1e-3 * static_cast<double>(r + 1), 2, step_seconds[r]});
+    model.samples.push_back({1e-3 * static_cast<double>(r), 5e-4, 0, {0.1}, {2e6}, {1e6}});
+    model.steps += 2;
+  }
+  return model;
+}
+
+Comparison comparison_of(std::vector<ModelResult> models)
+{
+  return {"punch", "A <punch> & sand", 4, 1, {"punch"}, {"sand"}, std::move(models)};
+}
+
+}  // namespace
+
+TEST_CASE("quartiles lie between the values in order")
+{
+  const Quartiles q = quartiles({5, 1, 3, 2, 4});
+
+  CHECK(q.lower == 2);
+  CHECK(q.median == 3);
+  CHECK(q.upper == 4);
+  CHECK(quartiles({1, 2}).median == 1.5);
+  CHECK(quartiles({7}).upper == 7);
+}
+
+TEST_CASE("noise that slows a whole round does not change the ratio")
+{
+  const Comparison both = comparison_of({model_of("table", {1, 1, 10, 1, 30}), model_of("svr", {4, 4, 40, 4, 120})});
+
+  const auto ratio = ratio_to_table(both, both.models[1]);
+
+  REQUIRE(ratio);
+  CHECK(ratio->lower == 4);
+  CHECK(ratio->median == 4);
+  CHECK(ratio->upper == 4);
+}
+
+TEST_CASE("rounds in which either model made no step do not count")
+{
+  ModelResult svr = model_of("svr", {3, 9, 9});
+  svr.rounds[1].steps = 0;
+  svr.rounds.pop_back();
+  const Comparison all = comparison_of({model_of("table", {1, 1, 1}), svr, model_of("mlp", {})});
+
+  CHECK(ratio_to_table(all, all.models[1])->median == 3);
+  CHECK_FALSE(ratio_to_table(all, all.models[2]));
+}
+
+TEST_CASE("without a table there is no ratio to it")
+{
+  const auto json = to_json(comparison_of({model_of("svr", {1, 2})}));
+
+  CHECK(json["models"][0]["ratio_to_table"].is_null());
+}
+
+TEST_CASE("a reason with commas and quotes is one cell of the table")
+{
+  ModelResult model = model_of("table", {1});
+  model.instability = "step 3, particle \"7\"";
+
+  CHECK_THAT(to_csv(comparison_of({model})), Contains("unstable,\"step 3, particle \"\"7\"\"\","));
+}
+
+TEST_CASE("the page marks a model that went wrong, and says why")
+{
+  ModelResult bad = model_of("svr", {1, 2});
+  bad.instability = "step 3: lost";
+
+  const std::string page = report_page(comparison_of({model_of("table", {1, 1}), bad}));
+
+  CHECK_THAT(page, Contains("svr became unstable") && Contains("step 3: lost") && Contains("class=\"cross s1\""));
+}
+
+TEST_CASE("the page holds six plots, needs nothing from elsewhere, and takes no text for markup")
+{
+  const std::string page = report_page(comparison_of({model_of("table", {1, 1})}));
+
+  std::size_t n_plots = 0;
+  for (std::size_t at = page.find("<svg"); at != std::string::npos; at = page.find("<svg", at + 1)) ++n_plots;
+  CHECK(n_plots == 6);
+  CHECK_THAT(page, !Contains("http") && !Contains("src=") && !Contains("@import"));
+  CHECK_THAT(page, Contains("A &lt;punch&gt; &amp; sand") && !Contains("<punch>"));
+}

@@ -1,0 +1,28 @@
+#pragma once
+
+#include <string>
+
+#include "tests/tools/temporary_folder.hpp"
+#include "tools/errors.hpp"
+
+namespace tamp::test
+{
+
+/// What `read` tells, a line for each problem, with the folder's path left out; empty if it tells nothing.
+template <class Read>
+std::string problems_of_reading(const TemporaryFolder& folder, Read read)
+{
+  try {
+    read();
+    return "";
+  } catch (const tools::InputError& error) {
+    std::string text = error.what();
+    const std::string prefix = folder.path().string() + "/";
+    for (std::size_t at = text.find(prefix); at != std::string::npos; at = text.find(prefix)) {
+      text.erase(at, prefix.size());
+    }
+    return text;
+  }
+}
+
+}  // namespace tamp::test

@@ -1,0 +1,109 @@
+#include "tools/compare/compare.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <memory>
+
+#include "runtime/storage/whole_file.hpp"
+#include "tasks/simulation_error.hpp"
+#include "tools/commands/commands.hpp"
+#include "tools/compare/comparison_report.hpp"
+#include "tools/compare/peak_memory.hpp"
+#include "tools/compare/report_page.hpp"
+#include "tools/usable_cores.hpp"
+
+namespace tamp::tools
+{
+
+namespace
+{
+
+struct Options {
+  std::string scene;
+  std::vector<std::string> models{"table", "svr", "mlp"};
+  std::vector<std::string> assignments;
+  std::string out;
+  compare::Options comparison;
+};
+
+std::vector<std::optional<std::size_t>> measure_memory(const Options& options,
+                                                       const std::vector<compare::ModelScene>& scenes)
+{
+  // What a step needs is there after the first; a few more let the sand begin to move.
+  const long n_steps = std::min(options.comparison.max_steps, 20L);
+  std::vector<std::optional<std::size_t>> bytes;
+  bytes.reserve(scenes.size());
+  for (const compare::ModelScene& scene : scenes) {
+    bytes.push_back(compare::peak_rss_alone(options.scene, scene.assignments, options.comparison.n_threads, n_steps,
+                                            options.comparison.folder / scene.name / "alone"));
+  }
+  return bytes;
+}
+
+void write(const compare::Comparison& comparison, const std::filesystem::path& folder)
+{
+  runtime::write_whole_file(folder / "compare.csv", to_csv(comparison));
+  runtime::write_whole_file(folder / "compare.json", to_json(comparison).dump(1) + "\n");
+  runtime::write_whole_file(folder / "report.html", report_page(comparison));
+}
+
+/// The models that went wrong, in the way of a single run.
+void complain_of_unstable(const compare::Comparison& comparison)
+{
+  std::vector<std::string> lines;
+  for (const compare::ModelResult& model : comparison.models) {
+    if (model.unstable()) lines.push_back(fmt::format("{}: {}", model.name, model.instability));
+  }
+  if (!lines.empty()) throw tasks::SimulationError(fmt::format("{}", fmt::join(lines, "\n")), "", -1, {});
+}
+
+void compare_models(Options& options)
+{
+  const auto scenes = compare::read_model_scenes(options.scene, options.assignments, options.models);
+  options.comparison.folder = options.out.empty() ? "compare/" + scenes.front().scene.scene.name : options.out;
+  prepare_folder(options.comparison, scenes);
+  const auto memory = measure_memory(options, scenes);
+
+  compare::Comparison comparison = compare::compare(scenes, options.comparison);
+  for (std::size_t m = 0; m < memory.size(); ++m) comparison.models[m].peak_rss_bytes = memory[m];
+
+  write(comparison, options.comparison.folder);
+  if (!options.comparison.quiet) {
+    fmt::print("{}  written to {}\n", to_text(comparison), options.comparison.folder.string());
+  }
+  complain_of_unstable(comparison);
+}
+
+}  // namespace
+
+CLI::App* add_compare_command(CLI::App& app)
+{
+  CLI::App* command = app.add_subcommand("compare", "Run a scene with several models of the sand, and compare them");
+  const auto options = std::make_shared<Options>();
+  options->comparison.n_threads = usable_cores();
+  command->add_option("SCENE", options->scene, "the scene's JSON file")->required();
+  command
+      ->add_option("--models", options->models,
+                   fmt::format("models, with commas between: {}", fmt::join(compare::model_names(), ", ")))
+      ->delimiter(',')
+      ->allow_extra_args(false);
+  command->add_option("--out", options->out, "the comparison's folder; by default compare/ and the scene's name");
+  command->add_option("--set", options->assignments, "POINTER=VALUE: replace a value of the scene, may be repeated")
+      ->allow_extra_args(false);
+  command->add_option("--threads", options->comparison.n_threads, "threads; by default the cores that may be used")
+      ->check(CLI::Range(1, 1024));
+  command->add_option("--until", options->comparison.until, "stop at this simulated time, in seconds")
+      ->check(CLI::PositiveNumber)
+      ->default_str("the scene's end");
+  command->add_option("--steps", options->comparison.max_steps, "stop each model after so many steps")
+      ->check(CLI::PositiveNumber)
+      ->default_str("no limit");
+  command->add_flag("--force", options->comparison.force, "replace what an earlier comparison left in the folder");
+  command->add_flag("--quiet", options->comparison.quiet, "print no progress and no table");
+  command->callback([options] { compare_models(*options); });
+  return command;
+}
+
+}  // namespace tamp::tools

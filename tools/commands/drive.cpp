@@ -1,0 +1,65 @@
+#include <fmt/core.h>
+#include <fmt/ranges.h>
+
+#include <memory>
+#include <optional>
+
+#include "runtime/storage/csv_writer.hpp"
+#include "tools/commands/commands.hpp"
+#include "tools/drive/columns.hpp"
+#include "tools/drive/drive.hpp"
+#include "tools/drive/read_path.hpp"
+#include "tools/scene/read_material.hpp"
+
+namespace tamp::tools
+{
+
+namespace
+{
+
+struct Options {
+  std::string material;
+  std::string path;
+  std::vector<std::string> assignments;
+  std::string out;
+  double increment = 1e-3;
+};
+
+void drive_point(const Options& options)
+{
+  const tasks::SceneMaterial material = read_material_file(options.material, options.assignments);
+  const DeformationPath path = read_path(options.path);
+  std::optional<runtime::CsvWriter> file;
+  if (options.out.empty()) {
+    fmt::print("{}\n", fmt::join(drive_columns(), ","));
+  } else {
+    file.emplace(options.out, drive_columns());
+  }
+  drive(material, path, options.increment, [&](double time, const MaterialPoint& point) {
+    const std::vector<double> values = drive_values(material.model, time, point);
+    if (file) {
+      file->write_row(values);
+    } else {
+      fmt::print("{}\n", fmt::join(values, ","));
+    }
+  });
+}
+
+}  // namespace
+
+CLI::App* add_drive_command(CLI::App& app)
+{
+  CLI::App* command = app.add_subcommand("drive", "Take one material point along a path of deformation, as CSV");
+  const auto options = std::make_shared<Options>();
+  command->add_option("MATERIAL", options->material, "the material's JSON file")->required();
+  command->add_option("PATH", options->path, "CSV (time,F11,F12,...,F33), or prescribed-deformation text")->required();
+  command->add_option("--set", options->assignments, "POINTER=VALUE: replace a value of the material, may be repeated")
+      ->allow_extra_args(false);
+  command->add_option("--increment", options->increment, "largest strain of an increment")
+      ->check(CLI::Range(1e-9, 0.1));
+  command->add_option("--out", options->out, "write to this file");
+  command->callback([options] { drive_point(*options); });
+  return command;
+}
+
+}  // namespace tamp::tools

@@ -1,0 +1,147 @@
+#include "tools/compare/comparison_report.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+
+#include "tools/usable_cores.hpp"
+#include "tools/version.hpp"
+
+namespace tamp::tools::compare
+{
+
+namespace
+{
+
+using Json = nlohmann::ordered_json;
+
+template <class T>
+Json or_null(const std::optional<T>& value)
+{
+  return value ? Json(*value) : Json(nullptr);
+}
+
+/// The figures of one model, all of them numbers or text.
+Json figures(const Comparison& comparison, const ModelResult& model)
+{
+  const std::optional<Quartiles> ratio = ratio_to_table(comparison, model);
+  Json json = {{"model", model.name},
+               {"status", model.unstable() ? "unstable" : "completed"},
+               {"reason", model.instability},
+               {"steps", model.steps},
+               {"simulated_time_s", model.time},
+               {"wall_s", model.wall},
+               {"wall_per_step_s", model.median_step_wall}};
+  json["ratio_to_table"] = ratio ? Json(ratio->median) : Json(nullptr);
+  json["ratio_to_table_lower_quartile"] = ratio ? Json(ratio->lower) : Json(nullptr);
+  json["ratio_to_table_upper_quartile"] = ratio ? Json(ratio->upper) : Json(nullptr);
+  json["dt_mean_s"] = model.mean_step_size();
+  json["modulus_evaluations"] = model.modulus_evaluations;
+  json["modulus_ns_per_eval"] = or_null(model.modulus_ns);
+  json["peak_rss_bytes"] = or_null(model.peak_rss_bytes);
+  json["ledger_peak_bytes"] = model.ledger_peak_bytes;
+  const std::vector<double>& depth = model.samples.back().depth;
+  json["depth_m"] = depth.empty() ? Json(nullptr) : Json(depth.front());
+  json["depth_max_m"] = depth.empty() ? Json(nullptr) : Json(largest(model, &Sample::depth));
+  json["p_max_Pa"] = largest(model, &Sample::pressure);
+  json["q_max_Pa"] = largest(model, &Sample::q);
+  json["state_digest"] = model.digest;
+  return json;
+}
+
+Json series(const Comparison& comparison, const ModelResult& model)
+{
+  Json json;
+  for (const Sample& sample : model.samples) {
+    json["time_s"].push_back(sample.time);
+    json["dt_s"].push_back(sample.step_size);
+    json["wall_s"].push_back(sample.wall);
+    for (std::size_t b = 0; b < comparison.bodies.size(); ++b) {
+      json[comparison.bodies[b] + ".depth_m"].push_back(sample.depth[b]);
+    }
+    for (std::size_t m = 0; m < comparison.sands.size(); ++m) {
+      json[comparison.sands[m] + ".p_max_Pa"].push_back(sample.pressure[m]);
+      json[comparison.sands[m] + ".q_max_Pa"].push_back(sample.q[m]);
+    }
+  }
+  return json;
+}
+
+Json rounds(const ModelResult& model)
+{
+  Json json = {{"time_s", Json::array()}, {"steps", Json::array()}, {"wall_per_step_s", Json::array()}};
+  for (const Round& round : model.rounds) {
+    json["time_s"].push_back(round.time);
+    json["steps"].push_back(round.steps);
+    json["wall_per_step_s"].push_back(round.step_wall);
+  }
+  return json;
+}
+
+/// Text in quotes, as it may hold commas; an empty place where there is no number.
+std::string csv_cell(const Json& value)
+{
+  if (value.is_null()) return "";
+  if (!value.is_string()) return value.dump();
+  std::string text = value.get<std::string>();
+  for (std::size_t at = text.find('"'); at != std::string::npos; at = text.find('"', at + 2)) text.insert(at, 1, '"');
+  return text.find_first_of(",\"\n") == std::string::npos ? text : "\"" + text + "\"";
+}
+
+}  // namespace
+
+Json to_json(const Comparison& comparison)
+{
+  Json json = {{"scene", comparison.scene},
+               {"title", comparison.title},
+               {"version", version()},
+               {"program", version_text()},
+               {"cores", usable_cores()},
+               {"threads", comparison.n_threads},
+               {"particles", comparison.n_particles},
+               {"bodies", comparison.bodies},
+               {"sands", comparison.sands},
+               {"models", Json::array()}};
+  for (const ModelResult& model : comparison.models) {
+    Json one = figures(comparison, model);
+    one["series"] = series(comparison, model);
+    one["rounds"] = rounds(model);
+    json["models"].push_back(std::move(one));
+  }
+  return json;
+}
+
+std::string to_csv(const Comparison& comparison)
+{
+  std::string text;
+  for (const ModelResult& model : comparison.models) {
+    std::vector<std::string> names, cells;
+    const Json row = figures(comparison, model);
+    for (const auto& [name, value] : row.items()) {
+      names.push_back(name);
+      cells.push_back(csv_cell(value));
+    }
+    if (text.empty()) text = fmt::format("{}\n", fmt::join(names, ","));
+    text += fmt::format("{}\n", fmt::join(cells, ","));
+  }
+  return text;
+}
+
+std::string to_text(const Comparison& comparison)
+{
+  std::string text = fmt::format("{:<16}{:>14}{:>10}{:>10}{:>12}{:>14}{:>11}{:>11}\n", "model", "per step [us]",
+                                 "to table", "steps", "dt [us]", "modulus [ns]", "depth [m]", "q [MPa]");
+  for (const ModelResult& model : comparison.models) {
+    const std::optional<Quartiles> ratio = ratio_to_table(comparison, model);
+    const std::vector<double>& depth = model.samples.back().depth;
+    text += fmt::format("{:<16}{:>14.1f}{:>10}{:>10}{:>12.4g}{:>14}{:>11}{:>11.4g}{}\n", model.name,
+                        model.median_step_wall * 1e6, ratio ? fmt::format("{:.2f}", ratio->median) : "-", model.steps,
+                        model.mean_step_size() * 1e6, model.modulus_ns ? fmt::format("{:.1f}", *model.modulus_ns) : "-",
+                        depth.empty() ? "-" : fmt::format("{:.4f}", depth.front()), largest(model, &Sample::q) * 1e-6,
+                        model.unstable() ? "  unstable" : "");
+  }
+  return text;
+}
+
+}  // namespace tamp::tools::compare

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <vector>
+
+#include "components/materials/tabular_cap.hpp"
+#include "tasks/simulation.hpp"
+
+namespace tamp::tools::compare
+{
+
+/// States of one sand, to evaluate its elastic model on.
+class ModulusTiming
+{
+ public:
+  /// `pressure` is compression positive; spans of equal length.
+  ModulusTiming(const components::TabularCap& sand, std::span<const double> pressure, std::span<const double> elastic,
+                std::span<const double> plastic);
+
+  /// Evaluates the model once on every state, in the form that the sand's update uses [s].
+  double seconds();
+  std::size_t n_states() const { return elastic_.size(); }
+
+ private:
+  const components::TabularCap& sand_;
+  std::vector<double> pressure_, elastic_, plastic_;
+  std::vector<double> bulk_modulus_;
+  std::vector<components::ElasticPoint> points_;
+};
+
+/// The states of a simulation's sands now; of many particles some thousands, evenly chosen.
+std::vector<ModulusTiming> modulus_timings(tasks::Simulation& simulation);
+
+/// One evaluation, the mean over all states [ns].
+double nanoseconds_each(std::vector<ModulusTiming>& timings);
+
+}  // namespace tamp::tools::compare

@@ -1,0 +1,177 @@
+#include "tools/scene/read_modulus.hpp"
+
+#include <fmt/core.h>
+
+#include "components/errors.hpp"
+#include "tools/scene/file_kind.hpp"
+#include "tools/scene/parse_json.hpp"
+#include "tools/scene/read_network.hpp"
+#include "tools/scene/read_support_vectors.hpp"
+#include "tools/scene/unloading_curves.hpp"
+
+namespace tamp::tools
+{
+
+namespace
+{
+
+using components::BadValue;
+using components::EngineeringStrain;
+using components::Modulus;
+using components::ModulusSurface;
+using components::NetworkModulus;
+using components::SupportVectorModulus;
+using components::UnloadingTable;
+
+UnloadingTable unloading_table(const std::filesystem::path& file, StrainMeasure measure)
+{
+  Table curves = read_unloading_curves(file, measure);
+  return made_from(curves, [](Table& t) { return UnloadingTable(t.columns[0], t.columns[1], t.columns[2]); });
+}
+
+/// What `make` makes; its BadValue becomes an InputError, said with `place`.
+template <class Make>
+auto made_at(const std::string& place, Make make)
+{
+  try {
+    return make();
+  } catch (const BadValue& bad) {
+    throw InputError({place, bad.found, "expected " + bad.expected});
+  }
+}
+
+SupportVectorModulus support_vector_modulus(const std::filesystem::path& file, components::ZeroPressure zero)
+{
+  const components::SupportVectorFit fit = read_support_vectors(file);
+  return made_at(file.string(), [&] { return SupportVectorModulus(fit, zero); });
+}
+
+NetworkModulus network_modulus(const std::filesystem::path& file, std::vector<components::DenseLayer> layers,
+                               const std::vector<double>& scaling, const std::vector<double>& range)
+{
+  const components::NetworkFit fit = network_fit(std::move(layers), scaling, range);
+  return made_at(file.string(), [&] { return NetworkModulus(fit); });
+}
+
+/// Reads the keys first, and the file they name when they are good.
+class ModulusReader
+{
+ public:
+  ModulusReader(JsonReader& material, StrainMeasure measure) : reader_(material.object("modulus")), measure_(measure) {}
+
+  std::optional<Modulus> read()
+  {
+    const std::size_t n_before = reader_.document().problems.size();
+    read_keys();
+    if (reader_.document().problems.size() > n_before || file_.empty()) return std::nullopt;
+    return noting_problems(reader_.document(), [&] { return model(); });
+  }
+
+ private:
+  void read_keys()
+  {
+    const std::vector<std::string> types{"table", "svr", "mlp"};
+    type_ = reader_.choice("type", types);
+    for (const std::string& type : types) {
+      if (type == type_) {
+        file_ = reader_.existing_file(type);
+      } else {
+        reader_.allow_file(type);
+      }
+    }
+    const Range inside{.lower = 0, .upper = 1, .holds_lower = false, .holds_upper = false};
+    tolerance_ = reader_.optional_number("compile", inside);
+    scaling_ = optional_numbers("scaling", 6);
+    range_ = optional_numbers("range", 4);
+    reader_.finish();
+  }
+
+  std::optional<std::vector<double>> optional_numbers(const std::string& key, std::size_t n)
+  {
+    reader_.allow(key);
+    if (!reader_.has(key)) return std::nullopt;
+    return reader_.numbers(key, n, any_number);
+  }
+
+  Modulus model() const
+  {
+    if (type_ == "table") return compiled(unloading_table(file_, measure_));
+    if (type_ == "svr") {
+      return converted(support_vector_modulus(file_, components::ZeroPressure::at_zero_elastic_strain));
+    }
+    NetworkFile network = read_network_file(file_);
+    const std::vector<double> scaling = in_file_or_here("scaling", 6, network.scaling, scaling_);
+    const std::vector<double> range = in_file_or_here("range", 4, network.range, range_);
+    check_scaling(scaling, reader_.place("scaling"));
+    check_range(range, reader_.place("range"));
+    return converted(network_modulus(file_, std::move(network.layers), scaling, range));
+  }
+
+  std::vector<double> in_file_or_here(const std::string& key, std::size_t n,
+                                      const std::optional<std::vector<double>>& in_file,
+                                      const std::optional<std::vector<double>>& here) const
+  {
+    if (in_file) return *in_file;
+    if (here) return *here;
+    throw InputError({reader_.place(key), fmt::format("missing, and not in {} either", file_.string()),
+                      fmt::format("expected {} numbers", n)});
+  }
+
+  /// A fit knows its own strains only.
+  template <components::ElasticModel Model>
+  Modulus converted(Model model) const
+  {
+    if (measure_ == StrainMeasure::logarithmic) return compiled(std::move(model));
+    return compiled(EngineeringStrain<Model>(std::move(model)));
+  }
+
+  template <components::ElasticModel Model>
+  Modulus compiled(Model model) const
+  {
+    if (!tolerance_) return model;
+    return made_at(reader_.place("compile"), [&] { return ModulusSurface(model, *tolerance_); });
+  }
+
+  JsonReader reader_;
+  StrainMeasure measure_;
+  std::string type_;
+  std::filesystem::path file_;
+  std::optional<double> tolerance_;
+  std::optional<std::vector<double>> scaling_, range_;
+};
+
+Modulus network_of_file(const std::filesystem::path& file, const std::optional<std::vector<double>>& scaling)
+{
+  NetworkFile network = read_network_file(file);
+  if (!network.scaling) network.scaling = scaling;
+  if (!network.scaling) {
+    throw InputError({file.string(), "a network without the attribute scaling",
+                      "expected --scaling mean_e,sd_e,mean_p,sd_p,mean_K,sd_K"});
+  }
+  const std::vector<double> range = network.range.value_or(likely_range(*network.scaling));
+  return network_modulus(file, std::move(network.layers), *network.scaling, range);
+}
+
+}  // namespace
+
+std::optional<Modulus> read_modulus(JsonReader& material, StrainMeasure measure)
+{
+  return ModulusReader(material, measure).read();
+}
+
+Modulus read_model_file(const std::filesystem::path& file, const std::optional<std::vector<double>>& scaling)
+{
+  const FileKind kind = file_kind(file);
+  if (kind == FileKind::hdf5) return network_of_file(file, scaling);
+  if (scaling) throw InputError({file.string(), "no network", "expected one where --scaling is given"});
+  if (kind == FileKind::text) return unloading_table(file, StrainMeasure::logarithmic);
+
+  const Json root = parse_json(file);
+  if (root.contains("Vaango_tabular_data")) return unloading_table(file, StrainMeasure::logarithmic);
+  if (root.contains("support_vectors") || root.contains("dual_coeffs") || root.contains("gamma")) {
+    return support_vector_modulus(file, components::ZeroPressure::as_fitted);
+  }
+  throw InputError({file.string() + "#", "no model", "expected Vaango_tabular_data, support_vectors or a material"});
+}
+
+}  // namespace tamp::tools

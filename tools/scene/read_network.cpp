@@ -1,0 +1,226 @@
+#include "tools/scene/read_network.hpp"
+
+#include <fmt/core.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <string_view>
+#include <utility>
+
+#include "tools/scene/document.hpp"
+#include "tools/scene/hdf5_input.hpp"
+
+namespace tamp::tools
+{
+
+namespace
+{
+
+using components::Activation;
+using components::DenseLayer;
+
+constexpr const char* config_name = "model_config";
+constexpr const char* weights_group = "/model_weights";
+
+constexpr std::array<std::pair<const char*, Activation>, 4> activations{{{"linear", Activation::linear},
+                                                                         {"relu", Activation::relu},
+                                                                         {"sigmoid", Activation::sigmoid},
+                                                                         {"tanh", Activation::tanh}}};
+
+/// Layers that do nothing to two numbers when a network is asked.
+bool is_idle(const std::string& class_name)
+{
+  return class_name == "InputLayer" || class_name == "Dropout" || class_name == "Flatten";
+}
+
+class KerasReader
+{
+ public:
+  explicit KerasReader(const std::filesystem::path& file) : input_(file) {}
+
+  NetworkFile read()
+  {
+    NetworkFile network;
+    read_config();
+    layer_names_ = input_.texts(weights_group, "layer_names");
+    const JsonPointer pointer = layers_pointer();
+    const Json& layers = config_[pointer];
+    for (std::size_t i = 0; i < layers.size(); ++i) {
+      const std::string class_name = text(pointer / i / "class_name");
+      if (is_idle(class_name)) continue;
+      if (class_name != "Dense") fail(pointer / i / "class_name", class_name, "expected Dense");
+      network.layers.push_back(read_layer(pointer / i / "config"));
+      check_chain(network.layers, pointer / i / "config");
+    }
+    if (network.layers.empty()) fail(pointer, "no layers", "expected Dense layers");
+    if (network.layers.back().n_outputs != 1) {
+      fail(pointer, fmt::format("{} outputs", network.layers.back().n_outputs), "expected one, the bulk modulus");
+    }
+    network.scaling = input_.numbers("/", "scaling");
+    network.range = input_.numbers("/", "range");
+    if (network.scaling) check_scaling(*network.scaling, input_.place("/", "scaling"));
+    if (network.range) check_range(*network.range, input_.place("/", "range"));
+    return network;
+  }
+
+ private:
+  /// `pointer` leads into the JSON of the attribute model_config.
+  [[noreturn]] void fail(const JsonPointer& pointer, const std::string& found, const std::string& expected) const
+  {
+    throw InputError({input_.place("/", config_name) + pointer.to_string(), found, expected});
+  }
+
+  std::string text(const JsonPointer& pointer) const
+  {
+    if (config_.contains(pointer) && config_[pointer].is_string()) return config_[pointer].get<std::string>();
+    fail(pointer, shown(pointer), "expected a text");
+  }
+
+  std::size_t count(const JsonPointer& pointer) const
+  {
+    const bool is_count = config_.contains(pointer) && config_[pointer].is_number_unsigned();
+    if (is_count && config_[pointer] > 0) return config_[pointer].get<std::size_t>();
+    fail(pointer, shown(pointer), "expected a whole number above 0");
+  }
+
+  std::string shown(const JsonPointer& pointer) const
+  {
+    return config_.contains(pointer) ? config_[pointer].dump() : "missing";
+  }
+
+  void read_config()
+  {
+    if (!input_.has_attribute("/", config_name)) {
+      throw InputError({input_.place("/"), "no attribute model_config", "expected a model saved by Keras"});
+    }
+    const std::vector<std::string> texts = input_.texts("/", config_name);
+    config_ = Json::parse(texts.empty() ? "" : texts.front(), nullptr, false);
+    if (!config_.is_object()) fail(JsonPointer(), "no JSON object", "expected the model's description");
+    const JsonPointer class_name = JsonPointer() / "class_name";
+    if (text(class_name) != "Sequential") fail(class_name, text(class_name), "expected Sequential");
+  }
+
+  /// The list of layers stands under "layers" since Keras 2.2.3, before that directly.
+  JsonPointer layers_pointer() const
+  {
+    const JsonPointer direct = JsonPointer() / "config", inside = direct / "layers";
+    if (config_.contains(inside) && config_[inside].is_array()) return inside;
+    if (config_.contains(direct) && config_[direct].is_array()) return direct;
+    fail(inside, "missing", "expected a list of layers");
+  }
+
+  DenseLayer read_layer(const JsonPointer& pointer) const
+  {
+    const std::string name = text(pointer / "name");
+    const std::string group = fmt::format("{}/{}", weights_group, name);
+    if (std::find(layer_names_.begin(), layer_names_.end(), name) == layer_names_.end()) {
+      throw InputError({input_.place(weights_group, "layer_names"), fmt::format("{}", fmt::join(layer_names_, ", ")),
+                        fmt::format("expected the layer {} too", name)});
+    }
+    DenseLayer layer{};
+    layer.activation = activation(pointer / "activation");
+    layer.n_outputs = count(pointer / "units");
+
+    const std::vector<std::string> weights = input_.texts(group, "weight_names");
+    Hdf5Array kernel = weight(group, weights, "kernel");
+    if (kernel.extents.size() != 2 || kernel.extents[1] != layer.n_outputs) {
+      throw InputError({input_.place(group), fmt::format("a kernel of shape {}", fmt::join(kernel.extents, " x ")),
+                        fmt::format("expected its inputs x {}", layer.n_outputs)});
+    }
+    layer.n_inputs = kernel.extents[0];
+    layer.kernel = std::move(kernel.numbers);
+    layer.bias = bias(pointer, group, weights, layer.n_outputs);
+    return layer;
+  }
+
+  Activation activation(const JsonPointer& pointer) const
+  {
+    if (!config_.contains(pointer)) return Activation::linear;
+    const std::string name = text(pointer);
+    const auto at =
+        std::find_if(activations.begin(), activations.end(), [&](const auto& a) { return a.first == name; });
+    if (at == activations.end()) fail(pointer, name, "expected one of linear, relu, sigmoid, tanh");
+    return at->second;
+  }
+
+  std::vector<double> bias(const JsonPointer& layer, const std::string& group, const std::vector<std::string>& weights,
+                           std::size_t n) const
+  {
+    const JsonPointer use_bias = layer / "use_bias";
+    if (config_.contains(use_bias) && config_[use_bias] == false) return std::vector<double>(n, 0);
+    Hdf5Array bias = weight(group, weights, "bias");
+    if (bias.extents == std::vector<std::size_t>{n}) return std::move(bias.numbers);
+    throw InputError({input_.place(group), fmt::format("a bias of shape {}", fmt::join(bias.extents, " x ")),
+                      fmt::format("expected {}", n)});
+  }
+
+  /// The dataset whose name is `kind`, whatever stands before it as a path and after it as a number: "dense/kernel:0".
+  Hdf5Array weight(const std::string& group, const std::vector<std::string>& weights, const std::string& kind) const
+  {
+    for (const std::string& name : weights) {
+      const std::string_view last = std::string_view(name).substr(name.rfind('/') + 1);
+      if (last.substr(0, last.find(':')) == kind) return input_.dataset(fmt::format("{}/{}", group, name));
+    }
+    throw InputError({input_.place(group, "weight_names"), fmt::format("{}", fmt::join(weights, ", ")),
+                      fmt::format("expected a {} too", kind)});
+  }
+
+  void check_chain(const std::vector<DenseLayer>& layers, const JsonPointer& pointer) const
+  {
+    const std::size_t n = layers.size() == 1 ? 2 : layers[layers.size() - 2].n_outputs;
+    if (layers.back().n_inputs == n) return;
+    fail(pointer, fmt::format("a layer of {} inputs", layers.back().n_inputs),
+         layers.size() == 1 ? "expected 2, elastic and plastic strain"
+                            : fmt::format("expected {}, the outputs of the layer before", n));
+  }
+
+  Hdf5Input input_;
+  Json config_;
+  std::vector<std::string> layer_names_;
+};
+
+[[noreturn]] void fail(const std::vector<double>& numbers, const std::string& place, const std::string& expected)
+{
+  throw InputError({place, fmt::format("[{}]", fmt::join(numbers, ", ")), expected});
+}
+
+}  // namespace
+
+NetworkFile read_network_file(const std::filesystem::path& file)
+{
+  return KerasReader(file).read();
+}
+
+void check_scaling(const std::vector<double>& scaling, const std::string& place)
+{
+  const std::string expected = "expected mean and deviation (none negative) of elastic strain, plastic strain and K";
+  if (scaling.size() != 6) fail(scaling, place, expected);
+  for (std::size_t i = 1; i < scaling.size(); i += 2) {
+    if (scaling[i] < 0) fail(scaling, place, expected);
+  }
+}
+
+void check_range(const std::vector<double>& range, const std::string& place)
+{
+  const bool is_good = range.size() == 4 && range[0] < range[1] && range[2] < range[3];
+  if (!is_good) fail(range, place, "expected least < most elastic strain, least < most plastic strain");
+}
+
+std::vector<double> likely_range(const std::vector<double>& scaling)
+{
+  return {0, scaling[0] + 2 * scaling[1], 0, scaling[2] + 2 * scaling[3]};
+}
+
+components::NetworkFit network_fit(std::vector<DenseLayer> layers, const std::vector<double>& scaling,
+                                   const std::vector<double>& range)
+{
+  return {std::move(layers),
+          {scaling[0], scaling[1]},
+          {scaling[2], scaling[3]},
+          {scaling[4], scaling[5]},
+          {range[0], range[1], range[2], range[3]}};
+}
+
+}  // namespace tamp::tools
