@@ -6,7 +6,6 @@
 
 #include "components/loads/time_step.hpp"
 #include "components/materials/wave_speed.hpp"
-#include "runtime/execute/executor.hpp"
 #include "tasks/field_columns.hpp"
 #include "tasks/fill_bodies.hpp"
 #include "tasks/labels.hpp"
@@ -45,8 +44,8 @@ class SimulationOf : public Simulation
   static constexpr int D = Interpolator::dimension;
 
  public:
-  SimulationOf(Scene given, int threads)
-      : Simulation(std::move(given), threads),
+  SimulationOf(Scene given, std::shared_ptr<runtime::Executor> executor)
+      : Simulation(std::move(given), std::move(executor)),
         method_(scene_),
         layout_(scene_.grid, scene_.n_patches),
         step_graph_(time_step(method_), layout_, material_names(scene_), host_data<Interpolator>()),
@@ -55,10 +54,9 @@ class SimulationOf : public Simulation
         warehouse_(std::array<const runtime::TaskGraph*, 2>{&step_graph_, &report_graph_}),
         step_(step_graph_, warehouse_),
         report_(report_graph_, warehouse_),
-        step_schedule_(step_, threads),
-        report_schedule_(report_, threads),
-        profiler_(step_schedule_, step_, threads, n_traced_steps),
-        executor_(threads)
+        step_schedule_(step_, n_threads()),
+        report_schedule_(report_, n_threads()),
+        profiler_(step_schedule_, step_, n_threads(), n_traced_steps)
   {
     fill_bodies<D>(scene_, warehouse_);
     forecast_bytes_ = warehouse_.forecast_bytes();
@@ -69,7 +67,7 @@ class SimulationOf : public Simulation
   {
     const double size = next_step_size(end);
     try {
-      executor_.run(step_schedule_, {n_steps_, time_, size, last_step_size_});
+      executor_->run(step_schedule_, {n_steps_, time_, size, last_step_size_});
     } catch (const runtime::TaskError& error) {
       std::rethrow_exception(error.cause);
     }
@@ -85,7 +83,7 @@ class SimulationOf : public Simulation
 
   ParticleReport report() override
   {
-    executor_.run(report_schedule_, {n_steps_, time_, 0, 0});
+    executor_->run(report_schedule_, {n_steps_, time_, 0, 0});
     return warehouse_.result(particle_report);
   }
 
@@ -197,16 +195,20 @@ class SimulationOf : public Simulation
   FieldColumns<Interpolator> columns_;
   std::size_t forecast_bytes_ = 0;
   LostParticles lost_;
-  runtime::Executor executor_;
 };
 
 }  // namespace
 
 std::unique_ptr<Simulation> Simulation::make(Scene scene, int n_threads)
 {
+  return make(std::move(scene), std::make_shared<runtime::Executor>(n_threads));
+}
+
+std::unique_ptr<Simulation> Simulation::make(Scene scene, std::shared_ptr<runtime::Executor> executor)
+{
   if (scene.grid.dimension == 2)
-    return std::make_unique<SimulationOf<components::Gimp<2>>>(std::move(scene), n_threads);
-  return std::make_unique<SimulationOf<components::Gimp<3>>>(std::move(scene), n_threads);
+    return std::make_unique<SimulationOf<components::Gimp<2>>>(std::move(scene), std::move(executor));
+  return std::make_unique<SimulationOf<components::Gimp<3>>>(std::move(scene), std::move(executor));
 }
 
 }  // namespace tamp::tasks

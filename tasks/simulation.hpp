@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "runtime/data/memory_ledger.hpp"
+#include "runtime/execute/executor.hpp"
 #include "runtime/graph/task_graph.hpp"
 #include "runtime/profile/profiler.hpp"
 #include "runtime/storage/field_columns.hpp"
@@ -33,13 +34,15 @@ class Simulation
  public:
   /// The scene is kept. `n_threads` includes the caller.
   static std::unique_ptr<Simulation> make(Scene scene, int n_threads);
+  /// On an executor that several simulations may share, as long as they advance in turn.
+  static std::unique_ptr<Simulation> make(Scene scene, std::shared_ptr<runtime::Executor> executor);
   virtual ~Simulation() = default;
 
   const Scene& scene() const { return scene_; }
   long n_steps() const { return n_steps_; }
   double time() const { return time_; }
   double last_step_size() const { return last_step_size_; }
-  int n_threads() const { return n_threads_; }
+  int n_threads() const { return executor_->n_threads(); }
   /// Sums since the start; `stable_step` is that of the last step.
   const StepTotals& totals() const { return totals_; }
   /// What the grid gave to the particles since the start [N s].
@@ -67,10 +70,13 @@ class Simulation
   virtual std::size_t least_bytes_per_particle(int material) const = 0;
 
  protected:
-  Simulation(Scene scene, int n_threads) : scene_(std::move(scene)), n_threads_(n_threads) {}
+  Simulation(Scene scene, std::shared_ptr<runtime::Executor> executor)
+      : scene_(std::move(scene)), executor_(std::move(executor))
+  {
+  }
 
   Scene scene_;
-  int n_threads_;
+  std::shared_ptr<runtime::Executor> executor_;
   long n_steps_ = 0;
   double time_ = 0;
   double last_step_size_ = 0;

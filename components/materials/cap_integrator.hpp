@@ -105,7 +105,7 @@ class CapIntegrator
     } else {
       now = advance_cut(old, e, compaction, now);
     }
-    counts_.extrapolated += !model_.in_range(now.state.elastic_volumetric, now.state.plastic_volumetric);
+    counts_.extrapolated += !in_range(now);
     return now;
   }
 
@@ -124,6 +124,13 @@ class CapIntegrator
     const double elastic = old.state.elastic_volumetric, plastic = old.state.plastic_volumetric;
     return form_ == ElasticUpdate::state ? model_.at(elastic, plastic).bulk_modulus
                                          : rate_modulus(old.pressure, elastic, plastic);
+  }
+
+  bool in_range(const Particle& now) const
+  {
+    const double elastic = now.state.elastic_volumetric, plastic = now.state.plastic_volumetric;
+    return form_ == ElasticUpdate::state ? model_.in_range(elastic, plastic)
+                                         : model_.rate_in_range(now.pressure, elastic, plastic);
   }
 
   double rate_modulus(double pressure, double elastic, double plastic)

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <concepts>
 #include <cstddef>
 #include <span>
 
@@ -32,26 +31,18 @@ struct StrainRange {
 ///  - state form, `at`: pressure as a function of elastic and plastic volumetric strain;
 ///  - rate form, `rate_modulus`: the K of dp = K d(elastic), which the published Table takes at the pressure, and the
 ///    published SVR and MLP at the strains.
-/// `modulus_by_plastic` is dK/d(plastic) at the same elastic strain, in state form. `in_range` is false where the
-/// answer is an extrapolation; `range` is a rectangle on which it is none.
+/// `modulus_by_plastic` is dK/d(plastic) at the same elastic strain, in state form. `in_range` and
+/// `rate_in_range` are false where the answer is an extrapolation; `range` is a rectangle on which that of the state
+/// form is none.
 template <class Model>
-concept ElasticModel = requires(const Model& model, double x)
+concept ElasticModel = requires(const Model& model, double pressure, double elastic, double plastic)
 {
-  {
-    model.at(x, x)
-    } -> std::same_as<ElasticPoint>;
-  {
-    model.rate_modulus(x, x, x)
-    } -> std::same_as<double>;  // (pressure, elastic, plastic)
-  {
-    model.modulus_by_plastic(x, x)
-    } -> std::same_as<double>;
-  {
-    model.in_range(x, x)
-    } -> std::same_as<bool>;
-  {
-    model.range()
-    } -> std::same_as<StrainRange>;
+  ElasticPoint(model.at(elastic, plastic));
+  double(model.rate_modulus(pressure, elastic, plastic));
+  double(model.modulus_by_plastic(elastic, plastic));
+  bool(model.in_range(elastic, plastic));
+  bool(model.rate_in_range(pressure, elastic, plastic));
+  StrainRange(model.range());
 };
 
 /// The state form of a batch: spans of equal length.

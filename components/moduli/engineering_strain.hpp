@@ -58,6 +58,12 @@ class EngineeringStrain
     return model_.in_range(m.elastic, m.plastic);
   }
 
+  bool rate_in_range(double pressure, double elastic, double plastic) const
+  {
+    const Measured m = measured(elastic, plastic);
+    return model_.rate_in_range(pressure, m.elastic, m.plastic);
+  }
+
   /// Inside the model's: an elastic strain is longest in logarithms where there is plastic strain ahead of it.
   StrainRange range() const
   {

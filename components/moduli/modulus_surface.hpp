@@ -41,6 +41,10 @@ class ModulusSurface
     return surface_.modulus_by_plastic(elastic, plastic);
   }
   bool in_range(double elastic, double plastic) const { return in_range_(elastic, plastic); }
+  bool rate_in_range(double pressure, double elastic, double plastic) const
+  {
+    return pressure_modulus_ ? pressure_modulus_->in_range(pressure, plastic) : in_range(elastic, plastic);
+  }
   StrainRange range() const { return surface_.range(); }
 
   double tolerance() const { return tolerance_; }

@@ -46,6 +46,7 @@ class NetworkModulus
     return modulus_.with_slopes(elastic, plastic).by_plastic;
   }
   bool in_range(double elastic, double plastic) const { return in_range_(elastic, plastic); }
+  bool rate_in_range(double /*pressure*/, double elastic, double plastic) const { return in_range(elastic, plastic); }
   StrainRange range() const { return modulus_.range; }
 
   /// Along one line of equal plastic strain, elastic strains ascending, the pressure as the integral itself.

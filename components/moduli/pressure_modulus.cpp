@@ -9,7 +9,9 @@ PressureModulus::PressureModulus(std::span<const double> curve_plastic, std::spa
   for (std::size_t k = 0; k + 1 < curve_plastic_.size(); ++k) {
     per_width_.push_back(1 / (curve_plastic_[k + 1] - curve_plastic_[k]));
   }
-  for (const MonotoneCubic& curve : curves) last_pressure_ = std::max(last_pressure_, curve.x().back());
+  for (const MonotoneCubic& curve : curves) end_pressure_.push_back(curve.x().back());
+  last_pressure_ = *std::max_element(end_pressure_.begin(), end_pressure_.end());
+  least_pressure_ = -1e-3 / curves.front().at(0).slope;
 
   pressure_shift_ = last_pressure_ / 4096;
   first_octave_cell_ = octave_cell(pressure_shift_).number;

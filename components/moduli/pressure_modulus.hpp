@@ -25,19 +25,35 @@ class PressureModulus
   {
     const double shifted = std::min(std::max(pressure, 0.0), last_pressure_) + pressure_shift_;
     const OctaveCell cell = octave_cell(shifted);
-    const double ep = std::min(std::max(plastic_volumetric, 0.0), curve_plastic_.back());
-    const std::size_t n_curves = curve_plastic_.size();
-    std::size_t k = 0;
-    while (k + 2 < n_curves && ep >= curve_plastic_[k + 1]) ++k;
-    const double s = (ep - curve_plastic_[k]) * per_width_[k];
+    const auto [k, s] = between(plastic_volumetric);
 
-    const double* const low = &modulus_[(cell.number - first_octave_cell_) * n_curves + k];
-    const double* const high = low + n_curves;
+    const double* const low = &modulus_[(cell.number - first_octave_cell_) * curve_plastic_.size() + k];
+    const double* const high = low + curve_plastic_.size();
     const double at_low = low[0] + s * (low[1] - low[0]), at_high = high[0] + s * (high[1] - high[0]);
     return at_low + cell.fraction * (at_high - at_low);
   }
 
+  /// On or between the curves: not beyond their ends, and no more than 0.1 % of strain in tension.
+  bool in_range(double pressure, double plastic_volumetric) const
+  {
+    if (!(plastic_volumetric >= 0 && plastic_volumetric <= curve_plastic_.back())) return false;
+    const auto [k, s] = between(plastic_volumetric);
+    return pressure <= (1 - s) * end_pressure_[k] + s * end_pressure_[k + 1] && pressure >= least_pressure_;
+  }
+
  private:
+  struct Between {
+    std::size_t curve;
+    double fraction;  // of the way to the next one
+  };
+  Between between(double plastic_volumetric) const
+  {
+    const double ep = std::min(std::max(plastic_volumetric, 0.0), curve_plastic_.back());
+    std::size_t k = 0;
+    while (k + 2 < curve_plastic_.size() && ep >= curve_plastic_[k + 1]) ++k;
+    return {k, (ep - curve_plastic_[k]) * per_width_[k]};
+  }
+
   // Pressure nodes are evenly spaced in each octave of (pressure + shift): the leading bits of that number are the
   // cell, the others the place in it.
   static constexpr int octave_bits = 6;  // 64 cells in each octave
@@ -55,8 +71,10 @@ class PressureModulus
   }
 
   std::vector<double> curve_plastic_;
-  std::vector<double> per_width_;  // 1 / distance of a curve to the next
-  std::vector<double> modulus_;    // [pressure node][curve]
+  std::vector<double> per_width_;     // 1 / distance of a curve to the next
+  std::vector<double> modulus_;       // [pressure node][curve]
+  std::vector<double> end_pressure_;  // of each curve
+  double least_pressure_ = 0;
   double last_pressure_ = 0;
   double pressure_shift_ = 0;
   std::size_t first_octave_cell_ = 0;

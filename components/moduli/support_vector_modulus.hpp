@@ -37,6 +37,7 @@ class SupportVectorModulus
   double rate_modulus(double pressure, double elastic, double plastic) const;
   double modulus_by_plastic(double elastic, double plastic) const;
   bool in_range(double elastic, double plastic) const;
+  bool rate_in_range(double /*pressure*/, double elastic, double plastic) const { return in_range(elastic, plastic); }
 
   /// The elastic strains that are trusted at every plastic strain of the box.
   StrainRange range() const { return range_; }

@@ -63,6 +63,10 @@ class UnloadingTable
   /// On or between the measured curves: not beyond their ends, and no more than 0.1 % in tension, which was not
   /// measured.
   bool in_range(double elastic_volumetric, double plastic_volumetric) const;
+  bool rate_in_range(double pressure, double /*elastic*/, double plastic_volumetric) const
+  {
+    return pressure_modulus().in_range(pressure, plastic_volumetric);
+  }
   /// Of the surface, up to the end of the longest curve.
   StrainRange range() const { return {least_elastic, last_elastic_, 0, curve_plastic_.back()}; }
 

@@ -153,7 +153,7 @@ Result moduli(const std::filesystem::path& material)
   NetworkFile file = read_network_file(material / "network.h5");
   const components::NetworkFit network = network_fit(std::move(file.layers), file.scaling.value(), file.range.value());
   const NetworkModulus mlp(network);
-  const ModulusSurface compiled_svr(svr, 1e-4), compiled_mlp(mlp, 3e-2);
+  const ModulusSurface compiled_svr(svr, 1e-4), compiled_mlp(mlp, 1e-2);
 
   const Loop plain_table = loop_of([&](double e, double ep) { return table.defined_at(e, ep); });
   const Loop plain_svr = loop_of([&](double e, double ep) { return plain_support_vectors(vectors, e, ep); });

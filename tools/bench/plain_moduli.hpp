@@ -4,8 +4,8 @@
 #include "components/moduli/network_fit.hpp"
 #include "components/moduli/support_vector_fit.hpp"
 
-/// The fitted models as their definitions have them, one state at a time and one number after the other: what a batch
-/// is compared with, in time and in what it answers.
+/// The fitted models as their definitions have them, one state at a time and one number after the other (vectorization
+/// by the compiler is off): what a batch is compared with, in time and in what it answers.
 namespace tamp::tools::bench
 {
 

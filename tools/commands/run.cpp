@@ -1,12 +1,10 @@
 #include "tools/run.hpp"
 
-#include <fmt/format.h>
-#include <sched.h>
-
 #include <memory>
 
 #include "tools/commands/commands.hpp"
 #include "tools/scene/read_scene.hpp"
+#include "tools/usable_cores.hpp"
 
 namespace tamp::tools
 {
@@ -20,14 +18,6 @@ struct Options {
   std::string out;
   RunOptions run;
 };
-
-/// Cores that this process may use: a batch system or mpirun may have given it fewer than the machine has.
-int usable_cores()
-{
-  cpu_set_t set;
-  CPU_ZERO(&set);
-  return sched_getaffinity(0, sizeof set, &set) == 0 ? CPU_COUNT(&set) : 1;
-}
 
 }  // namespace
 

@@ -36,8 +36,9 @@ class Race
         extent_{std::min(scenes.front().scene.scene.time.end, options.until), options.max_steps},
         round_steps_(steps_a_round(options.max_steps))
   {
+    const auto executor = std::make_shared<runtime::Executor>(options.n_threads);
     for (const ModelScene& scene : scenes) {
-      runs_.push_back(std::make_unique<ModelRun>(scene, extent_, options.folder / scene.name, options.n_threads));
+      runs_.push_back(std::make_unique<ModelRun>(scene, extent_, options.folder / scene.name, executor));
     }
   }
 

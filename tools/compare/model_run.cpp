@@ -31,9 +31,10 @@ double median(const std::vector<double>& values)
 
 }  // namespace
 
-ModelRun::ModelRun(const ModelScene& scene, const Extent& extent, const std::filesystem::path& folder, int n_threads)
+ModelRun::ModelRun(const ModelScene& scene, const Extent& extent, const std::filesystem::path& folder,
+                   std::shared_ptr<runtime::Executor> executor)
     : extent_(extent),
-      simulation_(tasks::Simulation::make(scene.scene.scene, n_threads)),
+      simulation_(tasks::Simulation::make(scene.scene.scene, std::move(executor))),
       history_(*simulation_, folder),
       sands_(sands_of(simulation_->scene()))
 {

@@ -23,8 +23,10 @@ struct Extent {
 class ModelRun
 {
  public:
-  /// `folder` exists, and receives the scene as resolved and `history.csv`.
-  ModelRun(const ModelScene& scene, const Extent& extent, const std::filesystem::path& folder, int n_threads);
+  /// `folder` exists, and receives the scene as resolved and `history.csv`. All models of a comparison share one
+  /// executor: each one's own would keep its threads from the others.
+  ModelRun(const ModelScene& scene, const Extent& extent, const std::filesystem::path& folder,
+           std::shared_ptr<runtime::Executor> executor);
 
   /// A round of so many steps, or to a simulated time; both end early where the run does.
   void lead_round(int n_steps);

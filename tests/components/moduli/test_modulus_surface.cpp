@@ -47,6 +47,7 @@ struct Straight {
   double rate_modulus(double, double e, double ep) const { return at(e, ep).bulk_modulus; }
   double modulus_by_plastic(double, double) const { return 1e9; }
   bool in_range(double e, double ep) const { return e < 0.05 && ep < 0.1; }
+  bool rate_in_range(double, double e, double ep) const { return in_range(e, ep); }
   StrainRange range() const { return {0, 0.1, 0, 0.3}; }
 };
 
