@@ -14,22 +14,24 @@ constexpr double widths_per_tile = 0.37;  // in 1 / sqrt(sharpness)
 
 }  // namespace
 
-GaussianSum::Axis::Axis(Interval interval, double sharpness)
+GaussianSum::Axis::Axis(Interval interval, long double sharpness)
     : low(interval.low),
       n_tiles(static_cast<std::size_t>((interval.high - interval.low) * std::sqrt(sharpness) / widths_per_tile) + 1),
       tiles_per_unit(static_cast<double>(n_tiles) / (interval.high - interval.low))
 {
 }
 
-GaussianSum::Terms GaussianSum::Axis::terms(double centre, double sharpness, std::size_t tile) const
+GaussianSum::Terms GaussianSum::Axis::terms(long double centre, long double sharpness, std::size_t tile) const
 {
-  const double t = (centre - low) * tiles_per_unit - static_cast<double>(tile) - 0.5;
-  const double s = sharpness / (tiles_per_unit * tiles_per_unit);
+  const long double t = (centre - low) * tiles_per_unit - static_cast<long double>(tile) - 0.5L;
+  const long double s = sharpness / (static_cast<long double>(tiles_per_unit) * tiles_per_unit);
   // Both sides of d/du exp(-s (t - u)^2) = 2 s (t - u) exp(-s (t - u)^2), power by power.
   Terms h;
   h[0] = std::exp(-s * t * t);
   h[1] = 2 * s * t * h[0];
-  for (std::size_t n = 1; n + 1 < n_terms; ++n) h[n + 1] = 2 * s * (t * h[n] - h[n - 1]) / static_cast<double>(n + 1);
+  for (std::size_t n = 1; n + 1 < n_terms; ++n) {
+    h[n + 1] = 2 * s * (t * h[n] - h[n - 1]) / static_cast<long double>(n + 1);
+  }
   return h;
 }
 
@@ -37,45 +39,60 @@ GaussianSum::Terms GaussianSum::Axis::terms(double centre, double sharpness, std
 GaussianSum::GaussianSum(const Gaussians& gaussians, Interval x, Interval y)
     : x_(x, gaussians.sharpness_x),
       y_(y, gaussians.sharpness_x + gaussians.sharpness_y),
-      tiles_(x_.n_tiles * y_.n_tiles, Tile{})
+      exact_tiles_(x_.n_tiles * y_.n_tiles, ExactTile{}),
+      tiles_(exact_tiles_.size())
 {
+  std::vector<Terms> in_x(x_.n_tiles);
   for (const Gaussians::Peak& peak : gaussians.peaks) {
-    std::vector<Row> in_x;
-    for (std::size_t i = 0; i < x_.n_tiles; ++i) {
-      const Terms h = x_.terms(peak.x, gaussians.sharpness_x, i);
-      in_x.push_back({Lanes(h.data(), std::experimental::element_aligned),
-                      Lanes(h.data() + n_lanes, std::experimental::element_aligned)});
-    }
+    for (std::size_t i = 0; i < x_.n_tiles; ++i) in_x[i] = x_.terms(peak.x, gaussians.sharpness_x, i);
     for (std::size_t j = 0; j < y_.n_tiles; ++j) {
       const Terms in_y = y_.terms(peak.y, gaussians.sharpness_y, j);
       for (std::size_t i = 0; i < x_.n_tiles; ++i) {
-        Tile& tile = tiles_[j * x_.n_tiles + i];
-        for (std::size_t n = 0; n < n_terms; ++n) tile[n] = in_x[i].times(peak.weight * in_y[n], tile[n]);
+        ExactTile& tile = exact_tiles_[j * x_.n_tiles + i];
+        for (std::size_t n = 0; n < n_terms; ++n) {
+          for (std::size_t m = 0; m < n_terms; ++m) tile[n][m] += peak.weight * in_y[n] * in_x[i][m];
+        }
       }
     }
   }
+  round_tiles();
 }
 
-void GaussianSum::add(double constant)
+void GaussianSum::add(long double constant)
 {
-  for (Tile& tile : tiles_) tile[0].low[0] += constant;
+  for (ExactTile& tile : exact_tiles_) tile[0][0] += constant;
+  round_tiles();
 }
 
 // On the diagonal each Gaussian is one of y alone: its centre is the mean of x_j and y_j by sharpness, and how far they
 // are apart lowers its weight.
 void GaussianSum::subtract_diagonal(const Gaussians& gaussians)
 {
-  const double sharpness = gaussians.sharpness_x + gaussians.sharpness_y;
+  const long double sharpness = gaussians.sharpness_x + gaussians.sharpness_y;
   for (const auto& [x, y, weight] : gaussians.peaks) {
-    const double centre = (gaussians.sharpness_x * x + gaussians.sharpness_y * y) / sharpness;
-    const double on_diagonal =
+    const long double centre = (gaussians.sharpness_x * x + gaussians.sharpness_y * y) / sharpness;
+    const long double on_diagonal =
         weight * std::exp(-gaussians.sharpness_x * gaussians.sharpness_y / sharpness * (x - y) * (x - y));
     for (std::size_t j = 0; j < y_.n_tiles; ++j) {
       const Terms in_y = y_.terms(centre, sharpness, j);
       for (std::size_t i = 0; i < x_.n_tiles; ++i) {
-        Tile& tile = tiles_[j * x_.n_tiles + i];
-        for (std::size_t n = 0; n < n_terms; ++n) tile[n].low[0] -= on_diagonal * in_y[n];
+        ExactTile& tile = exact_tiles_[j * x_.n_tiles + i];
+        for (std::size_t n = 0; n < n_terms; ++n) tile[n][0] -= on_diagonal * in_y[n];
       }
+    }
+  }
+  round_tiles();
+}
+
+void GaussianSum::round_tiles()
+{
+  for (std::size_t i = 0; i < tiles_.size(); ++i) {
+    for (std::size_t n = 0; n < n_terms; ++n) {
+      const Terms& terms = exact_tiles_[i][n];
+      const auto rounded = [&](std::size_t first) {
+        return Lanes([&](auto m) { return static_cast<double>(terms[first + m]); });
+      };
+      tiles_[i][n] = {rounded(0), rounded(n_lanes)};
     }
   }
 }

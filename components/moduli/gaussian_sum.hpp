@@ -9,12 +9,13 @@
 namespace tamp::components
 {
 
-/// f(x, y) = sum_j weight_j exp(-sharpness_x (x - x_j)^2 - sharpness_y (y - y_j)^2)
+/// f(x, y) = sum_j weight_j exp(-sharpness_x (x - x_j)^2 - sharpness_y (y - y_j)^2). In long double, as sums of large
+/// weights of both signs are small: round-off of the numbers here would be most of the result's.
 struct Gaussians {
   struct Peak {
-    double x, y, weight;
+    long double x, y, weight;
   };
-  double sharpness_x, sharpness_y;
+  long double sharpness_x, sharpness_y;
   std::vector<Peak> peaks;
 };
 
@@ -38,7 +39,7 @@ class GaussianSum
 
   GaussianSum(const Gaussians& gaussians, Interval x, Interval y);
 
-  void add(double constant);
+  void add(long double constant);
 
   /// From here on f(x, y) - f(y, y); the Gaussians are those of the constructor.
   void subtract_diagonal(const Gaussians& gaussians);
@@ -49,7 +50,7 @@ class GaussianSum
  private:
   static constexpr std::size_t n_terms = 16;
   static constexpr std::size_t n_lanes = n_terms / 2;
-  using Terms = std::array<double, n_terms>;
+  using Terms = std::array<long double, n_terms>;
   using Lanes = std::experimental::fixed_size_simd<double, n_lanes>;
 
   /// One value for each power of x.
@@ -73,7 +74,7 @@ class GaussianSum
       std::size_t tile;
       double offset;
     };
-    Axis(Interval interval, double sharpness);
+    Axis(Interval interval, long double sharpness);
 
     Place place(double x) const
     {
@@ -82,17 +83,21 @@ class GaussianSum
       return {tile, widths - static_cast<double>(tile) - 0.5};
     }
 
-    Terms terms(double centre, double sharpness, std::size_t tile) const;
+    Terms terms(long double centre, long double sharpness, std::size_t tile) const;
 
     double low;
     std::size_t n_tiles;
     double tiles_per_unit;
   };
 
-  using Tile = std::array<Row, n_terms>;  // one row for each power of y
+  using Tile = std::array<Row, n_terms>;         // one row for each power of y
+  using ExactTile = std::array<Terms, n_terms>;  // what tiles are added up in
+
+  void round_tiles();
 
   Axis x_, y_;
-  std::vector<Tile> tiles_;  // [y][x]
+  std::vector<ExactTile> exact_tiles_;  // [y][x]
+  std::vector<Tile> tiles_;             // the same, rounded
 };
 
 /// this * factor + other

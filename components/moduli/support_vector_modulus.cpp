@@ -95,13 +95,13 @@ GaussianSum pressure_of(const SupportVectorFit& fit, ZeroPressure zero)
 {
   check(fit);
   const auto sharpness = [&](const SupportVectorFit::Input& input) {
-    const double scaled_per_strain = input.scale / input.unit;
+    const long double scaled_per_strain = static_cast<long double>(input.scale) / input.unit;
     return fit.gamma * scaled_per_strain * scaled_per_strain;
   };
-  const auto strain = [](const SupportVectorFit::Input& input, double scaled) {
+  const auto strain = [](const SupportVectorFit::Input& input, long double scaled) {
     return (scaled / input.scale + input.lower) * input.unit;
   };
-  const double per_output = fit.pressure_unit / fit.pressure_scale;
+  const long double per_output = static_cast<long double>(fit.pressure_unit) / fit.pressure_scale;
   Gaussians gaussians{sharpness(fit.total), sharpness(fit.plastic), {}};
   for (std::size_t j = 0; j < fit.vectors.size(); ++j) {
     const auto [total, plastic] = fit.vectors[j];
@@ -112,7 +112,7 @@ GaussianSum pressure_of(const SupportVectorFit& fit, ZeroPressure zero)
   const Box box = box_of(fit);
   GaussianSum pressure(gaussians, box.total, box.plastic);
   if (zero == ZeroPressure::as_fitted) {
-    pressure.add(fit.intercept * per_output + fit.pressure_lower * fit.pressure_unit);
+    pressure.add(fit.intercept * per_output + static_cast<long double>(fit.pressure_lower) * fit.pressure_unit);
   } else {
     pressure.subtract_diagonal(gaussians);
   }

@@ -11,18 +11,19 @@ namespace
 
 GaussianSum::Values plain(const Gaussians& gaussians, double x, double y)
 {
-  GaussianSum::Values sum{};
-  const double a = 2 * gaussians.sharpness_x, b = 2 * gaussians.sharpness_y;
+  const long double a = 2 * gaussians.sharpness_x, b = 2 * gaussians.sharpness_y;
+  long double f = 0, by_x = 0, by_y = 0, by_xx = 0, by_xy = 0;
   for (const auto& peak : gaussians.peaks) {
-    const double dx = peak.x - x, dy = peak.y - y;
-    const double g = peak.weight * std::exp(-0.5 * (a * dx * dx + b * dy * dy));
-    sum.f += g;
-    sum.by_x += a * dx * g;
-    sum.by_y += b * dy * g;
-    sum.by_xx += (a * dx * a * dx - a) * g;
-    sum.by_xy += a * dx * b * dy * g;
+    const long double dx = peak.x - x, dy = peak.y - y;
+    const long double g = peak.weight * std::exp(-0.5L * (a * dx * dx + b * dy * dy));
+    f += g;
+    by_x += a * dx * g;
+    by_y += b * dy * g;
+    by_xx += (a * dx * a * dx - a) * g;
+    by_xy += a * dx * b * dy * g;
   }
-  return sum;
+  const auto rounded = [](long double value) { return static_cast<double>(value); };
+  return {rounded(f), rounded(by_x), rounded(by_y), rounded(by_xx), rounded(by_xy)};
 }
 
 // One in the rectangle (1 to 3, 0 to 2), one at its corner, one far away.
