@@ -37,7 +37,7 @@ struct TabularCapParameters {
   Modulus modulus;
   PiecewiseLinear crush_curve;  ///< X(plastic volumetric strain); in state form, that of consistent_crush_curve
   YieldSurface yield;
-  double tolerance = 1e-4;  ///< of the stress in one step, relative: sets the number of substeps
+  double tolerance = 1e-5;  ///< of the stress in one step, relative: sets the number of substeps
   int max_substeps = 100;
 };
 

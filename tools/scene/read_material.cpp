@@ -96,7 +96,7 @@ std::optional<tasks::MaterialModel> read_tabular_cap(JsonReader& reader)
   const double poisson_ratio = reader.number("poisson_ratio", poisson);
   const std::string form = reader.choice("elastic_update", {"state", "rate"}, true);
   const auto update = form == "rate" ? components::ElasticUpdate::rate : components::ElasticUpdate::state;
-  const double tolerance = reader.number("tolerance", {.lower = 0, .upper = 1, .holds_lower = false}, 1e-4);
+  const double tolerance = reader.number("tolerance", {.lower = 0, .upper = 1, .holds_lower = false}, 1e-5);
   const int max_substeps = reader.integer("max_substeps", 1, 1'000'000, 100);
   const bool engineering = reader.choice("strain_measure", {"logarithmic", "engineering"}, true) == "engineering";
   const auto measure = engineering ? StrainMeasure::engineering : StrainMeasure::logarithmic;
