@@ -58,12 +58,18 @@ class Every
   double next_ = 0;
 };
 
+std::shared_ptr<runtime::Executor> executor_of(const RunOptions& options)
+{
+  if (options.shuffle_seed) return runtime::Executor::shuffled(*options.shuffle_seed);
+  return std::make_shared<runtime::Executor>(options.n_threads);
+}
+
 class Runner
 {
  public:
   Runner(const CheckedScene& checked, const RunOptions& options)
       : options_(options),
-        simulation_(tasks::Simulation::make(checked.scene, options.n_threads)),
+        simulation_(tasks::Simulation::make(checked.scene, executor_of(options))),
         fields_(options.folder),
         history_(*simulation_, options.folder),
         fields_moment_(checked.scene.output.fields_interval),

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <limits>
 #include <optional>
@@ -15,6 +16,8 @@ struct RunOptions {
   std::filesystem::path folder;
   bool force = false;
   int n_threads = 1;
+  /// Run tasks on one thread in random orders that the graph allows, see runtime::Executor::shuffled.
+  std::optional<std::uint64_t> shuffle_seed{};
   /// Stop at this simulated time [s] if the scene ends later.
   double until = std::numeric_limits<double>::infinity();
   /// Stop after so many steps.

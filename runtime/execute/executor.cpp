@@ -72,6 +72,13 @@ Executor::Executor(int n_threads)
   }
 }
 
+std::unique_ptr<Executor> Executor::shuffled(std::uint64_t seed)
+{
+  auto executor = std::make_unique<Executor>(1);
+  executor->shuffle_.emplace(seed);
+  return executor;
+}
+
 Executor::~Executor()
 {
   {
@@ -114,18 +121,44 @@ void Executor::run(Schedule& schedule, const Step& step)
   schedule_ = &schedule;
   step_ = &step;
   ++schedule.epoch_;
-  for (Worker& w : workers_) w.cursors.assign(schedule.lists_.size(), 0);
-  ++turn_;
-  if (n_threads_ > 1) turn_.notify_all();
-  work(0);
-  ++turn_;
-  Patience patience;
-  for (const Worker& w : workers_) {
-    while (w.busy) patience.wait();
+  if (shuffle_) {
+    run_shuffled();
+  } else {
+    for (Worker& w : workers_) w.cursors.assign(schedule.lists_.size(), 0);
+    ++turn_;
+    if (n_threads_ > 1) turn_.notify_all();
+    work(0);
+    ++turn_;
+    Patience patience;
+    for (const Worker& w : workers_) {
+      while (w.busy) patience.wait();
+    }
   }
   if (stop_) {
     stop_ = false;
     std::rethrow_exception(std::exchange(error_, nullptr));
+  }
+}
+
+void Executor::run_shuffled()
+{
+  const auto& slots = schedule_->slots_;
+  std::vector<std::vector<int>> successors(slots.size());
+  std::vector<std::size_t> n_awaited(slots.size());
+  std::vector<int> ready;
+  for (std::size_t i = 0; i < slots.size(); ++i) {
+    n_awaited[i] = slots[i].predecessors.size();
+    if (n_awaited[i] == 0) ready.push_back(static_cast<int>(i));
+    for (const int p : slots[i].predecessors) successors[static_cast<std::size_t>(p)].push_back(static_cast<int>(i));
+  }
+  while (!ready.empty() && !stop_) {
+    std::swap(ready[(*shuffle_)() % ready.size()], ready.back());
+    const int instance = ready.back();
+    ready.pop_back();
+    run_instance(instance, 0);
+    for (const int next : successors[static_cast<std::size_t>(instance)]) {
+      if (--n_awaited[static_cast<std::size_t>(next)] == 0) ready.push_back(next);
+    }
   }
 }
 

@@ -8,6 +8,8 @@
 #include <exception>
 #include <memory>
 #include <mutex>
+#include <optional>
+#include <random>
 #include <stdexcept>
 #include <vector>
 
@@ -30,8 +32,11 @@ struct TaskError : std::runtime_error {
 class Executor
 {
  public:
-  /// `n_threads` counts the caller, who works too.
+  /// `n_threads` counts the caller, who works too. With one thread instances run in program order.
   explicit Executor(int n_threads);
+  /// One thread, which takes any of the instances that are ready, drawn anew in each step: an order that the graph
+  /// allows by mistake shows as another result.
+  static std::unique_ptr<Executor> shuffled(std::uint64_t seed);
   ~Executor();
   Executor(const Executor&) = delete;
   Executor& operator=(const Executor&) = delete;
@@ -49,6 +54,7 @@ class Executor
     std::vector<std::size_t> cursors;
   };
 
+  void run_shuffled();
   void serve(int worker);
   void work(int worker);
   bool run_ready(const std::vector<int>& list, std::size_t cursor, int worker);
@@ -73,6 +79,8 @@ class Executor
     std::atomic<int> n_inside{0};
   };
   std::shared_ptr<Door> door_ = std::make_shared<Door>();
+
+  std::optional<std::mt19937_64> shuffle_;
 
   std::mutex error_mutex_;
   std::exception_ptr error_;

@@ -121,8 +121,12 @@ void Document::note_merge(const Json& base, const Json& patch, const JsonPointer
   }
   kept.push_back({here, path, ""});
   keep_origins(base, patch, pointer, kept);
+  // Origins from further down stay, but not those of objects that are now of both: their keys have been noted above.
+  const auto is_object = [](const Json& in, const JsonPointer& at) { return in.contains(at) && in.at(at).is_object(); };
   for (const Origin& o : origins_) {
-    if (lies_below(o.pointer, here) && o.pointer != here && o.pointer != here + "/file") kept.push_back(o);
+    if (!lies_below(o.pointer, here) || o.pointer == here || o.pointer == here + "/file") continue;
+    const JsonPointer below(o.pointer.substr(here.size()));
+    if (!(is_object(base, below) && is_object(patch, below))) kept.push_back(o);
   }
   origins_ = std::move(kept);
 }

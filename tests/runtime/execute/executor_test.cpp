@@ -1,8 +1,10 @@
 #include "runtime/execute/executor.hpp"
 
+#include <algorithm>
 #include <atomic>
 #include <catch2/catch.hpp>
 #include <numeric>
+#include <set>
 
 #include "tests/runtime/heat.hpp"
 
@@ -63,6 +65,35 @@ TEST_CASE("every instance runs exactly once a step, after those it waits for", "
 
   CHECK(n_first == 200 * 7);
   CHECK(n_early == 0);
+}
+
+TEST_CASE("a shuffled executor runs every instance once, in legal orders that differ from step to step", "[executor]")
+{
+  std::vector<int> makers, order;
+  auto make = task("make").over_patches_and_groups().computes(first).body([&](const TaskContext& at, GridView<double>) {
+    makers.push_back(at.patch.id);
+    order.push_back(at.patch.id);
+  });
+  int n_early = 0;
+  auto use = task("use").over_patches_and_groups().reads(first).computes(second).body(
+      [&](const TaskContext& at, GridView<const double>, GridView<double>) {
+        n_early += std::count(makers.begin(), makers.end(), at.patch.id) == 0;
+        order.push_back(100 + at.patch.id);
+      });
+  Row row({make, use}, {{}, {&second}}, 7, 1);
+  const auto executor = Executor::shuffled(3);
+
+  std::set<std::vector<int>> orders;
+  for (int n = 0; n < 20; ++n) {
+    makers.clear();
+    order.clear();
+    executor->run(row.schedule, {});
+    CHECK(std::set<int>(order.begin(), order.end()).size() == 14);
+    orders.insert(order);
+  }
+
+  CHECK(n_early == 0);
+  CHECK(orders.size() == 20);
 }
 
 TEST_CASE("both sides of a seam get the same sum, parts added in the order of patches", "[executor]")
