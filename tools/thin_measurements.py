@@ -17,7 +17,8 @@ import unloading_from_tests as tests
 SOURCE = [
     "Dry, poorly graded concrete sand: Fox et al. (2014), tested at the University of Maryland;",
     "S. Akers (CCDC Army Research Laboratory), private communication; as published with the Vaango code (MIT licence).",
-    "Volumetric strains are used as published and taken as logarithmic. SI units, compression positive.",
+    "Volumetric strains were measured as engineering ones, 1 - V/V0; the published tables take the same numbers as",
+    "logarithmic ones. The material's key strain_measure says which. SI units, compression positive.",
     "Made by tools/thin_measurements.py.",
 ]
 
