@@ -149,7 +149,8 @@ class CapIntegrator
       // The remainder is cut evenly.
       const double rest = 1 - done;
       size = rest / std::ceil(rest / size - 1e-9);
-      const bool least = size <= least_size_, last = size == rest;
+      // An even cut may come out longer than the least size by what the cut forgives.
+      const bool least = size <= least_size_ * (1 + 1e-8), last = size == rest;
       const Particle now = substep(at, size * e, size * compaction);
       const bool accurate = now.returned && now.error <= tolerance_ * size;
       const double next = next_size(size, now);
@@ -265,7 +266,8 @@ class CapIntegrator
     state.bulk_modulus = trial.bulk_modulus;
     const double error = modulus_error(old, trial.pressure, deviatoric, trial) /
                          error_scale(old, trial.pressure, trial.trial_sqrt_j2, trial);
-    return {old.deviator + 2 * trial.shear_modulus * e, trial.pressure, state, old.plastic_work, error, true};
+    const bool returned = std::isfinite(trial.pressure + error);
+    return {old.deviator + 2 * trial.shear_modulus * e, trial.pressure, state, old.plastic_work, error, returned};
   }
 
   /// The end of a step that flowed: the stress deviator was `along` when that started, and `left` of the deviatoric

@@ -72,6 +72,17 @@ TEST_CASE("the punch has the same digest in any order of tasks that its graph al
   for (const std::uint64_t seed : {1U, 2U, 3U}) CHECK(shuffled(seed) == serial);
 }
 
+TEST_CASE("the quick punch runs on in state form, where the SVR sand needs the smallest substeps", "[scenes]")
+{
+  const auto simulation = tasks::Simulation::make(
+      shipped("quick.json", {"/materials/sand/modulus/type=svr", "/materials/sand/elastic_update=state"}).scene, 2);
+
+  for (int n = 0; n < 300; ++n) simulation->advance(1);
+
+  CHECK(simulation->totals().updates.limited_substeps > 0);
+  CHECK(simulation->totals().updates.failures == 0);
+}
+
 TEST_CASE("a digest tells two states apart", "[scenes]")
 {
   CHECK(digest_after("quick.json", 3, 1) != digest_after("quick.json", 4, 1));
