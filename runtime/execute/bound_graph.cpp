@@ -1,5 +1,6 @@
 #include "runtime/execute/bound_graph.hpp"
 
+#include <algorithm>
 #include <cstring>
 
 #include "runtime/execute/halo.hpp"
@@ -54,9 +55,25 @@ BoundGraph::Bound BoundGraph::bind(const Instance& instance)
   return bound;
 }
 
+std::span<const int> BoundGraph::predecessors(int instance) const
+{
+  return at(instance).predecessors;
+}
+
+/// A patch stays with one worker, as its data stay in that core's cache.
+int BoundGraph::home(int instance, int n_workers) const
+{
+  return std::max(0, at(instance).patch) * n_workers / graph_.layout().size();
+}
+
+std::string BoundGraph::describe(int instance) const
+{
+  return "task '" + graph_.name(at(instance)) + "' on patch " + std::to_string(at(instance).patch);
+}
+
 void BoundGraph::run(int i, const Step& step)
 {
-  const Instance& instance = graph_.instances()[static_cast<std::size_t>(i)];
+  const Instance& instance = at(i);
   const Bound& bound = bound_[static_cast<std::size_t>(i)];
   switch (instance.kind) {
     case InstanceKind::body: {
@@ -129,7 +146,7 @@ std::size_t BoundGraph::bytes(int instance) const
 std::size_t BoundGraph::n_particles(int instance) const
 {
   const Bound& bound = bound_[static_cast<std::size_t>(instance)];
-  const Instance& self = graph_.instances()[static_cast<std::size_t>(instance)];
+  const Instance& self = at(instance);
   return bound.uses_particles && self.group >= 0 ? warehouse_.n_particles(self.patch, self.group) : 0;
 }
 

@@ -5,6 +5,7 @@
 
 #include "runtime/data/warehouse.hpp"
 #include "runtime/execute/migration.hpp"
+#include "runtime/execute/work.hpp"
 #include "runtime/graph/task_graph.hpp"
 
 namespace tamp::runtime
@@ -12,7 +13,7 @@ namespace tamp::runtime
 
 /// A graph tied to its data: every argument of every instance is resolved once, so that running an instance looks
 /// nothing up.
-class BoundGraph
+class BoundGraph final : public Work
 {
  public:
   BoundGraph(const TaskGraph& graph, Warehouse& warehouse);
@@ -21,8 +22,12 @@ class BoundGraph
   /// Null when the graph moves no particles.
   Migration* migration() { return migration_.get(); }
 
-  /// Does the work of one instance. Exceptions of task bodies pass through.
-  void run(int instance, const Step& step);
+  int n_instances() const override { return static_cast<int>(bound_.size()); }
+  std::span<const int> predecessors(int instance) const override;
+  int home(int instance, int n_workers) const override;
+  /// Exceptions of task bodies pass through.
+  void run(int instance, const Step& step) override;
+  std::string describe(int instance) const override;
 
   /// Bytes of the fields that an instance declares, as large as they are now.
   std::size_t bytes(int instance) const;
@@ -36,6 +41,7 @@ class BoundGraph
     bool uses_particles = false;
   };
 
+  const Instance& at(int instance) const { return graph_.instances()[static_cast<std::size_t>(instance)]; }
   Bound bind(const Instance& instance);
   void prepare(const Instance& instance, const Bound& bound);
   void combine(const Label& label);

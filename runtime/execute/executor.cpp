@@ -219,7 +219,7 @@ void Executor::run_instance(int instance, int worker)
   const auto i = static_cast<std::size_t>(instance);
   const std::uint64_t start = schedule_->recording ? ticks() : 0;
   try {
-    schedule_->graph_.run(instance, *step_);
+    schedule_->work_.run(instance, *step_);
   } catch (const std::exception& error) {
     return fail(instance, error.what());
   } catch (...) {
@@ -232,9 +232,7 @@ void Executor::run_instance(int instance, int worker)
 /// Keeps the first error, with where it happened, and stops everyone.
 void Executor::fail(int instance, const std::string& what)
 {
-  const TaskGraph& graph = schedule_->graph_.graph();
-  const Instance& failed = graph.instances()[static_cast<std::size_t>(instance)];
-  const std::string where = "task '" + graph.name(failed) + "' on patch " + std::to_string(failed.patch);
+  const std::string where = schedule_->work_.describe(instance);
   const std::lock_guard lock(error_mutex_);
   if (error_ == nullptr) error_ = std::make_exception_ptr(TaskError(where, what, std::current_exception()));
   stop_ = true;

@@ -1,22 +1,18 @@
 #include "runtime/execute/schedule.hpp"
 
-#include <algorithm>
-
 namespace tamp::runtime
 {
 
-Schedule::Schedule(BoundGraph& graph, int n_workers)
-    : graph_(graph),
-      slots_(graph.graph().instances().size()),
+Schedule::Schedule(Work& work, int n_workers)
+    : work_(work),
+      slots_(static_cast<std::size_t>(work.n_instances())),
       lists_(static_cast<std::size_t>(n_workers)),
       records_(slots_.size())
 {
-  const auto& instances = graph.graph().instances();
-  const int n_patches = graph.graph().layout().size();
-  for (std::size_t i = 0; i < instances.size(); ++i) {
-    slots_[i].predecessors = instances[i].predecessors;
-    const int home = std::max(0, instances[i].patch) * n_workers / n_patches;
-    lists_[static_cast<std::size_t>(home)].push_back(static_cast<int>(i));
+  for (int i = 0; i < work.n_instances(); ++i) {
+    slots_[static_cast<std::size_t>(i)].predecessors = work.predecessors(i);
+    const int home = work.home(i, n_workers);
+    if (home >= 0) lists_[static_cast<std::size_t>(home)].push_back(i);
   }
 }
 

@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "runtime/execute/bound_graph.hpp"
+#include "runtime/execute/work.hpp"
 
 namespace tamp::runtime
 {
@@ -17,16 +17,16 @@ struct InstanceRecord {
   std::uint32_t worker = 0;
 };
 
-/// A bound graph dealt out to workers, with the flags by which they know what is done.
+/// Work dealt out to workers, with the flags by which they know what is done.
 ///
 /// Readiness is pulled: an instance is ready when each predecessor's flag shows the number of this step. Flags only
 /// grow, so nothing is reset between steps, and each lies on a cache line of its own.
 class Schedule
 {
  public:
-  Schedule(BoundGraph& graph, int n_workers);
+  Schedule(Work& work, int n_workers);
 
-  BoundGraph& graph() { return graph_; }
+  Work& work() { return work_; }
   int size() const { return static_cast<int>(slots_.size()); }
   const std::vector<InstanceRecord>& records() const { return records_; }
   /// Off only to measure what recording costs.
@@ -41,7 +41,7 @@ class Schedule
     std::span<const int> predecessors;
   };
 
-  BoundGraph& graph_;
+  Work& work_;
   std::uint32_t epoch_ = 0;
   std::vector<Slot> slots_;
   /// Instances by home worker, in serial order: a patch stays with one worker, as its data stay in that core's cache.

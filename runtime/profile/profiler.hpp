@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "runtime/execute/bound_graph.hpp"
 #include "runtime/execute/schedule.hpp"
 #include "runtime/profile/clock.hpp"
 

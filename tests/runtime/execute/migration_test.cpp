@@ -3,6 +3,7 @@
 #include <array>
 #include <catch2/catch.hpp>
 
+#include "runtime/execute/bound_graph.hpp"
 #include "runtime/execute/executor.hpp"
 
 namespace tamp::runtime

@@ -1,0 +1,117 @@
+#include "runtime/ranks/communicator.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cstdlib>
+#include <cstring>
+#include <numeric>
+#include <stdexcept>
+
+namespace tamp::runtime
+{
+
+namespace
+{
+
+/// Whether a launcher started this process: Open MPI's, or one that speaks PMI.
+bool launched()
+{
+  constexpr std::array signs{"OMPI_COMM_WORLD_SIZE", "PMIX_RANK", "PMI_RANK", "PMI_SIZE"};
+  return std::any_of(signs.begin(), signs.end(), [](const char* name) { return std::getenv(name) != nullptr; });
+}
+
+bool running()
+{
+  int begun = 0, ended = 0;
+  MPI_Initialized(&begun);
+  MPI_Finalized(&ended);
+  return begun != 0 && ended == 0;
+}
+
+}  // namespace
+
+MpiSession::MpiSession(int& argc, char**& argv)
+{
+  if (!launched()) return;
+  int provided = 0;
+  MPI_Init_thread(&argc, &argv, MPI_THREAD_SERIALIZED, &provided);
+  if (provided < MPI_THREAD_SERIALIZED) throw std::runtime_error("this MPI library does not let threads take turns");
+}
+
+MpiSession::~MpiSession()
+{
+  if (running()) MPI_Finalize();
+}
+
+Communicator Communicator::world()
+{
+  Communicator world;
+  if (!running()) return world;
+  MPI_Comm_size(MPI_COMM_WORLD, &world.size_);
+  MPI_Comm_rank(MPI_COMM_WORLD, &world.rank_);
+  world.handle_ = std::make_shared<MPI_Comm>(MPI_COMM_WORLD);
+  return world;
+}
+
+Communicator Communicator::duplicate() const
+{
+  Communicator copy = *this;
+  if (handle_ == nullptr) return copy;
+  MPI_Comm fresh = MPI_COMM_NULL;
+  MPI_Comm_dup(*handle_, &fresh);
+  copy.handle_ = std::shared_ptr<MPI_Comm>(new MPI_Comm(fresh), [](MPI_Comm* comm) {
+    if (running()) MPI_Comm_free(comm);
+    delete comm;
+  });
+  return copy;
+}
+
+void Communicator::barrier() const
+{
+  if (handle_ != nullptr) MPI_Barrier(*handle_);
+}
+
+void Communicator::gather_bytes(const void* own, void* all, std::size_t n) const
+{
+  if (handle_ == nullptr) {
+    std::memcpy(all, own, n);
+  } else {
+    MPI_Allgather(own, static_cast<int>(n), MPI_BYTE, all, static_cast<int>(n), MPI_BYTE, *handle_);
+  }
+}
+
+std::vector<std::vector<std::byte>> Communicator::gather(std::span<const std::byte> own) const
+{
+  const std::vector<int> counts = gather_value(static_cast<int>(own.size()));
+  std::vector<int> firsts(counts.size(), 0);
+  std::partial_sum(counts.begin(), counts.end() - 1, firsts.begin() + 1);
+  std::vector<std::byte> together(static_cast<std::size_t>(firsts.back() + counts.back()));
+  if (handle_ == nullptr) {
+    std::copy(own.begin(), own.end(), together.begin());
+  } else {
+    MPI_Allgatherv(own.data(), counts[static_cast<std::size_t>(rank_)], MPI_BYTE, together.data(), counts.data(),
+                   firsts.data(), MPI_BYTE, *handle_);
+  }
+  std::vector<std::vector<std::byte>> all;
+  for (std::size_t r = 0; r < counts.size(); ++r) {
+    all.emplace_back(together.begin() + firsts[r], together.begin() + firsts[r] + counts[r]);
+  }
+  return all;
+}
+
+std::vector<std::string> Communicator::gather(const std::string& own) const
+{
+  std::vector<std::string> all;
+  for (const auto& bytes : gather(std::as_bytes(std::span(own)))) {
+    all.emplace_back(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+  }
+  return all;
+}
+
+bool Communicator::all(bool own) const
+{
+  const std::vector<char> said = gather_value(static_cast<char>(own));
+  return std::all_of(said.begin(), said.end(), [](char yes) { return yes != 0; });
+}
+
+}  // namespace tamp::runtime
