@@ -31,8 +31,8 @@ std::vector<LabelUse> merged_uses(std::span<const TaskGraph* const> graphs)
 
 }  // namespace
 
-Warehouse::Warehouse(std::span<const TaskGraph* const> graphs)
-    : layout_(&graphs.front()->layout()), n_groups_(graphs.front()->n_groups())
+Warehouse::Warehouse(std::span<const TaskGraph* const> graphs, int rank)
+    : layout_(&graphs.front()->layout()), rank_(rank), n_groups_(graphs.front()->n_groups())
 {
   const auto n_places = static_cast<std::size_t>(layout_->size() * n_groups_);
   counts_.assign(n_places, 0);
@@ -76,9 +76,11 @@ void Warehouse::add_field(const LabelUse& use, int patch, int halo)
       const Patch& p = (*layout_)[patch];
       f.box = grown(centring == Centring::node ? p.nodes : p.cells, halo, layout_->grid().dimension);
     }
-    if (f.state) f.previous_buffer.reserve(f.n_bytes());
-    if (use.computed || centring == Centring::reduction) f.current_buffer.reserve(f.n_bytes());
-    if (use.accumulated) f.part_buffer.reserve(f.n_bytes());
+    const bool reduction = centring == Centring::reduction;
+    const bool local = patch >= 0 && is_local((*layout_)[patch]);
+    if (f.state && local) f.previous_buffer.reserve(f.n_bytes());
+    if (reduction || (use.computed && local)) f.current_buffer.reserve(f.n_bytes());
+    if (use.accumulated && local) f.part_buffer.reserve(f.n_bytes());
   }
   // A part that no task reduces must not count.
   if (centring == Centring::reduction) use.label->reduction()->reset(f.current_buffer.data());
@@ -91,7 +93,8 @@ std::size_t Warehouse::forecast_bytes() const
   for (const Field& f : fields_) {
     const bool has_current = f.n_particles != nullptr ? !f.carried : f.current_buffer.capacity() > 0;
     const bool has_part = f.part_buffer.capacity() > 0;
-    bytes += f.n_bytes() * (std::size_t{f.state} + std::size_t{has_current} + std::size_t{has_part});
+    const bool has_previous = f.n_particles != nullptr ? f.state : f.previous_buffer.capacity() > 0;
+    bytes += f.n_bytes() * (std::size_t{has_previous} + std::size_t{has_current} + std::size_t{has_part});
   }
   return bytes;
 }

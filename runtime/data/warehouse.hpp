@@ -14,7 +14,8 @@
 namespace tamp::runtime
 {
 
-/// All field data of this rank's patches: the state at the end of the last step and what the current step makes.
+/// All field data of one rank's patches, and of other ranks' what messages bring: the state at the end of the last step
+/// and what the current step makes.
 ///
 /// Between steps the host reads and sets the state; during a step only tasks see data, through their arguments.
 class Warehouse
@@ -23,14 +24,16 @@ class Warehouse
   /// Makes storage for every label that `graphs` use. The first graph is the step that computes the state; others may
   /// read the state and make results of their own. Node and cell fields exist from here on, particle fields grow with
   /// `set_n_particles`.
-  explicit Warehouse(std::span<const TaskGraph* const> graphs);
+  explicit Warehouse(std::span<const TaskGraph* const> graphs, int rank = 0);
 
   const PatchLayout& layout() const { return *layout_; }
   int n_groups() const { return n_groups_; }
+  bool is_local(const Patch& patch) const { return patch.rank == rank_; }
   const MemoryLedger& ledger() const { return ledger_; }
   /// Bytes that the fields need for the particles there are, before any growth by migration.
   std::size_t forecast_bytes() const;
 
+  /// Of this rank's patches; 0 on others.
   std::size_t n_particles(int patch, int group) const { return count(patch, group); }
   std::size_t n_particles(int group) const;
   /// Grows or cuts every particle field of a patch and group; new values are zero bytes.
@@ -66,6 +69,7 @@ class Warehouse
   /// Makes what the step computed the state for the next.
   void advance();
 
+  std::deque<Field>& fields() { return fields_; }
   /// The field itself, for the executor. Throws std::out_of_range for a label that no graph uses.
   Field& field(const Label& label, int patch, int group);
   /// All particle fields of a patch and group; those that are state come with their particles when they migrate.
@@ -74,8 +78,10 @@ class Warehouse
 
  private:
   void add_field(const LabelUse& use, int patch, int halo);
+  void reserve_copies(const TaskGraph& graph);
 
   const PatchLayout* layout_;
+  int rank_;
   int n_groups_;
   MemoryLedger ledger_;
   std::deque<Field> fields_;

@@ -19,19 +19,29 @@ FieldBuffer buffer_of(const Access& access)
 
 }  // namespace
 
-BoundGraph::BoundGraph(const TaskGraph& graph, Warehouse& warehouse) : graph_(graph), warehouse_(warehouse)
+BoundGraph::BoundGraph(const TaskGraph& graph, Warehouse& warehouse, const Communicator& communicator)
+    : graph_(graph), warehouse_(warehouse), rank_(communicator.rank())
 {
+  for (const Patch& patch : graph.layout()) {
+    places_.push_back(n_local_patches_);
+    if (patch.rank == rank_) ++n_local_patches_;
+  }
   for (const Instance& instance : graph.instances()) {
     bound_.push_back(bind(instance));
     if (instance.kind == InstanceKind::send_particles && migration_ == nullptr) {
       migration_ = std::make_unique<Migration>(warehouse, *graph.declaration(instance).accesses.front().label);
     }
   }
+  if (communicator.size() > 1) {
+    exchange_ = std::make_unique<Exchange>(graph, warehouse, migration_.get(), communicator);
+  }
 }
 
 BoundGraph::Bound BoundGraph::bind(const Instance& instance)
 {
   Bound bound;
+  if (instance.rank != rank_) return bound;
+  if (instance.kind == InstanceKind::combine) return bind_reduction(*instance.labels.front());
   if (instance.kind != InstanceKind::body) return bound;
   const PatchLayout& layout = graph_.layout();
   const Patch& patch = layout[instance.patch];
@@ -63,12 +73,22 @@ std::span<const int> BoundGraph::predecessors(int instance) const
 /// A patch stays with one worker, as its data stay in that core's cache.
 int BoundGraph::home(int instance, int n_workers) const
 {
-  return std::max(0, at(instance).patch) * n_workers / graph_.layout().size();
+  if (!is_local(instance)) return -1;
+  const int patch = at(instance).patch;
+  return patch < 0 ? 0 : places_[static_cast<std::size_t>(patch)] * n_workers / n_local_patches_;
 }
 
-std::string BoundGraph::describe(int instance) const
+std::string BoundGraph::describe(int i) const
 {
-  return "task '" + graph_.name(at(instance)) + "' on patch " + std::to_string(at(instance).patch);
+  const Instance& instance = at(i);
+  const std::string name = "'" + graph_.name(instance) + "'";
+  if (instance.rank != rank_) return "message from rank " + std::to_string(instance.rank) + ", " + name;
+  return instance.patch < 0 ? "task " + name : "task " + name + " on patch " + std::to_string(instance.patch);
+}
+
+void BoundGraph::fail(const std::string& what)
+{
+  if (exchange_ != nullptr) exchange_->fail(what);
 }
 
 void BoundGraph::run(int i, const Step& step)
@@ -92,13 +112,19 @@ void BoundGraph::run(int i, const Step& step)
                 instance.of_previous_step ? FieldBuffer::previous : FieldBuffer::current);
       break;
     case InstanceKind::combine:
-      combine(*instance.labels.front());
+      combine(bound);
       break;
     case InstanceKind::send_particles:
       migration_->send(instance.patch, instance.group);
       break;
     case InstanceKind::receive_particles:
       migration_->receive(instance.patch, instance.group);
+      break;
+    case InstanceKind::send_message:
+      exchange_->send(instance.message);
+      break;
+    case InstanceKind::receive_message:
+      exchange_->receive(instance.message);
       break;
   }
 }
@@ -124,15 +150,24 @@ void BoundGraph::prepare(const Instance& instance, const Bound& bound)
   }
 }
 
-void BoundGraph::combine(const Label& label)
+/// The whole value, then the parts in the order of patch, then group, whichever rank's they are.
+BoundGraph::Bound BoundGraph::bind_reduction(const Label& label)
 {
-  Field& total = warehouse_.field(label, -1, -1);
-  label.reduction()->reset(total.current_buffer.data());
+  Bound bound;
+  bound.fields.push_back(&warehouse_.field(label, -1, -1));
   for (const Patch& patch : graph_.layout()) {
-    for (int g = -1; g < graph_.n_groups(); ++g) {
-      label.reduction()->combine(total.current_buffer.data(),
-                                 warehouse_.field(label, patch.id, g).current_buffer.data());
-    }
+    for (int g = -1; g < graph_.n_groups(); ++g) bound.fields.push_back(&warehouse_.field(label, patch.id, g));
+  }
+  return bound;
+}
+
+void BoundGraph::combine(const Bound& bound)
+{
+  Field& whole = *bound.fields.front();
+  const ReductionOperations& reduction = *whole.label->reduction();
+  reduction.reset(whole.current_buffer.data());
+  for (std::size_t k = 1; k < bound.fields.size(); ++k) {
+    reduction.combine(whole.current_buffer.data(), bound.fields[k]->current_buffer.data());
   }
 }
 

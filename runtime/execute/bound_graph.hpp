@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "runtime/data/warehouse.hpp"
+#include "runtime/execute/exchange.hpp"
 #include "runtime/execute/migration.hpp"
 #include "runtime/execute/work.hpp"
 #include "runtime/graph/task_graph.hpp"
@@ -16,11 +17,16 @@ namespace tamp::runtime
 class BoundGraph final : public Work
 {
  public:
-  BoundGraph(const TaskGraph& graph, Warehouse& warehouse);
+  /// Collective: the ranks of the communicator are those of the graph's layout.
+  BoundGraph(const TaskGraph& graph, Warehouse& warehouse, const Communicator& communicator = {});
 
   const TaskGraph& graph() const { return graph_; }
   /// Null when the graph moves no particles.
   Migration* migration() { return migration_.get(); }
+  /// Whether this rank runs an instance.
+  bool is_local(int instance) const { return at(instance).rank == rank_; }
+  /// What came from other ranks so far.
+  Traffic traffic() const { return exchange_ == nullptr ? Traffic{} : exchange_->traffic(); }
 
   int n_instances() const override { return static_cast<int>(bound_.size()); }
   std::span<const int> predecessors(int instance) const override;
@@ -28,6 +34,9 @@ class BoundGraph final : public Work
   /// Exceptions of task bodies pass through.
   void run(int instance, const Step& step) override;
   std::string describe(int instance) const override;
+  bool has_messages() const override { return exchange_ != nullptr; }
+  void poll(std::vector<int>& arrived, std::uint64_t idle_since) override { exchange_->poll(arrived, idle_since); }
+  void fail(const std::string& what) override;
 
   /// Bytes of the fields that an instance declares, as large as they are now.
   std::size_t bytes(int instance) const;
@@ -44,11 +53,17 @@ class BoundGraph final : public Work
   const Instance& at(int instance) const { return graph_.instances()[static_cast<std::size_t>(instance)]; }
   Bound bind(const Instance& instance);
   void prepare(const Instance& instance, const Bound& bound);
-  void combine(const Label& label);
+  Bound bind_reduction(const Label& label);
+  static void combine(const Bound& bound);
 
   const TaskGraph& graph_;
   Warehouse& warehouse_;
+  int rank_;
+  /// Of each patch, how many of this rank's patches come before it; and how many these are in all.
+  std::vector<int> places_;
+  int n_local_patches_ = 0;
   std::unique_ptr<Migration> migration_;
+  std::unique_ptr<Exchange> exchange_;
   std::vector<Bound> bound_;
 };
 

@@ -10,23 +10,35 @@ namespace tamp::runtime
 namespace
 {
 
+/// Where the row of a box at (j, k) begins in a field's storage, in bytes.
+std::size_t row_offset(const Field& f, const IndexBox& box, int j, int k)
+{
+  const auto strides = f.box.strides();
+  return static_cast<std::size_t>((box.lower[0] - f.box.lower[0]) + strides[1] * (j - f.box.lower[1]) +
+                                  strides[2] * (k - f.box.lower[2])) *
+         f.label->value_bytes();
+}
+
+std::size_t row_bytes(const Field& f, const IndexBox& box)
+{
+  return static_cast<std::size_t>(box.extent(0)) * f.label->value_bytes();
+}
+
+/// Calls `row(j, k)` for every row of `box`.
+template <class Row>
+void for_each_row(const IndexBox& box, const Row& row)
+{
+  if (box.empty()) return;
+  for (int k = box.lower[2]; k < box.upper[2]; ++k) {
+    for (int j = box.lower[1]; j < box.upper[1]; ++j) row(j, k);
+  }
+}
+
 /// Calls `row(offset in a, offset in b, length)` for every row of `box`, in bytes of two fields' storage.
 template <class Row>
 void for_each_row(const IndexBox& box, const Field& a, const Field& b, const Row& row)
 {
-  if (box.empty()) return;
-  const std::size_t size = a.label->value_bytes();
-  const auto offset = [&](const Field& f, int j, int k) {
-    const auto strides = f.box.strides();
-    return static_cast<std::size_t>((box.lower[0] - f.box.lower[0]) + strides[1] * (j - f.box.lower[1]) +
-                                    strides[2] * (k - f.box.lower[2])) *
-           size;
-  };
-  for (int k = box.lower[2]; k < box.upper[2]; ++k) {
-    for (int j = box.lower[1]; j < box.upper[1]; ++j) {
-      row(offset(a, j, k), offset(b, j, k), static_cast<std::size_t>(box.extent(0)) * size);
-    }
-  }
+  for_each_row(box, [&](int j, int k) { row(row_offset(a, box, j, k), row_offset(b, box, j, k), row_bytes(a, box)); });
 }
 
 IndexBox patch_box(const Label& label, const Patch& patch)
@@ -77,6 +89,30 @@ void fill_halo(Warehouse& warehouse, const Label& label, int patch, int group, i
                    });
     });
   }
+}
+
+std::byte* copy_out(const Field& field, FieldBuffer buffer, const IndexBox& box, std::byte* to)
+{
+  const std::byte* values = field.buffer(buffer).data();
+  if (field.label->centring() == Centring::reduction) return std::copy_n(values, field.n_bytes(), to);
+  for_each_row(
+      box, [&](int j, int k) { to = std::copy_n(values + row_offset(field, box, j, k), row_bytes(field, box), to); });
+  return to;
+}
+
+const std::byte* copy_in(Field& field, FieldBuffer buffer, const IndexBox& box, const std::byte* from)
+{
+  std::byte* values = field.buffer(buffer).data();
+  const auto take = [&](std::byte* to, std::size_t n) {
+    std::memcpy(to, from, n);
+    from += n;
+  };
+  if (field.label->centring() == Centring::reduction) {
+    take(values, field.n_bytes());
+  } else {
+    for_each_row(box, [&](int j, int k) { take(values + row_offset(field, box, j, k), row_bytes(field, box)); });
+  }
+  return from;
 }
 
 }  // namespace tamp::runtime

@@ -126,6 +126,31 @@ void Migration::receive(int patch, int group)
   }
 }
 
+void Migration::write_parcel(const MessagePart& part, std::vector<std::byte>& message) const
+{
+  const ParticleParcel& parcel = box(part.from_patch, part.group).to_patch.at(part.to_patch);
+  const auto* n = reinterpret_cast<const std::byte*>(&parcel.n_particles);
+  message.insert(message.end(), n, n + sizeof parcel.n_particles);
+  if (parcel.n_particles == 0) return;
+  for (const auto& bytes : parcel.fields) message.insert(message.end(), bytes.begin(), bytes.end());
+}
+
+const std::byte* Migration::read_parcel(const MessagePart& part, const std::byte* from)
+{
+  ParticleParcel& parcel = box(part.from_patch, part.group).to_patch.at(part.to_patch);
+  std::memcpy(&parcel.n_particles, from, sizeof parcel.n_particles);
+  from += sizeof parcel.n_particles;
+  if (parcel.n_particles == 0) return from;
+  const std::vector<Field*> fields = state_fields(warehouse_, part.to_patch, part.group);
+  parcel.fields.resize(fields.size());
+  for (std::size_t k = 0; k < fields.size(); ++k) {
+    const std::byte* end = from + parcel.n_particles * fields[k]->label->value_bytes();
+    parcel.fields[k].assign(from, end);
+    from = end;
+  }
+  return from;
+}
+
 std::size_t Migration::n_lost(int group) const
 {
   std::size_t n = 0;

@@ -29,6 +29,11 @@ class Migration
   /// Takes in what the neighbours packed for this patch.
   void receive(int patch, int group);
 
+  /// What has been packed on one patch for another, as bytes at the end of a message; and back from there into this
+  /// rank's copy of the other patch's outbox. `read_parcel` returns where the next parcel begins.
+  void write_parcel(const MessagePart& part, std::vector<std::byte>& message) const;
+  const std::byte* read_parcel(const MessagePart& part, const std::byte* from);
+
   /// Particles that left the grid since `clear_lost`, in order of patch.
   std::size_t n_lost(int group) const;
   /// The values of one state label of the lost particles of a group.

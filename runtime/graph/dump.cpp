@@ -58,7 +58,7 @@ nlohmann::json to_json(const TaskGraph& graph, std::size_t forecast_bytes)
                            {"name", graph.name(instance)},
                            {"patch", instance.patch},
                            {"material", group_name(graph, instance)},
-                           {"rank", instance.patch < 0 ? 0 : graph.layout()[instance.patch].rank}};
+                           {"rank", instance.rank}};
     for (const Mode mode : {Mode::read, Mode::compute, Mode::update, Mode::accumulate, Mode::reduce}) {
       task[to_string(mode)] = labels_in(graph, instance, mode);
     }
@@ -71,7 +71,7 @@ nlohmann::json to_json(const TaskGraph& graph, std::size_t forecast_bytes)
                      {"label", e.label->name()},
                      {"halo", e.halo},
                      {"bytes", e.bytes},
-                     {"message", false}});
+                     {"message", e.message >= 0}});
   }
   return {{"tasks", tasks}, {"edges", edges}, {"memory", {{"forecast_peak_bytes", forecast_bytes}}}};
 }

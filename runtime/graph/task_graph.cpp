@@ -5,6 +5,7 @@
 #include <set>
 #include <tuple>
 
+#include "runtime/graph/compile.hpp"
 #include "runtime/graph/label_streams.hpp"
 
 namespace tamp::runtime
@@ -13,266 +14,46 @@ namespace tamp::runtime
 namespace
 {
 
-bool touches_particles(const TaskDeclaration& declaration)
+/// The patches whose data other ranks need.
+std::vector<bool> patches_at_borders(const PatchLayout& layout)
 {
-  return std::any_of(declaration.accesses.begin(), declaration.accesses.end(),
-                     [](const Access& a) { return a.label->centring() == Centring::particle; });
+  std::vector<bool> at_border;
+  for (const Patch& patch : layout) {
+    at_border.push_back(std::any_of(patch.neighbours.begin(), patch.neighbours.end(),
+                                    [&](int other) { return layout[other].rank != patch.rank; }));
+  }
+  return at_border;
 }
 
-/// Expands declarations into instances and infers the edges between them.
-class Compiler
+/// Kahn's algorithm, lowest declaration first. Within one, what a message waits for goes before what none does, and
+/// what waits for a message comes last: so there is work while messages are on their way. Then the lowest patch.
+/// Returns fewer instances than there are when a cycle is left.
+std::vector<int> serial_order(const CompiledStep& step, const PatchLayout& layout)
 {
- public:
-  Compiler(const std::vector<TaskDeclaration>& declarations, const PatchLayout& layout, int n_groups,
-           const LabelStreams& streams)
-      : declarations_(declarations), layout_(layout), n_groups_(n_groups), streams_(streams)
-  {
-  }
-
-  void compile()
-  {
-    for (int d = 0; d < n_declarations(); ++d) expand(d);
-    for (int d = 0; d < n_declarations(); ++d) {
-      if (at(d).domain == Domain::migration) {
-        connect_migration(d);
-      } else {
-        connect(d);
-      }
-    }
-  }
-
-  std::vector<Instance> instances;
-  std::vector<Edge> edges;
-
- private:
-  using Place = std::tuple<int, int, int>;  // declaration, patch, group
-
-  int n_declarations() const { return static_cast<int>(declarations_.size()); }
-  const TaskDeclaration& at(int declaration) const { return declarations_[static_cast<std::size_t>(declaration)]; }
-
-  int add(Instance instance)
-  {
-    instances.push_back(std::move(instance));
-    return static_cast<int>(instances.size()) - 1;
-  }
-
-  void expand(int d)
-  {
-    for (const Patch& patch : layout_) {
-      for (const int group : groups_of(at(d), n_groups_)) {
-        if (at(d).domain == Domain::migration) {
-          senders_[{d, patch.id, group}] = add({InstanceKind::send_particles, d, patch.id, group, {}, false, 0, {}});
-          receivers_[{d, patch.id, group}] =
-              add({InstanceKind::receive_particles, d, patch.id, group, {}, false, 0, {}});
-        } else {
-          bodies_[{d, patch.id, group}] = add({InstanceKind::body, d, patch.id, group, {}, false, 0, {}});
-          add_halo_sum(d, patch.id, group);
-        }
-      }
-    }
-    for (const Access& access : at(d).accesses) {
-      if (access.mode != Mode::reduce || combiners_.contains(access.label)) continue;
-      combiners_[access.label] = add({InstanceKind::combine, d, -1, -1, {access.label}, false, 0, {}});
-    }
-  }
-
-  void add_halo_sum(int d, int patch, int group)
-  {
-    Instance sum{InstanceKind::sum_halo, d, patch, group, {}, false, 0, {}};
-    for (const Access& access : at(d).accesses) {
-      if (access.mode != Mode::accumulate) continue;
-      sum.labels.push_back(access.label);
-      sum.halo = std::max(sum.halo, access.halo);
-    }
-    if (!sum.labels.empty()) sums_[{d, patch, group}] = add(std::move(sum));
-  }
-
-  void edge(int from, int to, const Label* label, int halo, std::size_t bytes)
-  {
-    if (from != to) edges.push_back({from, to, label, halo, bytes});
-  }
-
-  std::size_t bytes_of(const Label& label, const IndexBox& box) const
-  {
-    return static_cast<std::size_t>(box.size()) * label.value_bytes();
-  }
-
-  IndexBox box_of(const Label& label, int patch, int halo) const
-  {
-    return grown(label.centring() == Centring::node ? layout_[patch].nodes : layout_[patch].cells, halo,
-                 layout_.grid().dimension);
-  }
-
-  /// A task body: the instances that make and change what it uses come before it.
-  void connect(int d)
-  {
-    for (const Patch& patch : layout_) {
-      for (const int group : groups_of(at(d), n_groups_)) {
-        const int self = bodies_.at({d, patch.id, group});
-        for (const Access& access : at(d).accesses) {
-          for (const int data_group : groups_of(access, group, n_groups_)) {
-            connect_access(d, self, patch.id, data_group, access);
-          }
-        }
-        connect_halo_sum(d, patch, group);
-      }
-    }
-  }
-
-  void connect_halo_sum(int d, const Patch& patch, int group)
-  {
-    const auto sum = sums_.find({d, patch.id, group});
-    if (sum == sums_.end()) return;
-    const Instance& self = instances[static_cast<std::size_t>(sum->second)];
-    for (const Label* label : self.labels) {
-      const IndexBox box = box_of(*label, patch.id, self.halo);
-      edge(bodies_.at({d, patch.id, group}), sum->second, label, self.halo, bytes_of(*label, box));
-      for (const int other : patch.neighbours) {
-        const IndexBox shared = intersection(box, box_of(*label, other, self.halo));
-        edge(bodies_.at({d, other, group}), sum->second, label, self.halo, bytes_of(*label, shared));
-      }
-    }
-  }
-
-  void connect_access(int d, int self, int patch, int group, const Access& access)
-  {
-    const LabelStream& stream = streams_.at({access.label, group});
-    switch (access.mode) {
-      case Mode::read:
-        connect_reader(d, self, patch, group, access, stream);
-        break;
-      case Mode::update:
-        connect_updater(d, self, patch, group, access, stream);
-        break;
-      case Mode::reduce:
-        edge(self, combiners_.at(access.label), access.label, 0, access.label->value_bytes());
-        break;
-      case Mode::compute:
-      case Mode::accumulate:
-        break;
-    }
-  }
-
-  void connect_reader(int d, int self, int patch, int group, const Access& access, const LabelStream& stream)
-  {
-    const int supplied = access.of_previous_step ? 0 : stream.version_before(d)->access.halo;
-    if (access.halo > supplied) {
-      edge(halo_filler(d, patch, group, access, stream), self, access.label, access.halo,
-           bytes_of(*access.label, box_of(*access.label, patch, access.halo)));
-    }
-    if (!access.of_previous_step) {
-      edge(instance_of(*stream.version_before(d), patch, group), self, access.label, access.halo,
-           bytes_of(*access.label, box_of(*access.label, patch, supplied)));
-      before_next_update(d, self, patch, group, stream, access.label);
-    }
-  }
-
-  /// A changer waits for the version it changes; whoever reads that version goes first (see `before_next_update`).
-  void connect_updater(int d, int self, int patch, int group, const Access& access, const LabelStream& stream)
-  {
-    edge(instance_of(*stream.version_before(d), patch, group), self, access.label, access.halo,
-         bytes_of(*access.label, box_of(*access.label, patch, access.halo)));
-  }
-
-  void before_next_update(int d, int reader, int patch, int group, const LabelStream& stream, const Label* label)
-  {
-    for (const Use& updater : stream.updaters) {
-      if (updater.declaration <= d || at(updater.declaration).domain == Domain::migration) continue;
-      edge(reader, instance_of(updater, patch, group), label, 0, 0);
-      return;
-    }
-  }
-
-  /// The instance after which the version that `use` made is there on a patch.
-  int instance_of(const Use& use, int patch, int group) const
-  {
-    if (use.access.mode == Mode::reduce) return combiners_.at(use.access.label);
-    const int task_group = at(use.declaration).domain == Domain::patches ? -1 : group;
-    const Place place{use.declaration, patch, task_group};
-    return use.access.mode == Mode::accumulate ? sums_.at(place) : bodies_.at(place);
-  }
-
-  /// The copy of neighbours' values into the halo of a patch, shared by all who read the same version.
-  int halo_filler(int d, int patch, int group, const Access& access, const LabelStream& stream)
-  {
-    const Use* version = access.of_previous_step ? nullptr : stream.version_before(d);
-    const int maker = version == nullptr ? -1 : version->declaration;
-    const auto [found, fresh] = fillers_.try_emplace({access.label, group, patch, maker}, -1);
-    if (fresh) {
-      found->second =
-          add({InstanceKind::fill_halo, d, patch, group, {access.label}, access.of_previous_step, access.halo, {}});
-      if (version != nullptr) {
-        connect_filler(d, found->second, patch, group, access, *version, stream);
-      }
-    }
-    Instance& filler = instances[static_cast<std::size_t>(found->second)];
-    filler.halo = std::max(filler.halo, access.halo);
-    return found->second;
-  }
-
-  void connect_filler(int d, int filler, int patch, int group, const Access& access, const Use& version,
-                      const LabelStream& stream)
-  {
-    const IndexBox box = box_of(*access.label, patch, access.halo);
-    for (const int other : layout_[patch].neighbours) {
-      const IndexBox shared = intersection(box, box_of(*access.label, other, 0));
-      edge(instance_of(version, other, group), filler, access.label, access.halo, bytes_of(*access.label, shared));
-      before_next_update(d, filler, other, group, stream, access.label);
-    }
-    edge(instance_of(version, patch, group), filler, access.label, 0, 0);
-  }
-
-  /// Particles move when all else that touches particles of the patch is done.
-  void connect_migration(int d)
-  {
-    const Label* position = at(d).accesses.front().label;
-    for (const Patch& patch : layout_) {
-      for (const int group : groups_of(at(d), n_groups_)) {
-        const int sender = senders_.at({d, patch.id, group});
-        const int receiver = receivers_.at({d, patch.id, group});
-        for (const auto& [place, body] : bodies_) {
-          const auto& [declaration, body_patch, body_group] = place;
-          const bool same = body_patch == patch.id && (body_group == group || body_group == -1);
-          if (same && touches_particles(at(declaration))) edge(body, sender, position, 0, 0);
-        }
-        for (const Access& access : at(d).accesses) {
-          if (access.mode == Mode::read) edge(combiners_.at(access.label), sender, access.label, 0, 0);
-        }
-        edge(sender, receiver, position, 0, 0);
-        for (const int other : patch.neighbours) edge(senders_.at({d, other, group}), receiver, position, 0, 0);
-      }
-    }
-  }
-
-  const std::vector<TaskDeclaration>& declarations_;
-  const PatchLayout& layout_;
-  int n_groups_;
-  const LabelStreams& streams_;
-  std::map<Place, int> bodies_, sums_, senders_, receivers_;
-  std::map<const Label*, int> combiners_;
-  std::map<std::tuple<const Label*, int, int, int>, int> fillers_;
-};
-
-/// Kahn's algorithm, lowest declaration and patch first. Returns fewer instances than there are when a cycle is left.
-std::vector<int> serial_order(const std::vector<Instance>& instances, const std::vector<Edge>& edges)
-{
+  const auto& instances = step.instances;
   std::vector<int> n_waiting(instances.size(), 0);
   std::vector<std::vector<int>> followers(instances.size());
-  for (const Edge& e : edges) {
+  for (const Edge& e : step.edges) {
     ++n_waiting[static_cast<std::size_t>(e.to)];
     followers[static_cast<std::size_t>(e.from)].push_back(e.to);
   }
-  std::set<std::tuple<int, int, int>> ready;  // declaration, patch, instance
+  const std::vector<bool> at_border = patches_at_borders(layout);
+  const auto haste = [&](const Instance& instance) {
+    if (instance.kind == InstanceKind::receive_message) return 2;
+    if (instance.kind == InstanceKind::send_message) return 0;
+    return instance.patch >= 0 && at_border[static_cast<std::size_t>(instance.patch)] ? 0 : 1;
+  };
+  std::set<std::tuple<int, int, int, int>> ready;  // declaration, haste, patch, instance
   const auto offer = [&](int i) {
     const Instance& instance = instances[static_cast<std::size_t>(i)];
-    ready.insert({instance.declaration, instance.patch, i});
+    ready.insert({instance.declaration, haste(instance), instance.patch, i});
   };
   for (std::size_t i = 0; i < instances.size(); ++i) {
     if (n_waiting[i] == 0) offer(static_cast<int>(i));
   }
   std::vector<int> order;
   while (!ready.empty()) {
-    const int next = std::get<2>(*ready.begin());
+    const int next = std::get<3>(*ready.begin());
     ready.erase(ready.begin());
     order.push_back(next);
     for (const int follower : followers[static_cast<std::size_t>(next)]) {
@@ -312,18 +93,19 @@ GraphProblem describe_cycle(const TaskGraph& graph, const std::vector<Instance>&
   }
 }
 
-/// Renumbers instances and edges into `order` and lists each instance's predecessors.
-void put_in_order(const std::vector<int>& order, std::vector<Instance>& instances, std::vector<Edge>& edges)
+/// Renumbers everything into `order` and lists each instance's predecessors.
+void put_in_order(const std::vector<int>& order, CompiledStep& step)
 {
-  std::vector<int> place(instances.size());
+  std::vector<int> place(step.instances.size());
   std::vector<Instance> sorted;
   for (const int i : order) {
     place[static_cast<std::size_t>(i)] = static_cast<int>(sorted.size());
-    sorted.push_back(std::move(instances[static_cast<std::size_t>(i)]));
+    sorted.push_back(std::move(step.instances[static_cast<std::size_t>(i)]));
   }
-  for (Edge& e : edges) {
-    e.from = place[static_cast<std::size_t>(e.from)];
-    e.to = place[static_cast<std::size_t>(e.to)];
+  const auto renumber = [&](int& i) { i = place[static_cast<std::size_t>(i)]; };
+  for (Edge& e : step.edges) {
+    renumber(e.from);
+    renumber(e.to);
     sorted[static_cast<std::size_t>(e.to)].predecessors.push_back(e.from);
   }
   for (Instance& instance : sorted) {
@@ -331,10 +113,15 @@ void put_in_order(const std::vector<int>& order, std::vector<Instance>& instance
     std::sort(list.begin(), list.end());
     list.erase(std::unique(list.begin(), list.end()), list.end());
   }
-  std::sort(edges.begin(), edges.end(), [](const Edge& a, const Edge& b) {
+  std::sort(step.edges.begin(), step.edges.end(), [](const Edge& a, const Edge& b) {
     return std::tie(a.from, a.to, a.label->name(), a.bytes) < std::tie(b.from, b.to, b.label->name(), b.bytes);
   });
-  instances = std::move(sorted);
+  for (Message& message : step.messages) {
+    renumber(message.send);
+    renumber(message.receive);
+    for (int& consumer : message.consumers) renumber(consumer);
+  }
+  step.instances = std::move(sorted);
 }
 
 std::vector<LabelUse> list_uses(const LabelStreams& streams, const HostData& host, int n_groups)
@@ -370,19 +157,26 @@ TaskGraph::TaskGraph(std::vector<TaskDeclaration> declarations, const PatchLayou
   if (auto problems = find_problems(declarations_, streams, layout, host, n_groups()); !problems.empty()) {
     throw GraphError(std::move(problems));
   }
-  Compiler compiler(declarations_, layout, n_groups(), streams);
-  compiler.compile();
-  const std::vector<int> order = serial_order(compiler.instances, compiler.edges);
-  if (order.size() != compiler.instances.size()) {
-    throw GraphError({describe_cycle(*this, compiler.instances, compiler.edges, order)});
+  CompiledStep step = compile(declarations_, streams, layout, n_groups());
+  const std::vector<int> order = serial_order(step, layout);
+  if (order.size() != step.instances.size()) {
+    throw GraphError({describe_cycle(*this, step.instances, step.edges, order)});
   }
-  put_in_order(order, compiler.instances, compiler.edges);
-  instances_ = std::move(compiler.instances);
-  edges_ = std::move(compiler.edges);
+  put_in_order(order, step);
+  instances_ = std::move(step.instances);
+  edges_ = std::move(step.edges);
+  messages_ = std::move(step.messages);
   label_uses_ = list_uses(streams, host, n_groups());
   for (const TaskDeclaration& declaration : declarations_) {
     for (const Access& access : declaration.accesses) storage_halo_ = std::max(storage_halo_, access.halo);
   }
+}
+
+/// What a message is for: the name of the work that waits for it.
+std::string TaskGraph::name_of_use(const Instance& instance) const
+{
+  const Message& message = messages_[static_cast<std::size_t>(instance.message)];
+  return name(instances_[static_cast<std::size_t>(message.consumers.front())]);
 }
 
 std::string TaskGraph::name(const Instance& instance) const
@@ -401,6 +195,10 @@ std::string TaskGraph::name(const Instance& instance) const
       return declared + ": send";
     case InstanceKind::receive_particles:
       return declared + ": receive";
+    case InstanceKind::send_message:
+      return "send: " + name_of_use(instance);
+    case InstanceKind::receive_message:
+      return "receive: " + name_of_use(instance);
   }
   return declared;
 }

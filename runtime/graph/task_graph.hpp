@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "runtime/data/field.hpp"
 #include "runtime/graph/declaration.hpp"
 #include "runtime/graph/graph_error.hpp"
 
@@ -12,20 +13,32 @@ namespace tamp::runtime
 {
 
 /// What a node of the compiled graph does: a declared body, or work of the runtime's own that the declarations imply.
-enum class InstanceKind { body, sum_halo, fill_halo, combine, send_particles, receive_particles };
+enum class InstanceKind {
+  body,
+  sum_halo,
+  fill_halo,
+  combine,
+  send_particles,
+  receive_particles,
+  send_message,
+  receive_message
+};
 
 /// One task on one patch for one group.
 struct Instance {
   InstanceKind kind = InstanceKind::body;
   int declaration = 0;
-  /// -1 for a task of all patches (combining a reduction).
+  /// -1 for what belongs to a rank as a whole: combining a reduction, sending or receiving a message.
   int patch = -1;
+  int rank = 0;
   /// -1 for all groups.
   int group = -1;
   /// For work of the runtime: the labels it handles, whether those of the step before, and how wide the halo is.
   std::vector<const Label*> labels;
   bool of_previous_step = false;
   int halo = 0;
+  /// For a sender or receiver, which of the graph's messages; -1 otherwise.
+  int message = -1;
   /// Instances that must be done before this one, ascending.
   std::vector<int> predecessors;
 };
@@ -37,6 +50,36 @@ struct Edge {
   const Label* label = nullptr;
   int halo = 0;
   /// Grid values that pass along the edge; particle data are counted when they are stored, as 0 here.
+  std::size_t bytes = 0;
+  /// The message by which it crosses from rank to rank; -1 for none.
+  int message = -1;
+};
+
+/// One label's data of one patch and group, as they go in a message.
+struct MessagePart {
+  const Label* label = nullptr;
+  int from_patch = 0;
+  /// -1 for a reduction.
+  int to_patch = 0;
+  int group = 0;
+  FieldBuffer buffer = FieldBuffer::current;
+  /// What of a node or cell field goes along.
+  IndexBox box;
+};
+
+/// All that one rank sends to another in a step for one purpose, together.
+struct Message {
+  /// sum_halo, fill_halo, combine, or receive_particles: the kind of the instances that wait for it.
+  InstanceKind purpose;
+  int from_rank = 0;
+  int to_rank = 0;
+  /// The instances that send and receive it.
+  int send = 0;
+  int receive = 0;
+  std::vector<MessagePart> parts;
+  /// For each part, the instance that waits for it.
+  std::vector<int> consumers;
+  /// Its length; 0 for particles, of which there may be any number.
   std::size_t bytes = 0;
 };
 
@@ -74,6 +117,7 @@ class TaskGraph
   const std::vector<TaskDeclaration>& declarations() const { return declarations_; }
   const std::vector<Instance>& instances() const { return instances_; }
   const std::vector<Edge>& edges() const { return edges_; }
+  const std::vector<Message>& messages() const { return messages_; }
   const std::vector<LabelUse>& label_uses() const { return label_uses_; }
   /// The widest halo that any task asks for; node and cell fields are stored with it.
   int storage_halo() const { return storage_halo_; }
@@ -86,11 +130,14 @@ class TaskGraph
   }
 
  private:
+  std::string name_of_use(const Instance& instance) const;
+
   const PatchLayout* layout_;
   std::vector<std::string> group_names_;
   std::vector<TaskDeclaration> declarations_;
   std::vector<Instance> instances_;
   std::vector<Edge> edges_;
+  std::vector<Message> messages_;
   std::vector<LabelUse> label_uses_;
   int storage_halo_ = 0;
 };

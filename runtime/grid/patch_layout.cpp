@@ -35,6 +35,19 @@ PatchLayout::PatchLayout(const Grid& grid, const Index& n_patches) : grid_(grid)
   }
 }
 
+void PatchLayout::give_to_ranks(const std::vector<int>& rank_of_patch, int n_ranks)
+{
+  n_ranks_ = n_ranks;
+  for (Patch& patch : patches_) patch.rank = rank_of_patch[static_cast<std::size_t>(patch.id)];
+}
+
+std::vector<int> PatchLayout::ranks() const
+{
+  std::vector<int> ranks;
+  for (const Patch& patch : patches_) ranks.push_back(patch.rank);
+  return ranks;
+}
+
 int PatchLayout::narrowest() const
 {
   int cells = std::numeric_limits<int>::max();

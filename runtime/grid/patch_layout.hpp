@@ -42,6 +42,11 @@ class PatchLayout
   const Index& n_patches() const { return n_patches_; }
   int size() const { return static_cast<int>(patches_.size()); }
   const Patch& operator[](int id) const { return patches_[static_cast<std::size_t>(id)]; }
+  /// Which rank works on which patch; all are rank 0's until this says otherwise.
+  void give_to_ranks(const std::vector<int>& rank_of_patch, int n_ranks);
+  int n_ranks() const { return n_ranks_; }
+  std::vector<int> ranks() const;
+
   auto begin() const { return patches_.begin(); }
   auto end() const { return patches_.end(); }
 
@@ -56,6 +61,7 @@ class PatchLayout
   Grid grid_;
   Index n_patches_;
   Index cells_per_patch_{};
+  int n_ranks_ = 1;
   std::vector<Patch> patches_;
 };
 

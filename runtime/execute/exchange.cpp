@@ -1,0 +1,210 @@
+#include "runtime/execute/exchange.hpp"
+
+#include <algorithm>
+#include <cstring>
+
+#include "runtime/execute/halo.hpp"
+#include "runtime/profile/clock.hpp"
+
+namespace tamp::runtime
+{
+
+namespace
+{
+
+constexpr std::size_t header_bytes = sizeof(std::uint64_t);
+constexpr std::size_t longest_failure = 1000;
+
+bool of_particles(const Message& message)
+{
+  return message.purpose == InstanceKind::receive_particles;
+}
+
+}  // namespace
+
+Exchange::Exchange(const TaskGraph& graph, Warehouse& warehouse, Migration* migration, const Communicator& communicator)
+    : graph_(graph),
+      warehouse_(warehouse),
+      migration_(migration),
+      communicator_(communicator.duplicate()),
+      lines_(graph.messages().size()),
+      failure_text_(longest_failure, '\0')
+{
+  for (std::size_t m = 0; m < lines_.size(); ++m) open_line(lines_[m], static_cast<int>(m));
+  const int failure_tag = static_cast<int>(lines_.size());
+  MPI_Recv_init(failure_text_.data(), longest_failure, MPI_CHAR, MPI_ANY_SOURCE, failure_tag, communicator_.handle(),
+                &requests_.emplace_back());
+  message_of_request_.push_back(-1);
+  completed_.resize(requests_.size());
+  MPI_Startall(static_cast<int>(requests_.size()), requests_.data());
+}
+
+/// Tags are the numbers of the messages, which are the same on all ranks.
+void Exchange::open_line(Line& line, int message)
+{
+  const Message& m = graph_.messages()[static_cast<std::size_t>(message)];
+  const bool incoming = m.to_rank == communicator_.rank();
+  if (!incoming && m.from_rank != communicator_.rank()) return;
+  line.message = &m;
+  for (const MessagePart& part : m.parts) {
+    line.fields.push_back(&warehouse_.field(*part.label, part.from_patch, part.group));
+  }
+  if (of_particles(m)) {
+    line.open = incoming;
+    if (incoming) particle_messages_.push_back(message);
+    return;
+  }
+  line.bytes.resize(header_bytes + m.bytes);
+  const int n = static_cast<int>(line.bytes.size());
+  if (incoming) {
+    MPI_Recv_init(line.bytes.data(), n, MPI_BYTE, m.from_rank, message, communicator_.handle(),
+                  &requests_.emplace_back());
+    message_of_request_.push_back(message);
+  } else {
+    MPI_Send_init(line.bytes.data(), n, MPI_BYTE, m.to_rank, message, communicator_.handle(), &line.request);
+  }
+}
+
+Exchange::~Exchange()
+{
+  for (MPI_Request& request : requests_) {
+    MPI_Cancel(&request);
+    MPI_Wait(&request, MPI_STATUS_IGNORE);
+    MPI_Request_free(&request);
+  }
+  for (Line& line : lines_) {
+    if (line.request == MPI_REQUEST_NULL) continue;
+    // After a failure nobody may be there to take the message.
+    if (!failed_) MPI_Wait(&line.request, MPI_STATUS_IGNORE);
+    if (line.request != MPI_REQUEST_NULL) MPI_Request_free(&line.request);
+  }
+}
+
+void Exchange::send(int message)
+{
+  Line& line = lines_[static_cast<std::size_t>(message)];
+  {
+    // The last message of this line has long been taken in: the receiver has since sent what this step needed of it.
+    const std::lock_guard lock(mutex_);
+    MPI_Wait(&line.request, MPI_STATUS_IGNORE);
+  }
+  pack(line);
+  const std::uint64_t now = ticks();
+  std::memcpy(line.bytes.data(), &now, header_bytes);
+  const std::lock_guard lock(mutex_);
+  if (of_particles(*line.message)) {
+    MPI_Isend(line.bytes.data(), static_cast<int>(line.bytes.size()), MPI_BYTE, line.message->to_rank, message,
+              communicator_.handle(), &line.request);
+  } else {
+    MPI_Start(&line.request);
+  }
+}
+
+void Exchange::receive(int message)
+{
+  Line& line = lines_[static_cast<std::size_t>(message)];
+  unpack(line);
+  const std::lock_guard lock(mutex_);
+  if (of_particles(*line.message)) {
+    line.open = true;
+  } else {
+    const auto found = std::find(message_of_request_.begin(), message_of_request_.end(), message);
+    MPI_Start(&requests_[static_cast<std::size_t>(found - message_of_request_.begin())]);
+  }
+}
+
+void Exchange::pack(Line& line)
+{
+  const Message& m = *line.message;
+  if (of_particles(m)) {
+    line.bytes.resize(header_bytes);
+    for (const MessagePart& part : m.parts) migration_->write_parcel(part, line.bytes);
+    return;
+  }
+  std::byte* at = line.bytes.data() + header_bytes;
+  for (std::size_t k = 0; k < m.parts.size(); ++k) {
+    at = copy_out(*line.fields[k], m.parts[k].buffer, m.parts[k].box, at);
+  }
+}
+
+void Exchange::unpack(const Line& line)
+{
+  const Message& m = *line.message;
+  const std::byte* at = line.bytes.data() + header_bytes;
+  if (of_particles(m)) {
+    for (const MessagePart& part : m.parts) at = migration_->read_parcel(part, at);
+    return;
+  }
+  for (std::size_t k = 0; k < m.parts.size(); ++k) {
+    at = copy_in(*line.fields[k], m.parts[k].buffer, m.parts[k].box, at);
+  }
+}
+
+void Exchange::poll(std::vector<int>& arrived, std::uint64_t idle_since)
+{
+  const std::unique_lock lock(mutex_, std::try_to_lock);
+  if (!lock) return;
+  int n = 0;
+  MPI_Testsome(static_cast<int>(requests_.size()), requests_.data(), &n, completed_.data(), MPI_STATUSES_IGNORE);
+  for (int k = 0; k < n; ++k) {
+    const int message = message_of_request_[static_cast<std::size_t>(completed_[static_cast<std::size_t>(k)])];
+    if (message < 0) take_failure();
+    take(lines_[static_cast<std::size_t>(message)], arrived, idle_since);
+  }
+  for (const int message : particle_messages_) {
+    if (lines_[static_cast<std::size_t>(message)].open) probe(static_cast<std::size_t>(message), arrived, idle_since);
+  }
+}
+
+void Exchange::probe(std::size_t message, std::vector<int>& arrived, std::uint64_t idle_since)
+{
+  Line& line = lines_[message];
+  int there = 0;
+  MPI_Message handle = MPI_MESSAGE_NULL;
+  MPI_Status status;
+  MPI_Improbe(line.message->from_rank, static_cast<int>(message), communicator_.handle(), &there, &handle, &status);
+  if (there == 0) return;
+  int n = 0;
+  MPI_Get_count(&status, MPI_BYTE, &n);
+  line.bytes.resize(static_cast<std::size_t>(n));
+  MPI_Mrecv(line.bytes.data(), n, MPI_BYTE, &handle, MPI_STATUS_IGNORE);
+  line.open = false;
+  take(line, arrived, idle_since);
+}
+
+void Exchange::take(const Line& line, std::vector<int>& arrived, std::uint64_t idle_since)
+{
+  arrived.push_back(line.message->send);
+  std::uint64_t sent = 0;
+  std::memcpy(&sent, line.bytes.data(), header_bytes);
+  const std::uint64_t now = ticks();
+  ++traffic_.n_messages;
+  traffic_.n_bytes += line.bytes.size();
+  if (now <= sent) return;
+  traffic_.under_way += now - sent;
+  const std::uint64_t waiting_since = std::max(sent, idle_since);
+  if (idle_since != 0 && now > waiting_since) traffic_.waited_for += now - waiting_since;
+}
+
+void Exchange::fail(const std::string& what)
+{
+  std::vector<char> text(longest_failure, '\0');
+  std::copy_n(what.begin(), std::min(what.size(), longest_failure - 1), text.begin());
+  const int tag = static_cast<int>(lines_.size());
+  const std::lock_guard lock(mutex_);
+  failed_ = true;
+  for (int rank = 0; rank < communicator_.size(); ++rank) {
+    // Short enough to be taken in by MPI at once, whatever the other rank is at.
+    if (rank != communicator_.rank()) {
+      MPI_Send(text.data(), longest_failure, MPI_CHAR, rank, tag, communicator_.handle());
+    }
+  }
+}
+
+void Exchange::take_failure()
+{
+  failed_ = true;
+  throw OtherRankFailed(failure_text_.data());
+}
+
+}  // namespace tamp::runtime

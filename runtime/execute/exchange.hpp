@@ -1,0 +1,95 @@
+#pragma once
+
+#include <mpi.h>
+
+#include <cstdint>
+#include <mutex>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "runtime/data/warehouse.hpp"
+#include "runtime/execute/migration.hpp"
+#include "runtime/graph/task_graph.hpp"
+#include "runtime/ranks/communicator.hpp"
+
+namespace tamp::runtime
+{
+
+/// Another rank has failed, and said why.
+struct OtherRankFailed : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+/// What messages this rank has got, and how long they took. Times in ticks; the clocks of ranks on one machine agree.
+struct Traffic {
+  std::uint64_t n_messages = 0;
+  std::uint64_t n_bytes = 0;
+  /// From being sent to being seen, summed over messages.
+  std::uint64_t under_way = 0;
+  /// The part of that in which the worker that saw the message had nothing to run.
+  std::uint64_t waited_for = 0;
+};
+
+/// Sends and receives one rank's messages of one graph.
+///
+/// All data for one rank and purpose travel in one message, into a buffer that is always open: a receive is posted
+/// again as soon as its message has been unpacked, so a rank may run ahead of another by part of a step. Fixed lengths
+/// use persistent requests; particles, whose number varies, are probed for. MPI is entered by one thread at a time.
+class Exchange
+{
+ public:
+  /// Collective over the communicator. `migration` may be null where the graph moves no particles.
+  Exchange(const TaskGraph& graph, Warehouse& warehouse, Migration* migration, const Communicator& communicator);
+  ~Exchange();
+  Exchange(const Exchange&) = delete;
+  Exchange& operator=(const Exchange&) = delete;
+
+  /// Packs a message and sends it off.
+  void send(int message);
+  /// Unpacks a message that has arrived and opens its buffer to the next.
+  void receive(int message);
+  /// See Work::poll. Throws OtherRankFailed.
+  void poll(std::vector<int>& arrived, std::uint64_t idle_since);
+  /// Tells all other ranks.
+  void fail(const std::string& what);
+
+  const Traffic& traffic() const { return traffic_; }
+
+ private:
+  struct Line {
+    const Message* message = nullptr;
+    /// The field of each part.
+    std::vector<Field*> fields;
+    /// When it was sent [ticks], then the data.
+    std::vector<std::byte> bytes;
+    MPI_Request request = MPI_REQUEST_NULL;
+    /// Particles only: whether the next is looked for.
+    bool open = false;
+  };
+
+  void open_line(Line& line, int message);
+  void pack(Line& line);
+  void unpack(const Line& line);
+  void probe(std::size_t line, std::vector<int>& arrived, std::uint64_t idle_since);
+  void take(const Line& line, std::vector<int>& arrived, std::uint64_t idle_since);
+  void take_failure();
+
+  const TaskGraph& graph_;
+  Warehouse& warehouse_;
+  Migration* migration_;
+  Communicator communicator_;
+  std::mutex mutex_;
+  /// By message; those of other ranks are empty.
+  std::vector<Line> lines_;
+  /// Receives of fixed length as MPI tests them, the last one for failures, and the message of each.
+  std::vector<MPI_Request> requests_;
+  std::vector<int> message_of_request_;
+  std::vector<int> completed_;
+  std::vector<int> particle_messages_;
+  std::vector<char> failure_text_;
+  bool failed_ = false;
+  Traffic traffic_;
+};
+
+}  // namespace tamp::runtime
