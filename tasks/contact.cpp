@@ -73,6 +73,7 @@ runtime::TaskDeclaration contact(const Method<Interpolator>& method)
       .reduces(step_totals)
       .body([&method](const TaskContext& at, const PerGroup<GridView<const NodeSums<D>>>& sums,
                       const PerGroup<GridView<NodeMotion<D>>>& motions, StepTotals& totals) {
+        totals.host_requests = at.step.host_requests;
         const std::size_t n_groups = sums.size();
         const components::ContactThresholds thresholds{method.least_node_mass,
                                                        1e-9 * std::pow(method.cell_size, D - 1)};

@@ -14,14 +14,6 @@ namespace tamp::tasks
 namespace
 {
 
-/// The particles of one material on one patch before they are stored.
-template <int D>
-struct NewParticles {
-  std::vector<std::int64_t> id;
-  std::vector<std::int64_t> body;
-  std::vector<Vector<D>> position;
-};
-
 template <int D>
 runtime::Index cell_of(const runtime::Grid& grid, const Vector<D>& x)
 {
@@ -38,12 +30,21 @@ components::ParticleLattice<D> lattice_of(const Scene& scene)
   return {vector_of<D>(scene.grid.lower), scene.grid.cell_size, scene.particles_per_axis};
 }
 
-/// All particles by [patch][material], bodies in their order.
 template <int D>
-std::vector<std::vector<NewParticles<D>>> make_particles(const Scene& scene, const runtime::PatchLayout& layout)
+Vector<D> initial_velocity(const SceneBody& body, const Vector<D>& x)
 {
-  std::vector<std::vector<NewParticles<D>>> made(static_cast<std::size_t>(layout.size()),
-                                                 std::vector<NewParticles<D>>(scene.materials.size()));
+  if (!body.velocity_field) return vector_of<D>(body.velocity);
+  Triple at{0, 0, 0};
+  std::copy(x.begin(), x.end(), at.begin());
+  return vector_of<D>(body.velocity_field(at));
+}
+
+}  // namespace
+
+template <int D>
+BodyParticles<D>::BodyParticles(const Scene& scene, const runtime::PatchLayout& layout)
+    : scene_(scene), particles_(static_cast<std::size_t>(layout.size()), std::vector<Particles>(scene.materials.size()))
+{
   components::CellRange<D> cells;
   for (std::size_t k = 0; k < D; ++k) {
     cells.lower[k] = 0;
@@ -54,34 +55,46 @@ std::vector<std::vector<NewParticles<D>>> make_particles(const Scene& scene, con
     const auto& solid = std::get<components::Solid<D>>(scene.bodies[b].solid);
     for (const Vector<D>& x : components::fill(solid, lattice_of<D>(scene), cells)) {
       const int patch = layout.patch_of_cell(cell_of<D>(scene.grid, x));
-      auto& particles = made[static_cast<std::size_t>(patch)][static_cast<std::size_t>(scene.bodies[b].material)];
+      auto& particles = particles_[static_cast<std::size_t>(patch)][static_cast<std::size_t>(scene.bodies[b].material)];
       particles.id.push_back(id++);
       particles.body.push_back(static_cast<std::int64_t>(b));
       particles.position.push_back(x);
     }
   }
-  return made;
 }
 
 template <int D>
-Vector<D> initial_velocity(const SceneBody& body, const Vector<D>& x)
+std::vector<double> BodyParticles<D>::per_patch() const
 {
-  if (!body.velocity_field) return vector_of<D>(body.velocity);
-  Triple at{0, 0, 0};
-  std::copy(x.begin(), x.end(), at.begin());
-  return vector_of<D>(body.velocity_field(at));
+  std::vector<double> counts;
+  for (const auto& materials : particles_) {
+    double n = 0;
+    for (const Particles& particles : materials) n += static_cast<double>(particles.id.size());
+    counts.push_back(n);
+  }
+  return counts;
 }
 
 template <int D>
-void store(const Scene& scene, const NewParticles<D>& particles, int patch, int material, runtime::Warehouse& warehouse)
+void BodyParticles<D>::store(runtime::Warehouse& warehouse) const
+{
+  for (const runtime::Patch& patch : warehouse.layout()) {
+    if (!warehouse.is_local(patch)) continue;
+    const auto& materials = particles_[static_cast<std::size_t>(patch.id)];
+    for (std::size_t m = 0; m < materials.size(); ++m) store(materials[m], patch.id, static_cast<int>(m), warehouse);
+  }
+}
+
+template <int D>
+void BodyParticles<D>::store(const Particles& particles, int patch, int material, runtime::Warehouse& warehouse) const
 {
   const std::size_t n = particles.id.size();
   warehouse.set_n_particles(patch, material, n);
   const auto state = [&](const auto& label) { return warehouse.state(label, patch, material); };
-  const double volume = lattice_of<D>(scene).particle_volume();
-  const double density = scene.materials[static_cast<std::size_t>(material)].density;
+  const double volume = lattice_of<D>(scene_).particle_volume();
+  const double density = scene_.materials[static_cast<std::size_t>(material)].density;
   for (std::size_t p = 0; p < n; ++p) {
-    const SceneBody& body = scene.bodies[static_cast<std::size_t>(particles.body[p])];
+    const SceneBody& body = scene_.bodies[static_cast<std::size_t>(particles.body[p])];
     state(particle::id)[p] = particles.id[p];
     state(particle::body)[p] = particles.body[p];
     state(particle::position<D>)[p] = particles.position[p];
@@ -93,21 +106,7 @@ void store(const Scene& scene, const NewParticles<D>& particles, int patch, int 
   }
 }
 
-}  // namespace
-
-template <int D>
-void fill_bodies(const Scene& scene, runtime::Warehouse& warehouse)
-{
-  const runtime::PatchLayout& layout = warehouse.layout();
-  const auto made = make_particles<D>(scene, layout);
-  for (const runtime::Patch& patch : layout) {
-    for (int m = 0; m < static_cast<int>(scene.materials.size()); ++m) {
-      store<D>(scene, made[static_cast<std::size_t>(patch.id)][static_cast<std::size_t>(m)], patch.id, m, warehouse);
-    }
-  }
-}
-
-template void fill_bodies<2>(const Scene&, runtime::Warehouse&);
-template void fill_bodies<3>(const Scene&, runtime::Warehouse&);
+template class BodyParticles<2>;
+template class BodyParticles<3>;
 
 }  // namespace tamp::tasks

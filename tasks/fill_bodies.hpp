@@ -1,14 +1,42 @@
 #pragma once
 
+#include <cstdint>
+#include <vector>
+
+#include "components/tensors.hpp"
 #include "runtime/data/warehouse.hpp"
 #include "tasks/scene.hpp"
 
 namespace tamp::tasks
 {
 
-/// Puts the particles of all bodies into the patches that own their cells, at rest in themselves and moving with their
-/// body. Ids count bodies and cells, and so do not depend on the cut into patches.
+/// The particles of a scene's bodies as they are at its start, at rest in themselves and moving with their body. Ids
+/// count bodies and cells, and so do not depend on the cut into patches.
 template <int D>
-void fill_bodies(const Scene& scene, runtime::Warehouse& warehouse);
+class BodyParticles
+{
+ public:
+  /// The scene must outlive this object.
+  BodyParticles(const Scene& scene, const runtime::PatchLayout& layout);
+
+  /// How many there are on each patch.
+  std::vector<double> per_patch() const;
+  /// Puts them into the patches that are the warehouse's own.
+  void store(runtime::Warehouse& warehouse) const;
+
+ private:
+  /// The particles of one material on one patch.
+  struct Particles {
+    std::vector<std::int64_t> id;
+    std::vector<std::int64_t> body;
+    std::vector<Vector<D>> position;
+  };
+
+  void store(const Particles& particles, int patch, int material, runtime::Warehouse& warehouse) const;
+
+  const Scene& scene_;
+  /// By [patch][material], bodies in their order.
+  std::vector<std::vector<Particles>> particles_;
+};
 
 }  // namespace tamp::tasks

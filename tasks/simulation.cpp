@@ -3,15 +3,22 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstring>
+#include <numeric>
+#include <optional>
+#include <utility>
 
 #include "components/loads/time_step.hpp"
 #include "components/materials/wave_speed.hpp"
+#include "runtime/execute/move_patches.hpp"
+#include "runtime/grid/curve_order.hpp"
+#include "runtime/ranks/deal_patches.hpp"
+#include "runtime/ranks/load_balance.hpp"
+#include "tasks/engine.hpp"
 #include "tasks/field_columns.hpp"
 #include "tasks/fill_bodies.hpp"
-#include "tasks/labels.hpp"
 #include "tasks/simulation_error.hpp"
 #include "tasks/state_digest.hpp"
-#include "tasks/time_step.hpp"
 
 namespace tamp::tasks
 {
@@ -38,42 +45,41 @@ double initial_wave_speed(const SceneMaterial& material)
   return components::wave_speed(sand.initial_bulk_modulus(), sand.initial_shear_modulus(), material.density);
 }
 
+/// The patches dealt to the ranks by the particles that start on them.
+runtime::PatchLayout dealt(const Scene& scene, const std::vector<double>& particles_per_patch, int n_ranks)
+{
+  runtime::PatchLayout layout(scene.grid, scene.n_patches);
+  const std::vector<int> order = runtime::curve_order(scene.n_patches);
+  layout.give_to_ranks(runtime::deal_patches(order, particles_per_patch, n_ranks), n_ranks);
+  return layout;
+}
+
 template <class Interpolator>
 class SimulationOf : public Simulation
 {
   static constexpr int D = Interpolator::dimension;
 
  public:
-  SimulationOf(Scene given, std::shared_ptr<runtime::Executor> executor)
-      : Simulation(std::move(given), std::move(executor)),
-        method_(scene_),
-        layout_(scene_.grid, scene_.n_patches),
-        step_graph_(time_step(method_), layout_, material_names(scene_), host_data<Interpolator>()),
-        report_graph_(report_tasks(method_), layout_, material_names(scene_),
-                      {host_data<Interpolator>().state, {&particle_report}}),
-        warehouse_(std::array<const runtime::TaskGraph*, 2>{&step_graph_, &report_graph_}),
-        step_(step_graph_, warehouse_),
-        report_(report_graph_, warehouse_),
-        step_schedule_(step_, n_threads()),
-        report_schedule_(report_, n_threads()),
-        profiler_(step_schedule_, step_, n_threads(), n_traced_steps)
+  SimulationOf(Scene given, std::shared_ptr<runtime::Executor> executor, const runtime::Communicator& communicator)
+      : Simulation(std::move(given), std::move(executor), communicator), method_(scene_)
   {
-    fill_bodies<D>(scene_, warehouse_);
-    forecast_bytes_ = warehouse_.forecast_bytes();
+    const BodyParticles<D> particles(scene_, runtime::PatchLayout(scene_.grid, scene_.n_patches));
+    engine_ = make_engine(dealt(scene_, particles.per_patch(), communicator.size()));
+    particles.store(engine_->warehouse);
+    profiler_.emplace(engine_->step_schedule, engine_->step, n_threads(), n_traced_steps);
+    forecast_bytes_ = sum_over_ranks(engine_->warehouse.forecast_bytes());
+    lost_.resize(static_cast<std::size_t>(engine_->layout.size()));
     totals_.stable_step = initial_stable_step();
   }
 
   void advance(double end) override
   {
+    balance_if_due();
     const double size = next_step_size(end);
-    try {
-      executor_->run(step_schedule_, {n_steps_, time_, size, last_step_size_});
-    } catch (const runtime::TaskError& error) {
-      std::rethrow_exception(error.cause);
-    }
+    run_step({n_steps_, time_, size, last_step_size_, std::exchange(requests_, 0U)});
     check_failed_updates();
-    warehouse_.advance();
-    if (step_schedule_.recording) profiler_.add_step();
+    engine_->warehouse.advance();
+    if (engine_->step_schedule.recording) profiler_->add_step();
     take_totals();
     take_lost();
     ++n_steps_;
@@ -83,34 +89,61 @@ class SimulationOf : public Simulation
 
   ParticleReport report() override
   {
-    executor_->run(report_schedule_, {n_steps_, time_, 0, 0});
-    return warehouse_.result(particle_report);
+    executor_->run(engine_->report_schedule, {n_steps_, time_, 0, 0});
+    return engine_->warehouse.result(particle_report);
   }
 
-  const LostParticles& lost() const override { return lost_; }
-  const runtime::TaskGraph& graph() const override { return step_graph_; }
-  const runtime::MemoryLedger& ledger() const override { return warehouse_.ledger(); }
+  LostParticles lost() const override
+  {
+    LostParticles sum;
+    for (const LostParticles& lost : lost_of_all_patches()) {
+      sum.count += lost.count;
+      sum.mass += lost.mass;
+      sum.momentum += lost.momentum;
+    }
+    return sum;
+  }
+
+  const runtime::TaskGraph& graph() const override { return engine_->step_graph; }
+  const runtime::MemoryLedger& ledger() const override { return engine_->warehouse.ledger(); }
   std::size_t forecast_bytes() const override { return forecast_bytes_; }
-  runtime::Profile profile() const override { return profiler_.profile(); }
-  void record(bool on) override { step_schedule_.recording = on; }
-  std::size_t n_particles(int material) const override { return warehouse_.n_particles(material); }
-  std::vector<runtime::ParticleBlock> particle_columns() override { return columns_.particles(method_, warehouse_); }
-  runtime::NodeBlock node_columns() override { return columns_.nodes(method_, warehouse_); }
-  std::string digest() override { return state_digest(warehouse_); }
+  runtime::Profile profile() const override { return profiler_->profile(communicator_); }
+  void record(bool on) override { engine_->step_schedule.recording = on; }
+  std::size_t n_particles(int material) const override
+  {
+    return sum_over_ranks(engine_->warehouse.n_particles(material));
+  }
+  std::vector<runtime::ParticleBlock> particle_columns() override
+  {
+    return columns_.particles(method_, engine_->warehouse);
+  }
+  runtime::NodeBlock node_columns() override { return columns_.nodes(method_, engine_->warehouse); }
+  std::string digest() override { return state_digest(engine_->warehouse, communicator_); }
 
   std::size_t least_bytes_per_particle(int material) const override
   {
     std::size_t bytes = 0;
-    for (const runtime::Field* field : warehouse_.particle_fields(0, material)) {
+    for (const runtime::Field* field : engine_->warehouse.particle_fields(0, material)) {
       if (field->state && used_in_step(*field->label)) bytes += field->label->value_bytes() * (field->carried ? 1 : 2);
     }
     return bytes;
   }
 
  private:
+  std::unique_ptr<Engine<Interpolator>> make_engine(const runtime::PatchLayout& layout)
+  {
+    return std::make_unique<Engine<Interpolator>>(method_, material_names(scene_), layout, communicator_, n_threads());
+  }
+
+  std::size_t sum_over_ranks(std::size_t own) const
+  {
+    const std::vector<std::size_t> all = communicator_.gather_value(own);
+    return std::accumulate(all.begin(), all.end(), std::size_t{0});
+  }
+
   bool used_in_step(const runtime::Label& label) const
   {
-    for (const runtime::TaskDeclaration& task : step_graph_.declarations()) {
+    for (const runtime::TaskDeclaration& task : engine_->step_graph.declarations()) {
       for (const runtime::Access& access : task.accesses) {
         if (access.label == &label) return true;
       }
@@ -144,9 +177,47 @@ class SimulationOf : public Simulation
     return bound;
   }
 
+  /// Runs the step; an error of one rank becomes the same error on all.
+  void run_step(const runtime::Step& step)
+  {
+    std::exception_ptr own;
+    try {
+      executor_->run(engine_->step_schedule, step);
+      return;
+    } catch (const runtime::TaskError& error) {
+      if (communicator_.size() == 1) std::rethrow_exception(error.cause);
+      own = error.cause;
+    } catch (const runtime::OtherRankFailed&) {
+    }
+    throw_first_failure(own);
+  }
+
+  /// All ranks come here when one has failed, and take the error of the first that has one of its own.
+  [[noreturn]] void throw_first_failure(const std::exception_ptr& own)
+  {
+    std::string text;
+    bool of_simulation = false;
+    try {
+      if (own != nullptr) std::rethrow_exception(own);
+    } catch (const SimulationError& error) {
+      text = error.what();
+      of_simulation = true;
+    } catch (const std::exception& error) {
+      text = error.what();
+    }
+    const std::vector<std::string> texts = communicator_.gather(text);
+    const std::vector<char> kinds = communicator_.gather_value(static_cast<char>(of_simulation));
+    const std::vector<long> steps = communicator_.gather_value(n_steps_);
+    const auto first = std::find_if(texts.begin(), texts.end(), [](const std::string& t) { return !t.empty(); });
+    const bool same_step = std::equal(steps.begin() + 1, steps.end(), steps.begin());
+    if (kinds[static_cast<std::size_t>(first - texts.begin())] != 0 && same_step)
+      throw SimulationError(*first, "", -1, {});
+    throw std::runtime_error(*first);
+  }
+
   void check_failed_updates()
   {
-    const StepTotals& step = warehouse_.result(step_totals);
+    const StepTotals& step = engine_->warehouse.result(step_totals);
     const std::size_t failures = totals_.updates.failures + step.updates.failures;
     if (failures <= static_cast<std::size_t>(scene_.failed_updates_allowed)) return;
     const FailedUpdate& failed = step.failed;
@@ -158,43 +229,86 @@ class SimulationOf : public Simulation
 
   void take_totals()
   {
-    const StepTotals& step = warehouse_.result(step_totals);
+    const StepTotals& step = engine_->warehouse.result(step_totals);
     totals_.stable_step = std::numeric_limits<double>::infinity();
     totals_.combine(step);
-    impulse_.combine(warehouse_.result(grid_impulse));
+    asked_ = step.host_requests;
+    impulse_.combine(engine_->warehouse.result(grid_impulse));
   }
 
+  /// Kept by patch, so that the sum over patches has the same bits for any ranks.
   void take_lost()
   {
-    runtime::Migration& migration = *step_.migration();
-    bool any = false;
-    for (int g = 0; g < warehouse_.n_groups(); ++g) {
-      if (migration.n_lost(g) == 0) continue;
-      any = true;
-      const std::vector<double> mass = migration.lost(particle::mass, g);
-      const auto velocity = migration.lost(particle::velocity<D>, g);
-      lost_.count += mass.size();
-      for (std::size_t p = 0; p < mass.size(); ++p) {
-        lost_.mass += mass[p];
-        lost_.momentum.template head<D>() += mass[p] * velocity[p];
+    runtime::Migration& migration = *engine_->step.migration();
+    for (const runtime::Patch& patch : engine_->layout) {
+      LostParticles& lost = lost_[static_cast<std::size_t>(patch.id)];
+      for (int g = 0; g < engine_->warehouse.n_groups(); ++g) {
+        if (migration.n_lost(patch.id, g) == 0) continue;
+        const auto mass = migration.lost(particle::mass, patch.id, g);
+        const auto velocity = migration.lost(particle::velocity<D>, patch.id, g);
+        lost.count += mass.size();
+        for (std::size_t p = 0; p < mass.size(); ++p) {
+          lost.mass += mass[p];
+          lost.momentum.template head<D>() += mass[p] * velocity[p];
+        }
       }
     }
-    if (any) migration.clear_lost();
+    migration.clear_lost();
+  }
+
+  /// Each patch's from the rank that it belongs to.
+  std::vector<LostParticles> lost_of_all_patches() const
+  {
+    std::vector<LostParticles> all = lost_;
+    const auto from_each = communicator_.gather(std::as_bytes(std::span(lost_)));
+    for (const runtime::Patch& patch : engine_->layout) {
+      const auto p = static_cast<std::size_t>(patch.id);
+      const auto& bytes = from_each[static_cast<std::size_t>(patch.rank)];
+      std::memcpy(static_cast<void*>(&all[p]), bytes.data() + p * sizeof(LostParticles), sizeof(LostParticles));
+    }
+    return all;
+  }
+
+  /// Looks at what the patches have cost since the last look, and deals them anew if that pays.
+  void balance_if_due()
+  {
+    if (balance_interval_ == 0 || communicator_.size() == 1 || n_steps_ == 0 || n_steps_ % balance_interval_ != 0)
+      return;
+    const std::vector<double> own = profiler_->take_patch_costs();
+    std::vector<double> costs(own.size(), 0.0);
+    for (const auto& bytes : communicator_.gather(std::as_bytes(std::span(own)))) {
+      const auto* cost = reinterpret_cast<const double*>(bytes.data());
+      for (std::size_t p = 0; p < costs.size(); ++p) costs[p] += cost[p];
+    }
+    const runtime::PatchLayout& layout = engine_->layout;
+    if (!rebalances_.empty() && rebalances_.back().imbalance_got == 0) {
+      rebalances_.back().imbalance_got = runtime::imbalance(costs, layout.ranks(), communicator_.size());
+    }
+    constexpr double least_gain = 1.1;
+    const auto deal = runtime::better_deal(layout, costs, least_gain);
+    if (!deal) return;
+    rebalances_.push_back({n_steps_, deal->imbalance_before, deal->imbalance_expected, 0});
+    deal_anew(deal->ranks);
+  }
+
+  void deal_anew(const std::vector<int>& ranks)
+  {
+    lost_ = lost_of_all_patches();
+    runtime::PatchLayout layout = engine_->layout;
+    layout.give_to_ranks(ranks, communicator_.size());
+    auto engine = make_engine(layout);
+    runtime::move_patches(engine_->warehouse, engine->warehouse, communicator_);
+    engine->step_schedule.recording = engine_->step_schedule.recording;
+    profiler_->follow(engine->step_schedule, engine->step);
+    engine_ = std::move(engine);
   }
 
   Method<Interpolator> method_;
-  runtime::PatchLayout layout_;
-  runtime::TaskGraph step_graph_;
-  runtime::TaskGraph report_graph_;
-  runtime::Warehouse warehouse_;
-  runtime::BoundGraph step_;
-  runtime::BoundGraph report_;
-  runtime::Schedule step_schedule_;
-  runtime::Schedule report_schedule_;
-  runtime::Profiler profiler_;
+  std::unique_ptr<Engine<Interpolator>> engine_;
+  std::optional<runtime::Profiler> profiler_;
   FieldColumns<Interpolator> columns_;
   std::size_t forecast_bytes_ = 0;
-  LostParticles lost_;
+  std::vector<LostParticles> lost_;
 };
 
 }  // namespace
@@ -204,11 +318,13 @@ std::unique_ptr<Simulation> Simulation::make(Scene scene, int n_threads)
   return make(std::move(scene), std::make_shared<runtime::Executor>(n_threads));
 }
 
-std::unique_ptr<Simulation> Simulation::make(Scene scene, std::shared_ptr<runtime::Executor> executor)
+std::unique_ptr<Simulation> Simulation::make(Scene scene, std::shared_ptr<runtime::Executor> executor,
+                                             const runtime::Communicator& communicator)
 {
-  if (scene.grid.dimension == 2)
-    return std::make_unique<SimulationOf<components::Gimp<2>>>(std::move(scene), std::move(executor));
-  return std::make_unique<SimulationOf<components::Gimp<3>>>(std::move(scene), std::move(executor));
+  if (scene.grid.dimension == 2) {
+    return std::make_unique<SimulationOf<components::Gimp<2>>>(std::move(scene), std::move(executor), communicator);
+  }
+  return std::make_unique<SimulationOf<components::Gimp<3>>>(std::move(scene), std::move(executor), communicator);
 }
 
 }  // namespace tamp::tasks

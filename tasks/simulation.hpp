@@ -10,6 +10,7 @@
 #include "runtime/execute/executor.hpp"
 #include "runtime/graph/task_graph.hpp"
 #include "runtime/profile/profiler.hpp"
+#include "runtime/ranks/communicator.hpp"
 #include "runtime/storage/field_columns.hpp"
 #include "tasks/report.hpp"
 #include "tasks/scene.hpp"
@@ -25,17 +26,30 @@ struct LostParticles {
   Eigen::Vector3d momentum = Eigen::Vector3d::Zero();
 };
 
-/// A scene in time. Made with all particles in place; each `advance` is one time step.
+/// Patches dealt anew to the ranks before a step. An imbalance is the load of the busiest rank over the mean.
+struct Rebalance {
+  long step = 0;
+  double imbalance_before = 1;
+  double imbalance_expected = 1;
+  /// Measured over the steps that followed; 0 before there were enough.
+  double imbalance_got = 0;
+};
+
+/// A scene in time. Made with all particles in place; each `advance` is one time step. Over several ranks every call is
+/// collective unless it says otherwise, and what it returns is the same on all of them.
 ///
 /// Errors: `advance` throws SimulationError when a particle inverts, a state is not finite, a material cannot be
-/// updated, or the time step falls below the scene's minimum; the state of the last good step is then still there.
+/// updated, or the time step falls below the scene's minimum; the state of the last good step is then still there. An
+/// error on one rank is thrown on all.
 class Simulation
 {
  public:
   /// The scene is kept. `n_threads` includes the caller.
   static std::unique_ptr<Simulation> make(Scene scene, int n_threads);
-  /// On an executor that several simulations may share, as long as they advance in turn.
-  static std::unique_ptr<Simulation> make(Scene scene, std::shared_ptr<runtime::Executor> executor);
+  /// On an executor that several simulations may share, as long as they advance in turn, and over the ranks of a
+  /// communicator.
+  static std::unique_ptr<Simulation> make(Scene scene, std::shared_ptr<runtime::Executor> executor,
+                                          const runtime::Communicator& communicator = {});
   virtual ~Simulation() = default;
 
   const Scene& scene() const { return scene_; }
@@ -43,24 +57,35 @@ class Simulation
   double time() const { return time_; }
   double last_step_size() const { return last_step_size_; }
   int n_threads() const { return executor_->n_threads(); }
+  const runtime::Communicator& communicator() const { return communicator_; }
   /// Sums since the start; `stable_step` is that of the last step.
   const StepTotals& totals() const { return totals_; }
   /// What the grid gave to the particles since the start [N s].
   const GridImpulse& impulse() const { return impulse_; }
 
+  /// Bits that this rank tells all ranks with the next step; not collective.
+  void ask(unsigned requests) { requests_ |= requests; }
+  /// What any rank asked for in the last step.
+  unsigned asked() const { return asked_; }
+  /// How many steps there are between two looks at the load of the ranks; 0: patches stay where they are.
+  void balance_every(long n_steps) { balance_interval_ = n_steps; }
+  const std::vector<Rebalance>& rebalances() const { return rebalances_; }
+
   /// One step, as long as stability allows and not past `end` [s].
   virtual void advance(double end) = 0;
   virtual ParticleReport report() = 0;
-  virtual const LostParticles& lost() const = 0;
+  virtual LostParticles lost() const = 0;
 
   virtual const runtime::TaskGraph& graph() const = 0;
+  /// This rank's.
   virtual const runtime::MemoryLedger& ledger() const = 0;
+  /// Of all ranks.
   virtual std::size_t forecast_bytes() const = 0;
   virtual runtime::Profile profile() const = 0;
   /// Off only to measure what recording costs.
   virtual void record(bool on) = 0;
 
-  /// Particles of a material now, and what a run's files hold of them.
+  /// Particles of a material now, on all ranks; and what a run's files hold of them, this rank's part.
   virtual std::size_t n_particles(int material) const = 0;
   virtual std::vector<runtime::ParticleBlock> particle_columns() = 0;
   virtual runtime::NodeBlock node_columns() = 0;
@@ -70,13 +95,18 @@ class Simulation
   virtual std::size_t least_bytes_per_particle(int material) const = 0;
 
  protected:
-  Simulation(Scene scene, std::shared_ptr<runtime::Executor> executor)
-      : scene_(std::move(scene)), executor_(std::move(executor))
+  Simulation(Scene scene, std::shared_ptr<runtime::Executor> executor, const runtime::Communicator& communicator)
+      : scene_(std::move(scene)), executor_(std::move(executor)), communicator_(communicator)
   {
   }
 
   Scene scene_;
   std::shared_ptr<runtime::Executor> executor_;
+  runtime::Communicator communicator_;
+  unsigned requests_ = 0;
+  unsigned asked_ = 0;
+  long balance_interval_ = 0;
+  std::vector<Rebalance> rebalances_;
   long n_steps_ = 0;
   double time_ = 0;
   double last_step_size_ = 0;

@@ -14,26 +14,6 @@ namespace tamp::tasks
 namespace
 {
 
-struct Place {
-  std::int64_t id;
-  int patch;
-  int group;
-  std::size_t particle;
-};
-
-std::vector<Place> places_by_id(runtime::Warehouse& warehouse)
-{
-  std::vector<Place> places;
-  for (const runtime::Patch& patch : warehouse.layout()) {
-    for (int g = 0; g < warehouse.n_groups(); ++g) {
-      const auto ids = warehouse.state(particle::id, patch.id, g);
-      for (std::size_t p = 0; p < ids.size(); ++p) places.push_back({ids[p], patch.id, g, p});
-    }
-  }
-  std::sort(places.begin(), places.end(), [](const Place& a, const Place& b) { return a.id < b.id; });
-  return places;
-}
-
 class Fnv1a
 {
  public:
@@ -47,17 +27,49 @@ class Fnv1a
   std::uint64_t hash_ = 0xcbf29ce484222325U;
 };
 
-}  // namespace
+struct ParticleHash {
+  std::int64_t id;
+  std::uint64_t hash;
+};
 
-std::string state_digest(runtime::Warehouse& warehouse)
+/// Fields of a patch and group come sorted by the names of their labels, on every rank.
+std::uint64_t hash_of(const std::vector<runtime::Field*>& fields, std::size_t particle)
 {
   Fnv1a hash;
-  for (const Place& place : places_by_id(warehouse)) {
-    // Fields of a patch and group come sorted by the names of their labels.
-    for (const runtime::Field* field : warehouse.particle_fields(place.patch, place.group)) {
-      const std::size_t size = field->label->value_bytes();
-      if (field->state) hash.add(field->previous_buffer.data() + place.particle * size, size);
+  for (const runtime::Field* field : fields) {
+    const std::size_t size = field->label->value_bytes();
+    if (field->state) hash.add(field->previous_buffer.data() + particle * size, size);
+  }
+  return hash.value();
+}
+
+std::vector<ParticleHash> own_hashes(runtime::Warehouse& warehouse)
+{
+  std::vector<ParticleHash> hashes;
+  for (const runtime::Patch& patch : warehouse.layout()) {
+    for (int g = 0; g < warehouse.n_groups(); ++g) {
+      const auto ids = warehouse.state(particle::id, patch.id, g);
+      const auto& fields = warehouse.particle_fields(patch.id, g);
+      for (std::size_t p = 0; p < ids.size(); ++p) hashes.push_back({ids[p], hash_of(fields, p)});
     }
+  }
+  return hashes;
+}
+
+}  // namespace
+
+std::string state_digest(runtime::Warehouse& warehouse, const runtime::Communicator& communicator)
+{
+  const std::vector<ParticleHash> own = own_hashes(warehouse);
+  std::vector<ParticleHash> all;
+  for (const auto& bytes : communicator.gather(std::as_bytes(std::span(own)))) {
+    const auto* first = reinterpret_cast<const ParticleHash*>(bytes.data());
+    all.insert(all.end(), first, first + bytes.size() / sizeof(ParticleHash));
+  }
+  std::sort(all.begin(), all.end(), [](const ParticleHash& a, const ParticleHash& b) { return a.id < b.id; });
+  Fnv1a hash;
+  for (const ParticleHash& particle : all) {
+    hash.add(reinterpret_cast<const std::byte*>(&particle.hash), sizeof particle.hash);
   }
   return fmt::format("{:016x}", hash.value());
 }

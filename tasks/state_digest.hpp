@@ -3,12 +3,13 @@
 #include <string>
 
 #include "runtime/data/warehouse.hpp"
+#include "runtime/ranks/communicator.hpp"
 
 namespace tamp::tasks
 {
 
-/// A hash (64-bit FNV-1a, as 16 hexadecimal digits) of every particle's state in the order of their ids: the same for
-/// any threads, ranks and order in memory, and different for a single bit of difference.
-std::string state_digest(runtime::Warehouse& warehouse);
+/// A hash (64-bit FNV-1a, as 16 hexadecimal digits) of the hashes of every particle's state in the order of their ids:
+/// the same for any threads, ranks and order in memory, and different for a single bit of difference. Collective.
+std::string state_digest(runtime::Warehouse& warehouse, const runtime::Communicator& communicator);
 
 }  // namespace tamp::tasks

@@ -38,6 +38,8 @@ struct StepTotals {
   double contact = 0;
   /// Of all sand.
   components::UpdateCounts updates;
+  /// What the hosts of the ranks asked for, see runtime::Step.
+  unsigned host_requests = 0;
   /// Of those that failed, the one with the lowest id in the first step that had any.
   FailedUpdate failed;
 
@@ -54,6 +56,7 @@ struct StepTotals {
     viscous += other.viscous;
     contact += other.contact;
     updates.add(other.updates);
+    host_requests |= other.host_requests;
     if (other.failed.particle >= 0) note(other.failed);
   }
 };

@@ -22,6 +22,14 @@ bool of_particles(const Message& message)
 
 }  // namespace
 
+void Traffic::add(const Traffic& other)
+{
+  n_messages += other.n_messages;
+  n_bytes += other.n_bytes;
+  under_way += other.under_way;
+  waited_for += other.waited_for;
+}
+
 Exchange::Exchange(const TaskGraph& graph, Warehouse& warehouse, Migration* migration, const Communicator& communicator)
     : graph_(graph),
       warehouse_(warehouse),

@@ -29,6 +29,8 @@ struct Traffic {
   std::uint64_t under_way = 0;
   /// The part of that in which the worker that saw the message had nothing to run.
   std::uint64_t waited_for = 0;
+
+  void add(const Traffic& other);
 };
 
 /// Sends and receives one rank's messages of one graph.

@@ -151,13 +151,6 @@ const std::byte* Migration::read_parcel(const MessagePart& part, const std::byte
   return from;
 }
 
-std::size_t Migration::n_lost(int group) const
-{
-  std::size_t n = 0;
-  for (const Patch& patch : warehouse_.layout()) n += box(patch.id, group).lost.n_particles;
-  return n;
-}
-
 const std::byte* Migration::field_bytes(const ParticleParcel& parcel, const Label& label, int patch, int group) const
 {
   if (parcel.n_particles == 0) return nullptr;

@@ -34,19 +34,14 @@ class Migration
   void write_parcel(const MessagePart& part, std::vector<std::byte>& message) const;
   const std::byte* read_parcel(const MessagePart& part, const std::byte* from);
 
-  /// Particles that left the grid since `clear_lost`, in order of patch.
-  std::size_t n_lost(int group) const;
-  /// The values of one state label of the lost particles of a group.
+  /// Particles that left the grid from a patch since `clear_lost`, and the values of one of their state labels.
+  std::size_t n_lost(int patch, int group) const { return box(patch, group).lost.n_particles; }
   template <class T>
-  std::vector<T> lost(const ParticleLabel<T>& label, int group) const
+  std::vector<T> lost(const ParticleLabel<T>& label, int patch, int group) const
   {
-    std::vector<T> values;
-    for (const Patch& patch : warehouse_.layout()) {
-      const ParticleParcel& parcel = box(patch.id, group).lost;
-      const T* first = reinterpret_cast<const T*>(field_bytes(parcel, label, patch.id, group));
-      values.insert(values.end(), first, first + parcel.n_particles);
-    }
-    return values;
+    const ParticleParcel& parcel = box(patch, group).lost;
+    const T* first = reinterpret_cast<const T*>(field_bytes(parcel, label, patch, group));
+    return std::vector<T>(first, first + parcel.n_particles);
   }
   void clear_lost();
 

@@ -36,6 +36,8 @@ struct Step {
   double size = 0;
   /// Length of the step before [s]; 0 for the first.
   double previous_size = 0;
+  /// Bits by which this rank's host may tell all others something: a task that reduces them makes it known.
+  unsigned host_requests = 0;
 };
 
 /// What every task body gets before its data.

@@ -23,6 +23,7 @@ class DurationHistogram
   std::uint64_t total() const { return total_; }
   std::uint64_t least() const { return count_ == 0 ? 0 : least_; }
   std::uint64_t most() const { return most_; }
+  void merge(const DurationHistogram& other);
   /// The length that a share of `q` (0..1) of all does not pass.
   double quantile(double q) const;
 
@@ -58,6 +59,7 @@ struct TaskStatistics {
 /// One instance in the trace; times in seconds since the profile began.
 struct TraceEvent {
   std::string name;
+  int rank = 0;
   int patch = 0;
   int group = 0;
   std::uint32_t worker = 0;
@@ -73,43 +75,75 @@ struct Profile {
   double step_s = 0;
   double critical_path_s = 0;
   double overhead = 0;
+  /// Messages between ranks: how many, how long, how long on their way in sum, and the part of that in which the worker
+  /// that took them in had nothing else to run.
+  std::uint64_t n_messages = 0;
+  std::uint64_t message_bytes = 0;
+  double message_s = 0;
+  double message_wait_s = 0;
   std::vector<TraceEvent> trace;
 };
 
-/// Gathers what the workers recorded, after each step and outside of it.
+/// Gathers what the workers of a rank recorded, after each step and outside of it.
 class Profiler
 {
  public:
   /// The first `n_traced_steps` steps are kept instance by instance.
   Profiler(const Schedule& schedule, BoundGraph& graph, int n_workers, long n_traced_steps);
 
+  /// Goes on with the same tasks on patches dealt anew.
+  void follow(const Schedule& schedule, BoundGraph& graph);
   /// Takes in the records of the step that has just been run.
   void add_step();
-  Profile profile() const;
+  /// Ticks that task bodies took on each of this rank's patches since this was last asked; 0 on others.
+  std::vector<double> take_patch_costs();
+  /// Of all ranks together. Collective.
+  Profile profile(const Communicator& communicator = {}) const;
 
  private:
-  struct Row {
-    std::string name;
+  /// Numbers of one task, which may be sent as bytes.
+  struct Totals {
     DurationHistogram durations;
     std::uint64_t wait = 0;
     double bytes = 0;
     double particles = 0;
+  };
+  struct Row {
+    std::string name;
+    Totals totals;
     std::vector<std::uint64_t> per_patch;
   };
+  struct TracedInstance {
+    std::size_t row;
+    int patch;
+    int group;
+    InstanceRecord record;
+  };
+  struct Steps {
+    std::uint64_t first_tick = 0;
+    std::uint64_t ticks = 0;
+    std::uint64_t path_ticks = 0;
+    Traffic traffic;
+  };
 
-  const Schedule& schedule_;
-  BoundGraph& graph_;
+  std::vector<Row> rows_of_all(const Communicator& communicator) const;
+  TaskStatistics statistics(const Row& row, std::uint64_t all_ticks, double second) const;
+  void add_trace(Profile& profile, const Communicator& communicator, std::uint64_t first_tick, double second) const;
+  Traffic traffic() const;
+
+  const Schedule* schedule_;
+  BoundGraph* graph_;
   int n_workers_;
   long n_traced_steps_;
   TickRate rate_;
-  std::uint64_t first_tick_;
   std::vector<Row> rows_;
   std::vector<std::size_t> row_of_instance_;
   std::vector<std::uint64_t> path_;
-  std::vector<std::pair<std::size_t, InstanceRecord>> traced_;
+  std::vector<double> patch_costs_;
+  std::vector<TracedInstance> traced_;
   long n_steps_ = 0;
-  std::uint64_t step_ticks_ = 0;
-  std::uint64_t path_ticks_ = 0;
+  /// With the traffic of the graphs before the one that is followed now.
+  Steps steps_;
 };
 
 }  // namespace tamp::runtime

@@ -2,10 +2,22 @@
 
 #include <fmt/format.h>
 
+#include <numeric>
+
 namespace tamp::runtime
 {
 
-nlohmann::json to_json(const Profile& profile, const MemoryLedger& ledger)
+namespace
+{
+
+std::size_t sum(const std::vector<std::size_t>& values)
+{
+  return std::accumulate(values.begin(), values.end(), std::size_t{0});
+}
+
+}  // namespace
+
+nlohmann::json to_json(const Profile& profile, const MemoryLedger& ledger, const Communicator& communicator)
 {
   nlohmann::json tasks = nlohmann::json::array();
   for (const TaskStatistics& t : profile.tasks) {
@@ -23,15 +35,20 @@ nlohmann::json to_json(const Profile& profile, const MemoryLedger& ledger)
                      {"wait_s", t.wait_s}});
   }
   nlohmann::json labels = nlohmann::json::object();
-  for (const LedgerEntry& entry : ledger.entries()) labels[entry.name()] = entry.peak();
+  for (const LedgerEntry& entry : ledger.entries()) {
+    labels[entry.name()] = sum(communicator.gather_value(static_cast<std::size_t>(entry.peak())));
+  }
+  const std::size_t total = sum(communicator.gather_value(static_cast<std::size_t>(ledger.total().peak())));
   return {{"tasks", tasks},
           {"steps", profile.n_steps},
           {"overhead", profile.overhead},
           {"critical_path_s", profile.critical_path_s},
           {"step_s", profile.step_s},
-          {"messages", 0},
-          {"message_bytes", 0},
-          {"memory", {{"labels", labels}, {"total", ledger.total().peak()}}}};
+          {"messages", profile.n_messages},
+          {"message_bytes", profile.message_bytes},
+          {"message_s", profile.message_s},
+          {"message_wait_s", profile.message_wait_s},
+          {"memory", {{"labels", labels}, {"total", total}}}};
 }
 
 nlohmann::json trace_to_json(const Profile& profile)
@@ -41,7 +58,7 @@ nlohmann::json trace_to_json(const Profile& profile)
   for (const TraceEvent& e : profile.trace) {
     events.push_back({{"name", e.name},
                       {"ph", "X"},
-                      {"pid", 0},
+                      {"pid", e.rank},
                       {"tid", e.worker},
                       {"ts", e.start_s * microseconds},
                       {"dur", (e.end_s - e.start_s) * microseconds},
@@ -66,6 +83,13 @@ std::string to_text(const nlohmann::json& profile, int n_rows)
       "step {:.1f} us, critical path {:.1f} us, outside of tasks {:.2f} % of the workers' time, fields {:.1f} MiB\n",
       profile.at("step_s").get<double>() * 1e6, profile.at("critical_path_s").get<double>() * 1e6,
       profile.at("overhead").get<double>() * 100, profile.at("memory").at("total").get<double>() / (1024 * 1024));
+  if (const auto n = profile.value("messages", std::uint64_t{0}); n > 0) {
+    const double under_way = profile.at("message_s").get<double>();
+    text +=
+        fmt::format("{} messages between ranks, {:.1f} MiB, {:.1f} us on their way, {:.0f} % of that behind tasks\n", n,
+                    profile.at("message_bytes").get<double>() / (1024 * 1024), under_way / static_cast<double>(n) * 1e6,
+                    100 * (1 - profile.at("message_wait_s").get<double>() / under_way));
+  }
   return text;
 }
 

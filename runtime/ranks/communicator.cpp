@@ -28,6 +28,23 @@ bool running()
   return begun != 0 && ended == 0;
 }
 
+/// Where pieces of these lengths begin when they stand in a row, and where the last one ends.
+std::vector<int> starts(const std::vector<int>& lengths)
+{
+  std::vector<int> at(lengths.size() + 1, 0);
+  std::partial_sum(lengths.begin(), lengths.end(), at.begin() + 1);
+  return at;
+}
+
+std::vector<std::vector<std::byte>> cut(const std::vector<std::byte>& together, const std::vector<int>& starts)
+{
+  std::vector<std::vector<std::byte>> pieces;
+  for (std::size_t k = 0; k + 1 < starts.size(); ++k) {
+    pieces.emplace_back(together.begin() + starts[k], together.begin() + starts[k + 1]);
+  }
+  return pieces;
+}
+
 }  // namespace
 
 MpiSession::MpiSession(int& argc, char**& argv)
@@ -83,20 +100,32 @@ void Communicator::gather_bytes(const void* own, void* all, std::size_t n) const
 std::vector<std::vector<std::byte>> Communicator::gather(std::span<const std::byte> own) const
 {
   const std::vector<int> counts = gather_value(static_cast<int>(own.size()));
-  std::vector<int> firsts(counts.size(), 0);
-  std::partial_sum(counts.begin(), counts.end() - 1, firsts.begin() + 1);
-  std::vector<std::byte> together(static_cast<std::size_t>(firsts.back() + counts.back()));
+  const std::vector<int> firsts = starts(counts);
+  std::vector<std::byte> together(static_cast<std::size_t>(firsts.back()));
   if (handle_ == nullptr) {
     std::copy(own.begin(), own.end(), together.begin());
   } else {
     MPI_Allgatherv(own.data(), counts[static_cast<std::size_t>(rank_)], MPI_BYTE, together.data(), counts.data(),
                    firsts.data(), MPI_BYTE, *handle_);
   }
-  std::vector<std::vector<std::byte>> all;
-  for (std::size_t r = 0; r < counts.size(); ++r) {
-    all.emplace_back(together.begin() + firsts[r], together.begin() + firsts[r] + counts[r]);
+  return cut(together, firsts);
+}
+
+std::vector<std::vector<std::byte>> Communicator::exchange(const std::vector<std::vector<std::byte>>& to_each) const
+{
+  if (handle_ == nullptr) return to_each;
+  std::vector<int> given, taken(to_each.size());
+  std::vector<std::byte> out;
+  for (const auto& bytes : to_each) {
+    given.push_back(static_cast<int>(bytes.size()));
+    out.insert(out.end(), bytes.begin(), bytes.end());
   }
-  return all;
+  MPI_Alltoall(given.data(), 1, MPI_INT, taken.data(), 1, MPI_INT, *handle_);
+  const std::vector<int> given_at = starts(given), taken_at = starts(taken);
+  std::vector<std::byte> in(static_cast<std::size_t>(taken_at.back()));
+  MPI_Alltoallv(out.data(), given.data(), given_at.data(), MPI_BYTE, in.data(), taken.data(), taken_at.data(), MPI_BYTE,
+                *handle_);
+  return cut(in, taken_at);
 }
 
 std::vector<std::string> Communicator::gather(const std::string& own) const

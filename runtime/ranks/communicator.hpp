@@ -46,6 +46,8 @@ class Communicator
   /// What each rank gives, by rank.
   std::vector<std::vector<std::byte>> gather(std::span<const std::byte> own) const;
   std::vector<std::string> gather(const std::string& own) const;
+  /// Gives each rank what is meant for it, by rank; returns what each has given to this one.
+  std::vector<std::vector<std::byte>> exchange(const std::vector<std::vector<std::byte>>& to_each) const;
   /// One value from each rank, by rank.
   template <class T>
   std::vector<T> gather_value(const T& own) const
