@@ -1,8 +1,10 @@
 #pragma once
 
+#include <chrono>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <vector>
 
 /// Benchmarks, each of which measures what it compares in one run, interleaved, so that a noisy machine disturbs both
 /// sides alike.
@@ -22,5 +24,16 @@ Result punch(const std::filesystem::path& scene);
 /// Time for p and K of one state, in a batch of 4096 spread over the data: Table, SVR, MLP, and SVR and MLP compiled,
 /// each against its definition evaluated plainly. The plain network gives K alone.
 Result moduli(const std::filesystem::path& material);
+
+struct TaskOptions {
+  int n_rounds = 15;
+  /// After this no further round begins: where others use the cores, schedulers that spin may take very long.
+  std::chrono::seconds patience{50};
+  std::vector<int> n_threads{1, 2};
+};
+
+/// What a task costs with TAMP's executor and with others, after Task Bench (Slaughter et al., SC 2020): overhead per
+/// task with an empty body, and METG(50 %), the granularity at which half of the time is work.
+Result tasks(const TaskOptions& options);
 
 }  // namespace tamp::tools::bench

@@ -20,13 +20,17 @@ namespace
 struct Options {
   std::vector<std::string> names;
   std::string json;
+  bench::TaskOptions tasks;
 };
 
-const std::map<std::string, std::function<bench::Result()>>& benchmarks()
+using Benchmark = std::function<bench::Result(const Options&)>;
+
+const std::map<std::string, Benchmark>& benchmarks()
 {
-  static const std::map<std::string, std::function<bench::Result()>> all{
-      {"moduli", [] { return bench::moduli(shipped_input("materials/concrete-sand")); }},
-      {"punch", [] { return bench::punch(shipped_input("punch/table.json")); }}};
+  static const std::map<std::string, Benchmark> all{
+      {"moduli", [](const Options&) { return bench::moduli(shipped_input("materials/concrete-sand")); }},
+      {"punch", [](const Options&) { return bench::punch(shipped_input("punch/table.json")); }},
+      {"tasks", [](const Options& options) { return bench::tasks(options.tasks); }}};
   return all;
 }
 
@@ -38,7 +42,7 @@ void run_benchmarks(const Options& options)
   }
   nlohmann::ordered_json json;
   for (const std::string& name : names) {
-    const bench::Result result = benchmarks().at(name)();
+    const bench::Result result = benchmarks().at(name)(options);
     fmt::print("{}", result.text);
     json[name] = result.json;
   }
@@ -55,6 +59,14 @@ CLI::App* add_bench_command(CLI::App& app)
   for (const auto& [name, benchmark] : benchmarks()) known.push_back(name);
   command->add_option("NAME", options->names, "which benchmarks; all without a name")->check(CLI::IsMember(known));
   command->add_option("--json", options->json, "write the results to this file too");
+  command
+      ->add_option("--rounds", options->tasks.n_rounds,
+                   "of tasks: how often each is measured, as far as a minute allows")
+      ->check(CLI::PositiveNumber);
+  command->add_option("--threads", options->tasks.n_threads, "of tasks: numbers of threads, as in 1,2")
+      ->delimiter(',')
+      ->allow_extra_args(false)
+      ->check(CLI::PositiveNumber);
   command->callback([options] { run_benchmarks(*options); });
   return command;
 }

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <optional>
+
+#include "tools/bench/tasks_metg.hpp"
+#include "tools/bench/tasks_pattern.hpp"
+#include "tools/bench/tasks_schedulers.hpp"
+
+namespace tamp::tools::bench
+{
+
+/// Who is measured, and on what.
+struct TaskContest {
+  TaskContestant contestant;
+  TaskPattern pattern;
+  int n_threads = 1;
+};
+
+/// What one round found. Absent where the processor's speed did not hold still for long enough.
+struct TaskFigures {
+  /// Of a task with an empty body [ns], threads times time.
+  std::optional<double> overhead;
+  std::optional<double> metg50;
+  /// Of the kernel, per iteration [ns].
+  double calibration = 0;
+  /// Measurements thrown away because the calibrations before and after differed by more than `most_drift`.
+  int n_discarded = 0;
+};
+
+/// Cores of a virtual machine may turn into siblings of one core and back at any time.
+constexpr double most_drift = 0.1;
+
+/// Throws std::logic_error if the contestant runs a task before what it reads.
+TaskFigures measure_tasks(const TaskContest& contest);
+
+}  // namespace tamp::tools::bench

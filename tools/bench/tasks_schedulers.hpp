@@ -1,0 +1,51 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "tools/bench/tasks_graph.hpp"
+
+namespace tamp::tools::bench
+{
+
+/// Something that runs tasks in an order that they allow, made for one set of tasks.
+class TaskScheduler
+{
+ public:
+  virtual ~TaskScheduler() = default;
+  /// Runs all tasks `n_runs` times, each run after the one before.
+  virtual void run(int n_runs) = 0;
+};
+
+/// One that takes part in the comparison.
+struct TaskContestant {
+  std::string name;
+  std::unique_ptr<TaskScheduler> (*make)(StampedTasks& tasks, int n_threads);
+  bool one_thread_only = false;
+};
+
+/// TAMP's own executor, which records when and where each task ran as it does in every run.
+TaskContestant tamp_contestant();
+
+/// Task after task on one thread: no scheduler at all.
+TaskContestant loop_contestant();
+/// A team of threads, each with the same points in every step, that wait for each other after each step: the floor for
+/// several threads, as nothing is decided at run time.
+TaskContestant barrier_contestant();
+
+/// oneTBB: a parallel loop over the points of each step, dealt out evenly.
+TaskContestant parallel_for_contestant();
+/// oneTBB: a flow graph of continue_nodes, built once.
+TaskContestant flow_graph_contestant();
+/// oneTBB: tasks with counters of what they wait for; whoever completes one goes on with the first that it freed.
+TaskContestant task_group_contestant();
+
+/// OpenMP tasks with depend; none where TAMP was built without OpenMP.
+std::optional<TaskContestant> openmp_contestant();
+
+/// All of the above that there are, ours first.
+std::vector<TaskContestant> task_contestants();
+
+}  // namespace tamp::tools::bench
