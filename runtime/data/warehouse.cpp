@@ -52,6 +52,19 @@ Warehouse::Warehouse(std::span<const TaskGraph* const> graphs, int rank)
       }
     }
   }
+  for (const TaskGraph* graph : graphs) reserve_copies(*graph);
+}
+
+/// Where messages put what they bring of other ranks' patches: tasks find it there as they find their own.
+void Warehouse::reserve_copies(const TaskGraph& graph)
+{
+  for (const Message& message : graph.messages()) {
+    if (message.to_rank != rank_ || message.purpose == InstanceKind::receive_particles) continue;
+    for (const MessagePart& part : message.parts) {
+      Field& f = field(*part.label, part.from_patch, part.group);
+      f.buffer(part.buffer).reserve(f.n_bytes());
+    }
+  }
 }
 
 void Warehouse::add_field(const LabelUse& use, int patch, int halo)
