@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "runtime/storage/particle_share.hpp"
 #include "tasks/labels.hpp"
 
 namespace tamp::tasks
@@ -42,7 +43,8 @@ double q_of(const SymmetricTensor<D>& stress)
 
 template <class Interpolator>
 std::vector<runtime::ParticleBlock> FieldColumns<Interpolator>::particles(const Method<Interpolator>& method,
-                                                                          runtime::Warehouse& warehouse)
+                                                                          runtime::Warehouse& warehouse,
+                                                                          const runtime::Communicator& communicator)
 {
   constexpr int D = Interpolator::dimension;
   numbers_.clear();
@@ -50,7 +52,8 @@ std::vector<runtime::ParticleBlock> FieldColumns<Interpolator>::particles(const 
   std::vector<runtime::ParticleBlock> blocks;
   for (int g = 0; g < warehouse.n_groups(); ++g) {
     const SceneMaterial& material = method.materials[static_cast<std::size_t>(g)];
-    runtime::ParticleBlock block{material.name, warehouse.n_particles(g), {}};
+    runtime::ParticleBlock block{
+        material.name, warehouse.n_particles(g), {}, runtime::particle_share(warehouse, g, communicator)};
     const auto state = [&](const auto& label, int patch, std::size_t p) { return warehouse.state(label, patch, g)[p]; };
     const auto add = [&](const std::string& name, ColumnKind kind, const auto& value) {
       const auto& numbers = numbers_.emplace_back(gathered<D>(warehouse, g, value));
@@ -109,13 +112,14 @@ runtime::NodeBlock FieldColumns<Interpolator>::nodes(const Method<Interpolator>&
   runtime::IndexBox all = grid.cells();
   for (std::size_t k = 0; k < D; ++k) ++all.upper[k];
   for (std::size_t k = 0; k < 3; ++k) block.n_nodes[k] = all.upper[k];
-  const auto strides = all.strides();
-  auto& density = numbers_.emplace_back(static_cast<std::size_t>(all.size()), 0.0);
-  auto& velocity = numbers_.emplace_back(static_cast<std::size_t>(all.size() * D), 0.0);
+  block.boxes.emplace();
+  auto& density = numbers_.emplace_back();
+  auto& velocity = numbers_.emplace_back();
   const double cell_volume = std::pow(method.cell_size, D);
   for (const runtime::Patch& patch : layout) {
-    for_each(layout.owned_nodes(patch), [&](const runtime::Index& i) {
-      const auto at = static_cast<std::size_t>(i[0] + strides[1] * i[1] + strides[2] * i[2]);
+    if (!warehouse.is_local(patch)) continue;
+    block.boxes->push_back(layout.owned_nodes(patch));
+    for_each(block.boxes->back(), [&](const runtime::Index& i) {
       Vector<D> momentum = Vector<D>::Zero();
       double mass = 0;
       for (int g = 0; g < warehouse.n_groups(); ++g) {
@@ -123,10 +127,8 @@ runtime::NodeBlock FieldColumns<Interpolator>::nodes(const Method<Interpolator>&
         mass += own;
         momentum += own * warehouse.grid_result(node::motion<D>, patch.id, g)[i].velocity();
       }
-      density[at] = mass / cell_volume;
-      if (mass > method.least_node_mass) {
-        for (int k = 0; k < D; ++k) velocity[at * D + static_cast<std::size_t>(k)] = momentum[k] / mass;
-      }
+      density.push_back(mass / cell_volume);
+      append(velocity, mass > method.least_node_mass ? Vector<D>(momentum / mass) : Vector<D>(Vector<D>::Zero()));
     });
   }
   block.columns.push_back({"density", ColumnKind::scalar, std::span<const double>(density)});

@@ -4,21 +4,23 @@
 #include <vector>
 
 #include "runtime/data/warehouse.hpp"
+#include "runtime/ranks/communicator.hpp"
 #include "runtime/storage/field_columns.hpp"
 #include "tasks/method.hpp"
 
 namespace tamp::tasks
 {
 
-/// What a run's field file holds of the state, gathered over patches. The columns point into this object and are valid
-/// until it is asked for the next ones.
+/// What a run's field file holds of the state: this rank's part, gathered over its patches. The columns point into this
+/// object and are valid until it is asked for the next ones.
 template <class Interpolator>
 class FieldColumns
 {
  public:
   /// For each material: id, position, velocity, stress, mean stress p and q (compression positive), density, J; and of
-  /// sand elastic and plastic volumetric strain and crush pressure.
-  std::vector<runtime::ParticleBlock> particles(const Method<Interpolator>& method, runtime::Warehouse& warehouse);
+  /// sand elastic and plastic volumetric strain and crush pressure. Collective.
+  std::vector<runtime::ParticleBlock> particles(const Method<Interpolator>& method, runtime::Warehouse& warehouse,
+                                                const runtime::Communicator& communicator);
   /// Of the last step, all materials together: density and velocity at the nodes.
   runtime::NodeBlock nodes(const Method<Interpolator>& method, runtime::Warehouse& warehouse);
 

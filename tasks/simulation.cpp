@@ -10,6 +10,7 @@
 
 #include "components/loads/time_step.hpp"
 #include "components/materials/wave_speed.hpp"
+#include "runtime/data/byte_stream.hpp"
 #include "runtime/execute/move_patches.hpp"
 #include "runtime/grid/curve_order.hpp"
 #include "runtime/ranks/deal_patches.hpp"
@@ -115,9 +116,35 @@ class SimulationOf : public Simulation
   }
   std::vector<runtime::ParticleBlock> particle_columns() override
   {
-    return columns_.particles(method_, engine_->warehouse);
+    return columns_.particles(method_, engine_->warehouse, communicator_);
   }
   runtime::NodeBlock node_columns() override { return columns_.nodes(method_, engine_->warehouse); }
+  void write_checkpoint(const std::filesystem::path& folder, const std::string& fingerprint,
+                        std::span<const std::byte> host, int keep) override
+  {
+    runtime::ByteWriter own;
+    own.add(last_step_size_);
+    own.add(totals_);
+    own.add(impulse_);
+    for (const LostParticles& lost : lost_of_all_patches()) own.add(lost);
+    own.add_bytes(host);
+    runtime::write_checkpoint(folder, {n_steps_, time_, fingerprint}, own.bytes(), engine_->warehouse,
+                              material_names(scene_), keep, communicator_);
+  }
+
+  std::vector<std::byte> restart(const runtime::FoundCheckpoint& found) override
+  {
+    runtime::read_checkpoint(found, engine_->warehouse, material_names(scene_), communicator_);
+    n_steps_ = found.header.step;
+    time_ = found.header.time;
+    runtime::ByteReader own(found.host);
+    own.read(last_step_size_);
+    own.read(totals_);
+    own.read(impulse_);
+    for (LostParticles& lost : lost_) own.read(lost);
+    return {own.rest().begin(), own.rest().end()};
+  }
+
   std::string digest() override { return state_digest(engine_->warehouse, communicator_); }
 
   std::size_t least_bytes_per_particle(int material) const override

@@ -11,6 +11,7 @@
 #include "runtime/graph/task_graph.hpp"
 #include "runtime/profile/profiler.hpp"
 #include "runtime/ranks/communicator.hpp"
+#include "runtime/storage/checkpoint.hpp"
 #include "runtime/storage/field_columns.hpp"
 #include "tasks/report.hpp"
 #include "tasks/scene.hpp"
@@ -89,6 +90,12 @@ class Simulation
   virtual std::size_t n_particles(int material) const = 0;
   virtual std::vector<runtime::ParticleBlock> particle_columns() = 0;
   virtual runtime::NodeBlock node_columns() = 0;
+  /// Keeps the state in a folder, with bytes of the host's own, which are the same on all ranks; see
+  /// runtime::write_checkpoint. Throws FileError.
+  virtual void write_checkpoint(const std::filesystem::path& folder, const std::string& fingerprint,
+                                std::span<const std::byte> host, int keep) = 0;
+  /// Goes on where a checkpoint of the same scene was written, on any ranks; returns the host's bytes.
+  virtual std::vector<std::byte> restart(const runtime::FoundCheckpoint& found) = 0;
   /// A hash of every particle's state in the order of their ids, for all materials; 16 hexadecimal digits.
   virtual std::string digest() = 0;
   /// Bytes of the particle arrays that a step must at least read and write, per particle of a material.

@@ -7,8 +7,8 @@
 namespace tamp::tools
 {
 
-/// What the program tells its caller; 1 is left for what should not happen.
-enum class ExitCode { done = 0, bad_input = 2, bad_simulation = 3, bad_file = 4 };
+/// What the program tells its caller; 1 is for what should not happen, and the number of a signal adds to 128.
+enum class ExitCode { done = 0, fault = 1, bad_input = 2, bad_simulation = 3, bad_file = 4, signal = 128 };
 
 /// One thing that is wrong with what a person gave the program.
 struct Problem {

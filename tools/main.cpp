@@ -1,34 +1,34 @@
-#include <cstdio>
 #include <exception>
+#include <string>
 
-#include <fmt/core.h>
 #include <CLI/CLI.hpp>
 
+#include "runtime/execute/exchange.hpp"
+#include "runtime/ranks/communicator.hpp"
 #include "runtime/storage/file_error.hpp"
 #include "tasks/simulation_error.hpp"
 #include "tools/commands/commands.hpp"
 #include "tools/errors.hpp"
+#include "tools/settle.hpp"
+#include "tools/signals.hpp"
 #include "tools/version.hpp"
 
 namespace
 {
 
 using tamp::tools::ExitCode;
+using tamp::tools::settle;
 
-/// Every line of `text` on stderr, each with the program's name before it.
-int complain(const std::string& text, ExitCode code)
+/// Only these commands share their work over ranks; any other is the first rank's alone.
+bool is_for_all_ranks(int argc, char** argv)
 {
-  std::size_t begin = 0;
-  while (begin <= text.size()) {
-    const std::size_t end = std::min(text.find('\n', begin), text.size());
-    fmt::print(stderr, "tamp: {}\n", text.substr(begin, end - begin));
-    begin = end + 1;
-  }
-  return static_cast<int>(code);
+  const std::string command = argc > 1 ? argv[1] : "";
+  return command == "run" || command == "bench";
 }
 
 int run_program(int argc, char** argv)
 {
+  if (!tamp::runtime::Communicator::world().is_first() && !is_for_all_ranks(argc, argv)) return 0;
   CLI::App app("Material point simulations of things driven into sand, on a task graph.", "tamp");
   app.set_version_flag("--version", tamp::tools::version_text());
   app.require_subcommand(1);
@@ -47,9 +47,28 @@ int run_program(int argc, char** argv)
   } catch (const CLI::Success& asked) {  // --help, --version
     return app.exit(asked);
   } catch (const CLI::ParseError& error) {
-    return complain(error.what(), ExitCode::bad_input);
+    return settle(error.what(), ExitCode::bad_input);
   }
   return static_cast<int>(ExitCode::done);
+}
+
+int run_or_settle(int argc, char** argv)
+{
+  try {
+    return run_program(argc, argv);
+  } catch (const tamp::tools::Interrupted& stop) {
+    return settle(stop.what(), ExitCode{static_cast<int>(ExitCode::signal) + stop.signal});
+  } catch (const tamp::tools::InputError& error) {
+    return settle(error.what(), ExitCode::bad_input);
+  } catch (const tamp::tasks::SimulationError& error) {
+    return settle(error.what(), ExitCode::bad_simulation);
+  } catch (const tamp::runtime::FileError& error) {
+    return settle(error.what(), ExitCode::bad_file);
+  } catch (const tamp::runtime::OtherRankFailed&) {
+    return settle("", ExitCode::fault);
+  } catch (const std::exception& error) {
+    return settle(error.what(), ExitCode::fault);
+  }
 }
 
 }  // namespace
@@ -57,14 +76,9 @@ int run_program(int argc, char** argv)
 int main(int argc, char** argv)
 {
   try {
-    return run_program(argc, argv);
-  } catch (const tamp::tools::InputError& error) {
-    return complain(error.what(), ExitCode::bad_input);
-  } catch (const tamp::tasks::SimulationError& error) {
-    return complain(error.what(), ExitCode::bad_simulation);
-  } catch (const tamp::runtime::FileError& error) {
-    return complain(error.what(), ExitCode::bad_file);
+    const tamp::runtime::MpiSession session(argc, argv);
+    return run_or_settle(argc, argv);
   } catch (const std::exception& error) {
-    return complain(error.what(), ExitCode{1});
+    return settle(error.what(), ExitCode::fault);
   }
 }

@@ -1,23 +1,26 @@
 #include "tools/run.hpp"
 
 #include <fmt/format.h>
-#include <sys/resource.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <chrono>
+#include <csignal>
 #include <vector>
 
+#include "runtime/data/byte_stream.hpp"
 #include "runtime/profile/report.hpp"
+#include "runtime/ranks/together.hpp"
 #include "runtime/storage/field_file.hpp"
 #include "runtime/storage/whole_file.hpp"
 #include "tasks/simulation.hpp"
 #include "tasks/simulation_error.hpp"
+#include "tools/moments.hpp"
 #include "tools/progress.hpp"
 #include "tools/run_folder.hpp"
 #include "tools/run_history.hpp"
+#include "tools/run_summary.hpp"
 #include "tools/scene/compiled_moduli.hpp"
-#include "tools/version.hpp"
+#include "tools/signals.hpp"
 
 namespace tamp::tools
 {
@@ -32,59 +35,54 @@ double seconds_since(Clock::time_point start)
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-std::size_t peak_rss_bytes()
-{
-  rusage usage{};
-  getrusage(RUSAGE_SELF, &usage);
-  return static_cast<std::size_t>(usage.ru_maxrss) * 1024;
-}
-
-/// A moment that comes again and again: at every multiple of an interval of simulated time.
-class Every
-{
- public:
-  explicit Every(double interval) : interval_(interval) {}
-  bool due(double time)
-  {
-    if (time < next_) return false;
-    // The tolerance keeps round-off in the sum of steps from making a moment come twice.
-    while (next_ <= time * (1 + 1e-12)) next_ = interval_ * static_cast<double>(++n_);
-    return true;
-  }
-
- private:
-  double interval_;
-  long n_ = 0;
-  double next_ = 0;
-};
+/// What one rank may ask of all with a step, as bits.
+enum Request : unsigned { write_checkpoint = 1, stop_terminated = 2, stop_interrupted = 4 };
 
 std::shared_ptr<runtime::Executor> executor_of(const RunOptions& options)
 {
-  if (options.shuffle_seed) return runtime::Executor::shuffled(*options.shuffle_seed);
-  return std::make_shared<runtime::Executor>(options.n_threads);
+  if (options.shuffle_seed) return runtime::Executor::shuffled(*options.shuffle_seed, options.executor);
+  return std::make_shared<runtime::Executor>(options.n_threads, options.executor);
 }
+
+/// The last steps whose output was due, of a run that is stopped: what it wrote later it wrote as it left.
+struct OutputSteps {
+  long history = -1;
+  long fields = -1;
+};
 
 class Runner
 {
  public:
   Runner(const CheckedScene& checked, const RunOptions& options)
-      : options_(options),
-        simulation_(tasks::Simulation::make(checked.scene, executor_of(options))),
-        fields_(options.folder),
-        history_(*simulation_, options.folder),
+      : checked_(checked),
+        options_(options),
+        executor_(executor_of(options)),
+        signals_(*executor_),
+        simulation_(tasks::Simulation::make(checked.scene, executor_, options.communicator)),
+        history_(*simulation_),
         fields_moment_(checked.scene.output.fields_interval),
         history_moment_(checked.scene.output.history_interval),
+        checkpoint_clock_(options.checkpoints),
         end_(std::min(checked.scene.time.end, options.until))
   {
-    runtime::write_whole_file(options.folder / "scene.json", checked.resolved.dump(2) + "\n");
+    simulation_->balance_every(options.balance_interval);
+    if (options.restart) {
+      restart();
+    } else {
+      fields_.emplace(options.folder, options.communicator);
+      history_.begin(options.folder);
+    }
+    by_first([&] { runtime::write_whole_file(options_.folder / "scene.json", checked_.resolved.dump(2) + "\n"); });
   }
 
   void run()
   {
-    Progress progress(options_.quiet, end_, options_.max_steps, n_particles());
+    const std::size_t n = n_particles();
+    Progress progress(options_.quiet || !is_first(), end_, options_.max_steps, n);
     write_due();
     while (simulation_->time() < end_ && simulation_->n_steps() < options_.max_steps) {
       const Clock::time_point begin = Clock::now();
+      ask_for_what_is_wanted();
       try {
         simulation_->advance(end_);
       } catch (const tasks::SimulationError& error) {
@@ -93,6 +91,11 @@ class Runner
       }
       step_seconds_.push_back(static_cast<float>(seconds_since(begin)));
       write_due();
+      keep_state();
+      if (stopping_signal() != 0) {
+        progress.finish();
+        leave();
+      }
       progress.show(simulation_->n_steps(), simulation_->time(), simulation_->last_step_size());
     }
     progress.finish();
@@ -101,6 +104,14 @@ class Runner
   }
 
  private:
+  bool is_first() const { return options_.communicator.is_first(); }
+
+  template <class Work>
+  void by_first(const Work& work) const
+  {
+    runtime::by_first(options_.communicator, work);
+  }
+
   std::size_t n_particles() const
   {
     std::size_t n = 0;
@@ -110,29 +121,89 @@ class Runner
     return n;
   }
 
+  void restart()
+  {
+    const auto found = checkpoint_to_restart(options_.folder, checked_, options_.communicator);
+    const std::vector<std::byte> own = simulation_->restart(found);
+    runtime::ByteReader(own).read(output_);
+    restarted_at_ = simulation_->n_steps();
+    history_.go_on(options_.folder, output_.history);
+    fields_.emplace(runtime::FieldFile::continued(options_.folder, output_.fields, options_.communicator));
+    history_moment_.skip_to(simulation_->time());
+    fields_moment_.skip_to(simulation_->time());
+    checkpoint_clock_.skip_to(simulation_->time());
+    if (!is_first()) return;
+    if (!fields_->notice().empty()) fmt::print(stderr, "tamp: {}\n", fields_->notice());
+    if (!options_.quiet) {
+      fmt::print("going on from {}, step {}, time {:.6g} s\n", found.file.string(), restarted_at_, simulation_->time());
+    }
+  }
+
   void write_due()
   {
-    if (history_moment_.due(simulation_->time())) write_history();
-    if (fields_moment_.due(simulation_->time())) write_fields();
+    if (history_moment_.due(simulation_->time())) {
+      write_history();
+      output_.history = simulation_->n_steps();
+    }
+    if (fields_moment_.due(simulation_->time())) {
+      write_fields();
+      output_.fields = simulation_->n_steps();
+    }
   }
 
   void write_history()
   {
     history_.write_row();
-    history_step_ = simulation_->n_steps();
+    written_.history = simulation_->n_steps();
   }
 
   void write_fields()
   {
     const auto particles = simulation_->particle_columns();
-    fields_.write_step(simulation_->n_steps(), simulation_->time(), particles, simulation_->node_columns());
-    fields_step_ = simulation_->n_steps();
+    fields_->write_step(simulation_->n_steps(), simulation_->time(), particles, simulation_->node_columns());
+    written_.fields = simulation_->n_steps();
   }
 
   void write_last_state()
   {
-    if (history_step_ != simulation_->n_steps()) write_history();
-    if (fields_step_ != simulation_->n_steps()) write_fields();
+    if (written_.history != simulation_->n_steps()) write_history();
+    if (written_.fields != simulation_->n_steps()) write_fields();
+  }
+
+  /// What this rank alone knows, all learn with the next step.
+  void ask_for_what_is_wanted()
+  {
+    const int signal = signals_.noted();
+    if (signal == SIGTERM) simulation_->ask(stop_terminated);
+    if (signal == SIGINT) simulation_->ask(stop_interrupted);
+    if (is_first() && checkpoint_clock_.wall_time_over()) simulation_->ask(write_checkpoint);
+  }
+
+  int stopping_signal() const
+  {
+    if ((simulation_->asked() & stop_terminated) != 0) return SIGTERM;
+    return (simulation_->asked() & stop_interrupted) != 0 ? SIGINT : 0;
+  }
+
+  void keep_state()
+  {
+    const bool due = checkpoint_clock_.due(simulation_->n_steps(), simulation_->time());
+    if (!due && simulation_->asked() == 0) return;
+    runtime::ByteWriter own;
+    own.add(output_);
+    simulation_->write_checkpoint(options_.folder / "checkpoints", fingerprint(checked_), own.bytes(),
+                                  options_.checkpoints.keep);
+    checkpoint_clock_.written();
+  }
+
+  /// After a signal; the state has been kept.
+  [[noreturn]] void leave()
+  {
+    write_last_state();
+    const std::string reason = fmt::format("stopped by a signal at step {}, time {:.6g} s; to go on: --restart {}",
+                                           simulation_->n_steps(), simulation_->time(), options_.folder.string());
+    finish("interrupted", reason);
+    throw Interrupted(reason, stopping_signal());
   }
 
   /// Keeps what is good, and passes the error on with where in the run it happened.
@@ -149,89 +220,16 @@ class Runner
   void finish(const std::string& status, const std::string& reason)
   {
     const runtime::Profile profile = simulation_->profile();
-    const nlohmann::json json = to_json(profile, simulation_->ledger());
-    runtime::write_whole_file(options_.folder / "profile.json", json.dump(1) + "\n");
-    runtime::write_whole_file(options_.folder / "trace.json", runtime::trace_to_json(profile).dump() + "\n");
-    const nlohmann::ordered_json told = summary(status, reason);
-    runtime::write_whole_file(options_.folder / "summary.json", told.dump(2) + "\n");
-    if (options_.quiet) return;
-    fmt::print("{}\n", runtime::to_text(json, 10));
-    print_summary(told);
-  }
-
-  nlohmann::ordered_json summary(const std::string& status, const std::string& reason)
-  {
-    const tasks::Scene& scene = simulation_->scene();
-    const double wall = seconds_since(start_);
-    nlohmann::ordered_json particles = {{"total", n_particles()}};
-    for (std::size_t m = 0; m < scene.materials.size(); ++m) {
-      particles[scene.materials[m].name] = simulation_->n_particles(static_cast<int>(m));
-    }
-    particles["lost"] = simulation_->lost().count;
-    particles["lost_mass_kg"] = simulation_->lost().mass;
-    const double step_seconds = median_step_seconds();
-    const std::size_t rss = peak_rss_bytes();
-    const EnergyBalance& e = history_.energies();
-    const components::UpdateCounts& updates = simulation_->totals().updates;
-    return {{"status", status},
-            {"reason", reason},
-            {"scene", scene.name},
-            {"version", version()},
-            {"ranks", 1},
-            {"threads", simulation_->n_threads()},
-            {"patches", scene.n_patches[0] * scene.n_patches[1] * scene.n_patches[2]},
-            {"particles", particles},
-            {"steps", simulation_->n_steps()},
-            {"simulated_time_s", simulation_->time()},
-            {"wall_s", wall},
-            {"wall_per_step_s", step_seconds},
-            {"particle_updates_per_s", step_seconds > 0 ? static_cast<double>(n_particles()) / step_seconds : 0},
-            {"peak_rss_bytes", {{"sum", rss}, {"max", rss}}},
-            {"forecast_peak_bytes", simulation_->forecast_bytes()},
-            {"ledger_peak_bytes", simulation_->ledger().total().peak()},
-            {"energy_error", history_.energy_error()},
-            {"momentum_error", history_.momentum_error()},
-            {"energies_J",
-             {{"kinetic", e.kinetic},
-              {"elastic", e.elastic},
-              {"plastic", e.plastic},
-              {"viscous", e.viscous},
-              {"contact", e.contact},
-              {"external", e.external},
-              {"total", e.total}}},
-            {"state_digest", simulation_->digest()},
-            {"bodies", bodies()},
-            {"materials", materials()},
-            {"monitors",
-             {{"lost_particles", simulation_->lost().count},
-              {"substeps", updates.substeps},
-              {"split_updates", updates.split_updates},
-              {"limited_substeps", updates.limited_substeps},
-              {"modulus_evaluations", updates.modulus_evaluations},
-              {"modulus_extrapolations", updates.extrapolated},
-              {"failed_updates", updates.failures}}}};
-  }
-
-  nlohmann::ordered_json bodies() const
-  {
-    nlohmann::ordered_json all = nlohmann::ordered_json::object();
-    for (const std::size_t b : history_.tracked_bodies()) {
-      const tasks::BodySums& sums = history_.report().bodies[b];
-      const Eigen::Vector3d v = sums.momentum / sums.mass;
-      all[simulation_->scene().bodies[b].name] = {
-          {"mass_kg", sums.mass}, {"depth_m", history_.depth(b)}, {"velocity_m_per_s", {v[0], v[1], v[2]}}};
-    }
-    return all;
-  }
-
-  nlohmann::ordered_json materials() const
-  {
-    nlohmann::ordered_json all = nlohmann::ordered_json::object();
-    for (std::size_t m = 0; m < simulation_->scene().materials.size(); ++m) {
-      const tasks::MaterialPeaks& peaks = history_.report().materials[m];
-      all[simulation_->scene().materials[m].name] = {{"p_max_Pa", peaks.pressure}, {"q_max_Pa", peaks.q}};
-    }
-    return all;
+    const nlohmann::json json = to_json(profile, simulation_->ledger(), options_.communicator);
+    const nlohmann::ordered_json told = run_summary(
+        *simulation_, history_, {status, reason, seconds_since(start_), median_step_seconds(), restarted_at_});
+    by_first([&] {
+      runtime::write_whole_file(options_.folder / "profile.json", json.dump(1) + "\n");
+      runtime::write_whole_file(options_.folder / "trace.json", runtime::trace_to_json(profile).dump() + "\n");
+      runtime::write_whole_file(options_.folder / "summary.json", told.dump(2) + "\n");
+    });
+    if (options_.quiet || !is_first()) return;
+    fmt::print("{}\n{}  written to {}\n", runtime::to_text(json, 10), told_in_short(told), options_.folder.string());
   }
 
   double median_step_seconds()
@@ -242,39 +240,21 @@ class Runner
     return *middle;
   }
 
-  void print_summary(const nlohmann::ordered_json& told) const
-  {
-    fmt::print("{}: {} after {} steps, {:.6g} s simulated in {:.1f} s\n", told["scene"].get<std::string>(),
-               told["status"].get<std::string>(), simulation_->n_steps(), simulation_->time(),
-               told["wall_s"].get<double>());
-    for (const std::size_t b : history_.tracked_bodies()) {
-      const tasks::BodySums& sums = history_.report().bodies[b];
-      fmt::print("  {}: depth {:.4f} m, speed {:.3f} m/s\n", simulation_->scene().bodies[b].name, history_.depth(b),
-                 (sums.momentum / sums.mass).norm());
-    }
-    fmt::print("  energy error {:.3g}, momentum error {:.3g}, {} particles lost, state digest {}\n",
-               history_.energy_error(), history_.momentum_error(), simulation_->lost().count,
-               told["state_digest"].get<std::string>());
-    const components::UpdateCounts& updates = simulation_->totals().updates;
-    if (updates.extrapolated + updates.limited_substeps + updates.failures > 0) {
-      fmt::print(
-          "  of {} sand substeps {} kept an error beyond the tolerance; {} updates ended outside the modulus' "
-          "range, {} failed\n",
-          updates.substeps, updates.limited_substeps, updates.extrapolated, updates.failures);
-    }
-    fmt::print("  written to {}\n", options_.folder.string());
-  }
-
+  const CheckedScene& checked_;
   const RunOptions& options_;
   Clock::time_point start_ = Clock::now();
+  std::shared_ptr<runtime::Executor> executor_;
+  SignalWatch signals_;
   std::unique_ptr<tasks::Simulation> simulation_;
-  runtime::FieldFile fields_;
   RunHistory history_;
+  std::optional<runtime::FieldFile> fields_;
   Every fields_moment_;
   Every history_moment_;
+  CheckpointClock checkpoint_clock_;
   double end_;
-  long history_step_ = -1;
-  long fields_step_ = -1;
+  OutputSteps output_;
+  OutputSteps written_;
+  long restarted_at_ = -1;
   std::vector<float> step_seconds_;
 };
 
@@ -282,8 +262,10 @@ class Runner
 
 void run(const CheckedScene& scene, const RunOptions& options)
 {
-  prepare_run_folder(options.folder, options.force);
-  if (!options.quiet) {
+  if (!options.restart) {
+    runtime::by_first(options.communicator, [&] { prepare_run_folder(options.folder, options.force); });
+  }
+  if (!options.quiet && options.communicator.is_first()) {
     for (const std::string& line : compiled_moduli(scene)) fmt::print("{}\n", line);
   }
   Runner(scene, options).run();

@@ -6,6 +6,9 @@
 #include <optional>
 #include <string>
 
+#include "runtime/execute/executor.hpp"
+#include "runtime/ranks/communicator.hpp"
+#include "tools/checkpointing.hpp"
 #include "tools/scene/read_scene.hpp"
 
 namespace tamp::tools
@@ -15,19 +18,28 @@ namespace tamp::tools
 struct RunOptions {
   std::filesystem::path folder;
   bool force = false;
+  /// Go on from the newest checkpoint in the folder.
+  bool restart = false;
+  runtime::Communicator communicator{};
+  /// On each rank.
   int n_threads = 1;
+  runtime::ExecutorOptions executor{};
   /// Run tasks on one thread in random orders that the graph allows, see runtime::Executor::shuffled.
   std::optional<std::uint64_t> shuffle_seed{};
   /// Stop at this simulated time [s] if the scene ends later.
   double until = std::numeric_limits<double>::infinity();
-  /// Stop after so many steps.
+  /// Stop after so many steps, counted from the scene's start.
   long max_steps = std::numeric_limits<long>::max();
+  CheckpointPolicy checkpoints{};
+  /// Steps between two looks at the load of the ranks; 0: patches stay where they are.
+  long balance_interval = 200;
   /// No progress, no table at the end.
   bool quiet = false;
 };
 
-/// Runs a scene and fills its folder. A simulation that goes wrong leaves its last good state there, and its
-/// SimulationError passes on with the step and time. Throws FileError and InputError too.
+/// Runs a scene over the ranks of the communicator and fills its folder. A simulation that goes wrong leaves its last
+/// good state there, and its SimulationError passes on with the step and time; a run that SIGTERM or SIGINT stops
+/// leaves a checkpoint, and throws Interrupted. Throws FileError and InputError too. Collective.
 void run(const CheckedScene& scene, const RunOptions& options);
 
 }  // namespace tamp::tools

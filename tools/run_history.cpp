@@ -5,6 +5,8 @@
 #include <numbers>
 #include <string>
 
+#include "runtime/ranks/together.hpp"
+
 namespace tamp::tools
 {
 
@@ -34,13 +36,23 @@ bool is_sand(const tasks::SceneMaterial& material)
 
 }  // namespace
 
-RunHistory::RunHistory(tasks::Simulation& simulation, const std::filesystem::path& folder)
+RunHistory::RunHistory(tasks::Simulation& simulation)
     : simulation_(simulation),
       tracked_(moving_bodies(simulation.scene())),
       initial_(simulation.report()),
-      report_(initial_),
-      csv_(folder / "history.csv", columns())
+      report_(initial_)
 {
+}
+
+void RunHistory::begin(const std::filesystem::path& folder)
+{
+  runtime::by_first(simulation_.communicator(), [&] { csv_.emplace(folder / "history.csv", columns()); });
+}
+
+void RunHistory::go_on(const std::filesystem::path& folder, long kept_until)
+{
+  runtime::by_first(simulation_.communicator(),
+                    [&] { csv_ = runtime::CsvWriter::continued(folder / "history.csv", columns(), kept_until); });
 }
 
 std::vector<std::string> RunHistory::columns() const
@@ -69,6 +81,7 @@ std::vector<std::string> RunHistory::columns() const
 void RunHistory::measure()
 {
   report_ = simulation_.report();
+  lost_ = simulation_.lost();
   const tasks::StepTotals& totals = simulation_.totals();
   EnergyBalance& e = energies_;
   e = {report_.kinetic,
@@ -89,7 +102,7 @@ void RunHistory::measure()
     momentum_scale += std::max(initial_.bodies[b].momentum.norm(), report_.bodies[b].momentum.norm());
   }
   const Eigen::Vector3d given(simulation_.impulse().value.data());
-  const Eigen::Vector3d change = report_.momentum() + simulation_.lost().momentum - initial_.momentum();
+  const Eigen::Vector3d change = report_.momentum() + lost_.momentum - initial_.momentum();
   momentum_error_ = momentum_scale > 0 ? (change - given).norm() / momentum_scale : 0;
 }
 
@@ -134,8 +147,8 @@ void RunHistory::write_row()
   for (int k = 0; k < simulation_.scene().grid.dimension; ++k) row.push_back(momentum[k]);
   for (const std::size_t b : tracked_) add_body(b, row);
   for (std::size_t m = 0; m < simulation_.scene().materials.size(); ++m) add_material(m, row);
-  row.push_back(static_cast<double>(simulation_.lost().count));
-  csv_.write_row(row);
+  row.push_back(static_cast<double>(lost_.count));
+  runtime::by_first(simulation_.communicator(), [&] { csv_->write_row(row); });
 }
 
 }  // namespace tamp::tools

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <vector>
 
 #include "runtime/storage/csv_writer.hpp"
@@ -25,9 +26,13 @@ struct EnergyBalance {
 class RunHistory
 {
  public:
-  /// To be made before the first step; starts `history.csv` in `folder`.
-  RunHistory(tasks::Simulation& simulation, const std::filesystem::path& folder);
+  /// To be made of a simulation at its start, even if that is restarted then. Here and below, calls are collective.
+  explicit RunHistory(tasks::Simulation& simulation);
 
+  /// Begins `history.csv` in a folder anew; the first rank writes it.
+  void begin(const std::filesystem::path& folder);
+  /// Goes on with it after the row of step `kept_until`: later ones are taken out.
+  void go_on(const std::filesystem::path& folder, long kept_until);
   /// Writes one row of the state now.
   void write_row();
 
@@ -53,10 +58,12 @@ class RunHistory
   std::vector<std::size_t> tracked_;
   tasks::ParticleReport initial_;
   tasks::ParticleReport report_;
+  tasks::LostParticles lost_;
   EnergyBalance energies_{};
   double energy_error_ = 0;
   double momentum_error_ = 0;
-  runtime::CsvWriter csv_;
+  /// On the first rank only.
+  std::optional<runtime::CsvWriter> csv_;
 };
 
 }  // namespace tamp::tools

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <cstdio>
 #include <filesystem>
 #include <memory>
@@ -18,6 +19,11 @@ class CsvWriter
   /// Starts the file anew with a first row that names the columns, such as `time[s]`. Throws FileError.
   CsvWriter(const std::filesystem::path& file, const std::vector<std::string>& columns);
 
+  /// Goes on with the table of a run that is resumed after `last_step`: keeps the rows whose first column, the step, is
+  /// no later. Starts it anew where there is none. Throws FileError, for a table of other columns too.
+  static CsvWriter continued(const std::filesystem::path& file, const std::vector<std::string>& columns,
+                             std::int64_t last_step);
+
   /// As many values as there are columns. Throws FileError, for a full disk too.
   void write_row(std::span<const double> values);
 
@@ -28,6 +34,7 @@ class CsvWriter
     void operator()(std::FILE* stream) const { std::fclose(stream); }
   };
 
+  CsvWriter(const std::filesystem::path& file, std::size_t n_columns, const char* mode);
   void write_line(const std::string& line);
 
   std::filesystem::path file_;

@@ -42,15 +42,23 @@ std::size_t n_in_file(ColumnKind kind)
   return 0;
 }
 
+void check(const Column& column, std::size_t n_items)
+{
+  const bool ids = std::holds_alternative<std::span<const std::int64_t>>(column.values);
+  const std::size_t n_values = std::visit([](const auto& values) { return values.size(); }, column.values);
+  const std::size_t n = n_items == 0 ? 0 : n_values / n_items;
+  const bool right =
+      n * n_items == n_values && (n_items == 0 || fits(column.kind, n)) && (!ids || column.kind == ColumnKind::scalar);
+  if (right) return;
+  throw std::invalid_argument(
+      fmt::format("column '{}': {} {} for {} items", column.name, n_values, ids ? "ids" : "values", n_items));
+}
+
 std::vector<double> as_in_file(const Column& column, std::size_t n_items)
 {
-  const auto& values = std::get<std::span<const double>>(column.values);
   if (n_items == 0) return {};
+  const auto& values = std::get<std::span<const double>>(column.values);
   const std::size_t n = values.size() / n_items;
-  if (n * n_items != values.size() || !fits(column.kind, n)) {
-    throw std::invalid_argument(
-        fmt::format("column '{}': {} values for {} items", column.name, values.size(), n_items));
-  }
   const std::size_t n_file = n_in_file(column.kind);
   std::vector<double> out(n_items * n_file, 0.0);
   for (std::size_t i = 0; i < n_items; ++i) {

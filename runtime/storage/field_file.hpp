@@ -4,7 +4,9 @@
 #include <filesystem>
 #include <optional>
 #include <span>
+#include <string>
 
+#include "runtime/ranks/communicator.hpp"
 #include "runtime/storage/field_columns.hpp"
 #include "runtime/storage/xdmf.hpp"
 
@@ -15,26 +17,47 @@ namespace tamp::runtime
 ///
 ///     /step_00000012                      attribute "time" [s]
 ///     /step_00000012/particles/NAME/COLUMN
+///     /step_00000012/nodes                attributes "origin" and "spacing" [m]
 ///     /step_00000012/nodes/COLUMN         z, y, x in the order of the dataset's dimensions
 ///
 /// Scalars are datasets of n, vectors of n x 3, symmetric tensors of n x 6 (xx, xy, xz, yy, yz, zz); ids are 64-bit
 /// whole numbers. Between two calls both files are closed and complete, so a run that is interrupted leaves what it has
 /// written so far readable, and a reader may look while the run goes on.
+///
+/// All ranks write the one file together, and it holds the same however many they are: making one and writing a step
+/// are collective, and what fails on one rank throws on all.
 class FieldFile
 {
  public:
   /// Starts both files anew in a folder that exists. Throws FileError.
-  explicit FieldFile(const std::filesystem::path& folder);
+  explicit FieldFile(const std::filesystem::path& folder, const Communicator& communicator = {});
+
+  /// Goes on with the files of a run that is resumed after `last_step`, without what they have of later steps. A file
+  /// that cannot be read is set aside as `fields.h5.damaged`, and `notice` says so. Throws FileError.
+  static FieldFile continued(const std::filesystem::path& folder, std::int64_t last_step,
+                             const Communicator& communicator = {});
 
   /// Adds one output time; steps must not repeat. Throws FileError, for a full disk too, and std::invalid_argument for
   /// columns whose lengths do not agree.
   void write_step(std::int64_t step, double time, std::span<const ParticleBlock> particles,
                   const std::optional<NodeBlock>& nodes = std::nullopt);
 
+  /// What the user should know of the file that was to be continued; nothing if all was well. On the first rank.
+  const std::string& notice() const { return notice_; }
+
  private:
+  struct Unopened {
+  };
+  FieldFile(Unopened, const std::filesystem::path& folder, const Communicator& communicator);
+  void begin() const;
+  void begin_or_continue(std::int64_t last_step);
+
   std::filesystem::path hdf5_file_;
   std::filesystem::path xdmf_file_;
+  Communicator communicator_;
+  /// What is in the file; on the first rank.
   std::vector<XdmfStep> steps_;
+  std::string notice_;
 };
 
 }  // namespace tamp::runtime

@@ -2,9 +2,14 @@
 
 #include <hdf5.h>
 
+#include <cstdint>
 #include <filesystem>
+#include <span>
 #include <string>
 #include <utility>
+#include <vector>
+
+#include "runtime/ranks/communicator.hpp"
 
 /// HDF5's C library behind handles that close themselves and calls that throw.
 namespace tamp::runtime::hdf5
@@ -39,6 +44,7 @@ using File = Handle<H5Fclose>;
 using Group = Handle<H5Gclose>;
 using Dataset = Handle<H5Dclose>;
 using Space = Handle<H5Sclose>;
+using Type = Handle<H5Tclose>;
 using Attribute = Handle<H5Aclose>;
 using Properties = Handle<H5Pclose>;
 
@@ -59,5 +65,24 @@ class Quiet
 /// Throws FileError with HDF5's own reason if `result` is negative; otherwise gives it back. `doing` reads like
 /// "cannot write step 12".
 hid_t checked(hid_t result, const std::filesystem::path& file, const std::string& doing);
+
+/// How a file is opened: by all ranks together, or by this process where it is alone. Without locks, because a reader
+/// such as ParaView that has the file open would otherwise stop the run at its next output.
+Properties file_access(const Communicator& communicator, const std::filesystem::path& file);
+
+/// How values are written: by all ranks in one call where there are several.
+Properties collective_transfer(const Communicator& communicator, const std::filesystem::path& file);
+
+/// A box of a dataset's elements: the first along each dimension, and how many.
+struct Slab {
+  std::vector<hsize_t> first;
+  std::vector<hsize_t> n;
+};
+
+/// Selects the elements of all slabs together; none where there is no slab.
+herr_t select(hid_t space, std::span<const Slab> slabs);
+
+/// How much of a file that is closed is in use: it may be longer by room that was reserved.
+std::uintmax_t used_size(const std::filesystem::path& file);
 
 }  // namespace tamp::runtime::hdf5

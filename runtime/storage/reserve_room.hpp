@@ -11,4 +11,7 @@ namespace tamp::runtime
 /// FileError, and leaves the file as it was, if there is no such room.
 void reserve_room(const std::filesystem::path& file, std::int64_t n_bytes);
 
+/// Cuts a file to the `size` that is in use of it, unless it is shorter. Throws FileError.
+void give_back_room(const std::filesystem::path& file, std::uintmax_t size);
+
 }  // namespace tamp::runtime

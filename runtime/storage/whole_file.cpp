@@ -1,5 +1,8 @@
 #include "runtime/storage/whole_file.hpp"
 
+#include <fcntl.h>
+#include <unistd.h>
+
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
@@ -8,6 +11,21 @@
 
 namespace tamp::runtime
 {
+
+namespace
+{
+
+/// Waits until the disk has a file or the entries of a folder.
+void settle(const std::filesystem::path& file)
+{
+  const int descriptor = open(file.c_str(), O_RDONLY | O_CLOEXEC);
+  const bool settled = descriptor >= 0 && fsync(descriptor) == 0;
+  const int cause = errno;
+  if (descriptor >= 0) close(descriptor);
+  if (!settled) throw FileError(file.string(), std::strerror(cause));
+}
+
+}  // namespace
 
 void write_whole_file(const std::filesystem::path& file, const std::string& content)
 {
@@ -24,6 +42,13 @@ void write_whole_file(const std::filesystem::path& file, const std::string& cont
   if (cause == 0) return;
   std::remove(part.c_str());
   throw FileError(file.string(), std::strerror(cause));
+}
+
+void put_in_place(const std::filesystem::path& part, const std::filesystem::path& file)
+{
+  settle(part);
+  if (std::rename(part.c_str(), file.c_str()) != 0) throw FileError(file.string(), std::strerror(errno));
+  settle(file.parent_path());
 }
 
 }  // namespace tamp::runtime

@@ -10,4 +10,8 @@ namespace tamp::runtime
 /// program ends. Throws FileError; the old file is then left as it was.
 void write_whole_file(const std::filesystem::path& file, const std::string& content);
 
+/// Gives a finished file the name under which it is looked for, once it is on the disk and not only on its way there:
+/// whoever finds it finds all of it, even after the power has failed. Throws FileError.
+void put_in_place(const std::filesystem::path& part, const std::filesystem::path& file);
+
 }  // namespace tamp::runtime

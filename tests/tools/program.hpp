@@ -16,14 +16,37 @@ struct Outcome {
   std::string err;
 };
 
-/// What the program answers to a command line.
-inline Outcome tamp_with(const std::string& arguments)
+/// What a command line answers.
+inline Outcome outcome_of(const std::string& command)
 {
   const TemporaryFolder folder;
   const std::string out = (folder.path() / "out").string(), err = (folder.path() / "err").string();
-  const std::string line = std::string(TAMP_PROGRAM) + " " + arguments + " >" + out + " 2>" + err;
-  const int status = std::system(line.c_str());
+  const int status = std::system((command + " >" + out + " 2>" + err).c_str());
   return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, read_text(out), read_text(err)};
+}
+
+/// What the program answers to a command line.
+inline Outcome tamp_with(const std::string& arguments)
+{
+  return outcome_of(std::string(TAMP_PROGRAM) + " " + arguments);
+}
+
+/// Tells Open MPI to take more ranks than cores, to leave them unbound, and to run for root, as in a container.
+inline void allow_ranks_anywhere()
+{
+  setenv("OMPI_MCA_rmaps_base_oversubscribe", "1", 1);
+  setenv("OMPI_MCA_hwloc_base_binding_policy", "none", 1);
+  setenv("OMPI_ALLOW_RUN_AS_ROOT", "1", 1);
+  setenv("OMPI_ALLOW_RUN_AS_ROOT_CONFIRM", "1", 1);
+}
+
+/// The same on several ranks; one is no launcher's.
+inline Outcome tamp_on_ranks(int n_ranks, const std::string& arguments)
+{
+  allow_ranks_anywhere();
+  if (n_ranks == 1) return tamp_with(arguments);
+  return outcome_of(std::string(TAMP_MPIEXEC) + " -n " + std::to_string(n_ranks) + " " + TAMP_PROGRAM + " " +
+                    arguments);
 }
 
 }  // namespace tamp::test

@@ -82,7 +82,7 @@ CLI::App* add_compare_command(CLI::App& app)
 {
   CLI::App* command = app.add_subcommand("compare", "Run a scene with several models of the sand, and compare them");
   const auto options = std::make_shared<Options>();
-  options->comparison.n_threads = usable_cores();
+  options->comparison.n_threads = usable_cores().of_machine;
   command->add_option("SCENE", options->scene, "the scene's JSON file")->required();
   command
       ->add_option("--models", options->models,

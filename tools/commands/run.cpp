@@ -1,5 +1,8 @@
 #include "tools/run.hpp"
 
+#include <fmt/core.h>
+
+#include <cstdio>
 #include <memory>
 
 #include "tools/commands/commands.hpp"
@@ -16,6 +19,7 @@ struct Options {
   std::string scene;
   std::vector<std::string> assignments;
   std::string out;
+  std::string restart;
   std::string schedule = "parallel";
   RunOptions run;
 };
@@ -37,18 +41,46 @@ void apply_schedule(const std::string& schedule, RunOptions& run)
   if (schedule != "serial") run.shuffle_seed = std::stoull(schedule.substr(schedule.find(':') + 1));
 }
 
+void add_checkpoint_options(CLI::App& command, CheckpointPolicy& policy)
+{
+  command.add_option("--checkpoint-steps", policy.steps, "keep the state every so many steps")
+      ->check(CLI::PositiveNumber)
+      ->default_str("never");
+  command.add_option("--checkpoint-time", policy.simulated, "and every so many seconds of simulated time")
+      ->check(CLI::PositiveNumber)
+      ->default_str("never");
+  command.add_option("--checkpoint-wall", policy.wall, "and every so many seconds of the clock")
+      ->check(CLI::PositiveNumber);
+  command.add_option("--checkpoint-keep", policy.keep, "how many checkpoints stay, the newest")
+      ->check(CLI::Range(1, 1000));
+}
+
+/// Ranks that share cores are slow, and slower still if those who wait do not let go of them.
+void look_at_cores(RunOptions& run)
+{
+  const UsableCores cores = usable_cores(run.communicator);
+  const int wanted = cores.ranks_on_machine * run.n_threads;
+  run.executor.oversubscribed = wanted > cores.of_machine;
+  if (wanted <= cores.of_machine || run.quiet || !run.communicator.is_first()) return;
+  fmt::print(stderr, "tamp: {} ranks with {} threads each on {} cores: expect a slow run{}\n", cores.ranks_on_machine,
+             run.n_threads, cores.of_machine,
+             run.communicator.size() > 1 ? "; mpirun binds ranks to cores unless told --bind-to none" : "");
+}
+
 }  // namespace
 
 CLI::App* add_run_command(CLI::App& app)
 {
   CLI::App* command = app.add_subcommand("run", "Run a scene and write its folder");
   const auto options = std::make_shared<Options>();
-  options->run.n_threads = usable_cores();
+  options->run.communicator = runtime::Communicator::world();
+  options->run.n_threads = usable_cores(options->run.communicator).of_rank;
   command->add_option("SCENE", options->scene, "the scene's JSON file")->required();
-  command->add_option("--out", options->out, "the run's folder; by default runs/ and the scene's name");
+  CLI::Option* out =
+      command->add_option("--out", options->out, "the run's folder; by default runs/ and the scene's name");
   command->add_option("--set", options->assignments, "POINTER=VALUE: replace a value of the scene, may be repeated")
       ->allow_extra_args(false);
-  command->add_option("--threads", options->run.n_threads, "threads; by default the cores that may be used")
+  command->add_option("--threads", options->run.n_threads, "threads of each rank; by default its share of the cores")
       ->check(CLI::Range(1, 1024));
   command
       ->add_option("--schedule", options->schedule,
@@ -60,12 +92,32 @@ CLI::App* add_run_command(CLI::App& app)
   command->add_option("--steps", options->run.max_steps, "stop after so many steps")
       ->check(CLI::PositiveNumber)
       ->default_str("no limit");
-  command->add_flag("--force", options->run.force, "replace what an earlier run left in the folder");
+  CLI::Option* force =
+      command->add_flag("--force", options->run.force, "replace what an earlier run left in the folder");
+  command->add_option("--restart", options->restart, "go on in this run's folder, from its newest checkpoint")
+      ->excludes(out)
+      ->excludes(force);
+  add_checkpoint_options(*command, options->run.checkpoints);
+  command
+      ->add_option("--balance", options->run.balance_interval,
+                   "steps between two looks at the load of the ranks; 0: patches stay where they are")
+      ->check(CLI::NonNegativeNumber);
+  command
+      ->add_option("--stall-limit", options->run.executor.stall.limit,
+                   "seconds in which nothing completes, after which the run tells what it waits for, and ends")
+      ->check(CLI::PositiveNumber);
   command->add_flag("--quiet", options->run.quiet, "print no progress and no table");
   command->callback([options] {
     const CheckedScene scene = read_scene(options->scene, options->assignments);
     apply_schedule(options->schedule, options->run);
-    options->run.folder = options->out.empty() ? "runs/" + scene.scene.name : options->out;
+    options->run.restart = !options->restart.empty();
+    options->run.folder = options->run.restart   ? options->restart
+                          : options->out.empty() ? "runs/" + scene.scene.name
+                                                 : options->out;
+    if (options->run.communicator.size() > 1) {
+      options->run.executor.stall.prefix = fmt::format("rank {}: ", options->run.communicator.rank());
+    }
+    look_at_cores(options->run);
     run(scene, options->run);
   });
   return command;

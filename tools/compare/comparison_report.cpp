@@ -97,7 +97,7 @@ Json to_json(const Comparison& comparison)
                {"title", comparison.title},
                {"version", version()},
                {"program", version_text()},
-               {"cores", usable_cores()},
+               {"cores", usable_cores().of_machine},
                {"threads", comparison.n_threads},
                {"particles", comparison.n_particles},
                {"bodies", comparison.bodies},

@@ -35,9 +35,10 @@ ModelRun::ModelRun(const ModelScene& scene, const Extent& extent, const std::fil
                    std::shared_ptr<runtime::Executor> executor)
     : extent_(extent),
       simulation_(tasks::Simulation::make(scene.scene.scene, std::move(executor))),
-      history_(*simulation_, folder),
+      history_(*simulation_),
       sands_(sands_of(simulation_->scene()))
 {
+  history_.begin(folder);
   runtime::write_whole_file(folder / "scene.json", scene.scene.resolved.dump(2) + "\n");
   result_.name = scene.name;
   add_sample();

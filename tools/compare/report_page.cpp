@@ -158,8 +158,8 @@ std::vector<Plot> plots(const Comparison& comparison)
 std::string lead(const Comparison& comparison)
 {
   return fmt::format("Scene {}: {} particles, {} thread{}, {} core{}.", escaped(comparison.scene),
-                     comparison.n_particles, comparison.n_threads, comparison.n_threads == 1 ? "" : "s", usable_cores(),
-                     usable_cores() == 1 ? "" : "s");
+                     comparison.n_particles, comparison.n_threads, comparison.n_threads == 1 ? "" : "s",
+                     usable_cores().of_machine, usable_cores().of_machine == 1 ? "" : "s");
 }
 
 std::string notes(const Comparison& comparison)

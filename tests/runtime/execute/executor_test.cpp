@@ -3,9 +3,13 @@
 #include <algorithm>
 #include <atomic>
 #include <catch2/catch.hpp>
+#include <chrono>
 #include <numeric>
+#include <random>
 #include <set>
+#include <thread>
 
+#include "tests/runtime/execute/toy_work.hpp"
 #include "tests/runtime/heat.hpp"
 
 namespace tamp::runtime
@@ -131,6 +135,59 @@ TEST_CASE("a task that throws stops the step with its name and patch", "[executo
   Row row({fail}, {{}, {&first}}, 5, n_threads);
 
   CHECK_THROWS_WITH(row.executor.run(row.schedule, {}), "task 'fail' on patch 2: no luck");
+}
+
+TEST_CASE("of short and long tasks in disorder, dealt out unevenly, each runs once a step and none early", "[executor]")
+{
+  const int n_threads = GENERATE(2, 3, 4);
+  std::mt19937 random(5);
+  test::ToyWork work;
+  work.messages = false;
+  constexpr int n = 200;
+  std::vector<std::atomic<long>> n_run(n);
+  std::atomic<int> n_early{0};
+  for (int i = 0; i < n; ++i) {
+    std::vector<int> predecessors;
+    for (int k = 0; k < 3 && i > 0; ++k) {
+      predecessors.push_back(std::max(0, i - 1 - static_cast<int>(random() % 20)));
+    }
+    const int home = random() % 4 == 0 ? static_cast<int>(random() % 4) : 0;
+    const bool is_long = random() % 10 == 0;
+    work.add(home, predecessors, [&, i, predecessors, is_long](const Step& step) {
+      for (const int p : predecessors) n_early += n_run[static_cast<std::size_t>(p)] != step.index;
+      if (is_long) std::this_thread::yield();
+      ++n_run[static_cast<std::size_t>(i)];
+    });
+  }
+  Executor executor(n_threads);
+  Schedule schedule(work, n_threads);
+
+  for (long step = 1; step <= 300; ++step) executor.run(schedule, {step, 0, 1, 1});
+
+  CHECK(n_early == 0);
+  CHECK(std::all_of(n_run.begin(), n_run.end(), [](const auto& count) { return count == 300; }));
+}
+
+TEST_CASE("an idle worker takes over what another has no time for", "[executor]")
+{
+  // Both belong to worker 0, and the first to run goes on until the second has begun.
+  test::ToyWork work;
+  work.messages = false;
+  std::atomic<int> n_begun{0};
+  const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(20);
+  const auto body = [&](const Step&) {
+    ++n_begun;
+    while (n_begun < 2 && std::chrono::steady_clock::now() < deadline) std::this_thread::yield();
+  };
+  work.add(0, {}, body);
+  work.add(0, {}, body);
+  Executor executor(2);
+  Schedule schedule(work, 2);
+
+  executor.run(schedule, {});
+
+  CHECK(std::chrono::steady_clock::now() < deadline);
+  CHECK(schedule.records()[0].worker != schedule.records()[1].worker);
 }
 
 TEST_CASE("an executor serves several schedules in turn", "[executor]")

@@ -1,58 +1,23 @@
 #include <hdf5.h>
-#include <sys/resource.h>
 
 #include <array>
 #include <catch2/catch.hpp>
-#include <csignal>
-#include <cstdlib>
 #include <filesystem>
-#include <fstream>
-#include <sstream>
 
 #include "runtime/storage/field_file.hpp"
 #include "runtime/storage/file_error.hpp"
+#include "tests/runtime/storage/file_size_limit.hpp"
+#include "tests/runtime/storage/stored_data.hpp"
+#include "tests/runtime/storage/temporary_folder.hpp"
+#include "tests/runtime/storage/two_particles.hpp"
 
 using namespace tamp::runtime;
+using namespace tamp::test;
 
 namespace
 {
 
 namespace fs = std::filesystem;
-
-/// A folder of its own for one test, removed after it.
-struct TemporaryFolder {
-  TemporaryFolder()
-  {
-    std::string name = (fs::temp_directory_path() / "tamp_storage_XXXXXX").string();
-    path = mkdtemp(name.data());
-  }
-  ~TemporaryFolder() { fs::remove_all(path); }
-  TemporaryFolder(const TemporaryFolder&) = delete;
-  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-  fs::path path;
-};
-
-struct Dataset {
-  std::vector<hsize_t> dimensions;
-  std::vector<double> values;
-};
-
-/// Read by another route than it was written: through HDF5's own calls, converted to doubles.
-Dataset read_dataset(const fs::path& file, const std::string& name)
-{
-  Dataset read;
-  const hid_t f = H5Fopen(file.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
-  const hid_t d = H5Dopen2(f, name.c_str(), H5P_DEFAULT);
-  const hid_t space = H5Dget_space(d);
-  read.dimensions.resize(static_cast<std::size_t>(H5Sget_simple_extent_ndims(space)));
-  H5Sget_simple_extent_dims(space, read.dimensions.data(), nullptr);
-  read.values.resize(static_cast<std::size_t>(H5Sget_simple_extent_npoints(space)));
-  H5Dread(d, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, read.values.data());
-  H5Sclose(space);
-  H5Dclose(d);
-  H5Fclose(f);
-  return read;
-}
 
 double read_time(const fs::path& file, const std::string& group)
 {
@@ -64,38 +29,6 @@ double read_time(const fs::path& file, const std::string& group)
   H5Fclose(f);
   return time;
 }
-
-std::string read_text(const fs::path& file)
-{
-  std::ostringstream text;
-  text << std::ifstream(file).rdbuf();
-  return text.str();
-}
-
-std::size_t count(const std::string& text, const std::string& part)
-{
-  std::size_t n = 0;
-  for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) ++n;
-  return n;
-}
-
-/// Two particles of a plane scene.
-struct TwoParticles {
-  std::vector<std::int64_t> id{7, 9'007'199'254'740'993};  // the second is no double
-  std::vector<double> mass{0.5, 0.25};
-  std::vector<double> position{1, 2, 3, 4};
-  std::vector<double> stress{11, 22, 33, 12, -11, -22, -33, -12};
-
-  ParticleBlock block(const std::string& name) const
-  {
-    return {name,
-            2,
-            {{"id", ColumnKind::scalar, std::span(id)},
-             {"mass", ColumnKind::scalar, std::span(mass)},
-             {"position", ColumnKind::vector, std::span(position)},
-             {"stress", ColumnKind::tensor, std::span(stress)}}};
-  }
-};
 
 }  // namespace
 
@@ -244,20 +177,16 @@ TEST_CASE("a file that may not grow ends a step with an error that says so, and 
   file.write_step(1, 0.1, std::vector{particles.block("sand")});
   const std::vector<double> many(3 * 1'000'000, 1.0);
   const ParticleBlock large{"sand", 1'000'000, {{"position", ColumnKind::vector, std::span(many)}}};
-  rlimit before{};
-  getrlimit(RLIMIT_FSIZE, &before);
-  const auto handler = std::signal(SIGXFSZ, SIG_IGN);
-  const rlimit small{1 << 20, before.rlim_max};
 
   std::string message;
-  setrlimit(RLIMIT_FSIZE, &small);
-  try {
-    file.write_step(2, 0.2, std::vector{large});
-  } catch (const FileError& error) {
-    message = error.what();
+  {
+    const FileSizeLimit limit(1 << 20);
+    try {
+      file.write_step(2, 0.2, std::vector{large});
+    } catch (const FileError& error) {
+      message = error.what();
+    }
   }
-  setrlimit(RLIMIT_FSIZE, &before);
-  std::signal(SIGXFSZ, handler);
 
   CHECK_THAT(message, Catch::Contains("fields.h5") && Catch::Contains("File too large"));
   CHECK(read_dataset(folder.path / "fields.h5", "/step_00000001/particles/sand/mass").values == particles.mass);

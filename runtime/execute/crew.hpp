@@ -1,0 +1,54 @@
+#pragma once
+
+#include <oneapi/tbb/global_control.h>
+#include <oneapi/tbb/task_arena.h>
+
+#include <atomic>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <vector>
+
+namespace tamp::runtime
+{
+
+/// oneTBB threads that stay together: they enter one arena when the crew is made and wait there from job to job, as
+/// waking them anew for every step would cost more than many a task.
+class Crew
+{
+ public:
+  /// `n_workers` counts the caller of `run`, who is worker 0. The job is called with the worker's number and must not
+  /// throw.
+  Crew(int n_workers, bool cores_are_shared, std::function<void(int)> job);
+  ~Crew();
+  Crew(const Crew&) = delete;
+  Crew& operator=(const Crew&) = delete;
+
+  /// Does the job as worker 0, together with the others that come before that is over; returns when all have returned.
+  void run();
+
+ private:
+  struct alignas(64) Worker {
+    std::atomic<bool> busy{false};
+  };
+
+  void serve(int worker);
+
+  oneapi::tbb::global_control concurrency_;
+  oneapi::tbb::task_arena arena_;
+  bool cores_are_shared_;
+  std::function<void(int)> job_;
+  std::vector<Worker> workers_;
+  /// Even turns are open: workers may enter; what the job is about changes in odd ones, when none is in.
+  std::atomic<std::uint32_t> turn_{1};
+  std::atomic<bool> leave_{false};
+
+  /// oneTBB may send a worker late, even after the crew has gone: who comes to a closed door turns back.
+  struct Door {
+    bool closed = false;
+    std::atomic<int> n_inside{0};
+  };
+  std::shared_ptr<Door> door_ = std::make_shared<Door>();
+};
+
+}  // namespace tamp::runtime

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <random>
+#include <vector>
+
+#include "runtime/execute/schedule.hpp"
+
+namespace tamp::runtime
+{
+
+/// The instances of a step that may run now, of which one is drawn at random, whatever its place in the lists.
+class ReadyPool
+{
+ public:
+  /// Of a step that has begun. Messages that have come before it count.
+  explicit ReadyPool(Schedule& schedule);
+
+  /// Whether all instances of this rank are complete.
+  bool finished() const { return n_left_ == 0; }
+  bool empty() const { return ready_.empty(); }
+  Schedule::Entry& draw(std::mt19937_64& random);
+  /// Of this rank or of another.
+  void complete(int instance);
+
+ private:
+  /// Null for what another rank runs.
+  std::vector<Schedule::Entry*> entries_;
+  std::vector<std::vector<int>> successors_;
+  std::vector<int> n_awaited_;
+  std::vector<Schedule::Entry*> ready_;
+  int n_left_ = 0;
+};
+
+}  // namespace tamp::runtime

@@ -1,0 +1,176 @@
+#include "runtime/storage/checkpoint.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <map>
+#include <sstream>
+#include <stdexcept>
+
+#include "runtime/ranks/together.hpp"
+#include "runtime/storage/checkpoint_reader.hpp"
+#include "runtime/storage/checkpoint_writer.hpp"
+#include "runtime/storage/file_error.hpp"
+#include "runtime/storage/sealed_file.hpp"
+#include "runtime/storage/whole_file.hpp"
+
+namespace tamp::runtime
+{
+
+namespace
+{
+
+namespace fs = std::filesystem;
+
+std::string name_of(std::int64_t step)
+{
+  return fmt::format("step_{:08}.h5", step);
+}
+
+/// The checkpoints of a folder by their steps, the newest first.
+std::map<std::int64_t, fs::path, std::greater<>> checkpoints_in(const fs::path& folder)
+{
+  std::map<std::int64_t, fs::path, std::greater<>> found;
+  std::error_code error;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder, error)) {
+    long long step = 0;
+    const std::string name = entry.path().filename().string();
+    if (std::sscanf(name.c_str(), "step_%lld.h5", &step) == 1 && name == name_of(step)) found[step] = entry.path();
+  }
+  return found;
+}
+
+void remove_file(const fs::path& file)
+{
+  std::error_code error;
+  fs::remove(file, error);
+  if (error) throw FileError(file.string(), error.message());
+}
+
+/// Makes the folder, and clears it of what a program that was killed had begun.
+void prepare(const fs::path& folder)
+{
+  std::error_code error;
+  fs::create_directories(folder, error);
+  if (error) throw FileError(folder.string(), error.message());
+  std::vector<fs::path> begun;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder, error)) {
+    if (entry.path().extension() == ".part") begun.push_back(entry.path());
+  }
+  if (error) throw FileError(folder.string(), error.message());
+  for (const fs::path& part : begun) remove_file(part);
+}
+
+void remove_outdated(const fs::path& folder, std::int64_t newest, int keep)
+{
+  int kept = 0;
+  for (const auto& [step, file] : checkpoints_in(folder)) {
+    if (step > newest || kept == keep) {
+      remove_file(file);
+    } else {
+      ++kept;
+    }
+  }
+}
+
+/// The checkpoint in a file that is as it was written. Throws FileError on all ranks otherwise.
+FoundCheckpoint looked_at(const fs::path& file, const Communicator& communicator)
+{
+  check_seal(file, communicator);
+  FoundCheckpoint found{file, {}, {}};
+  together(communicator, [&] {
+    const CheckpointReader reader(file);
+    found.header = reader.header();
+    found.host = reader.host();
+    reader.check_share(static_cast<std::size_t>(communicator.rank()), static_cast<std::size_t>(communicator.size()));
+  });
+  return found;
+}
+
+/// Throws unless the file has the tables that the warehouse has.
+void expect_tables(const fs::path& file, std::span<const CheckpointReader::Table> found,
+                   std::span<const StateTable> expected)
+{
+  const auto told = [](const auto& tables, std::size_t i) {
+    return i < tables.size() ? fmt::format("{} of {} bytes", tables[i].path, tables[i].value_bytes) : "nothing more";
+  };
+  for (std::size_t i = 0; i < std::max(found.size(), expected.size()); ++i) {
+    if (told(found, i) == told(expected, i)) continue;
+    throw FileError(file.string(),
+                    fmt::format("is of another scene: {}, expected {}", told(found, i), told(expected, i)));
+  }
+}
+
+void read_own(const CheckpointReader& reader, const fs::path& file, Warehouse& warehouse,
+              std::span<const StateTable> tables)
+{
+  for (std::size_t t = 0; t < tables.size(); ++t) {
+    const CheckpointReader::Table& stored = reader.tables()[t];
+    for (std::size_t p = 0; p < tables[t].patches.size(); ++p) {
+      const PatchState& state = tables[t].patches[p];
+      if (state.field == nullptr) continue;
+      const std::size_t n = stored.entries[p].n_values;
+      if (state.field->n_particles != nullptr) {
+        warehouse.set_n_particles(state.field->patch, state.field->group, n);
+      } else if (state.n_values() != n) {
+        throw FileError(file.string(), fmt::format("is of another scene: {} values in {} of patch {}, expected {}", n,
+                                                   stored.path, p, state.n_values()));
+      }
+      state.set_bytes(reader.read(stored, p));
+    }
+  }
+}
+
+}  // namespace
+
+void write_checkpoint(const fs::path& folder, const CheckpointHeader& header, std::span<const std::byte> host,
+                      Warehouse& warehouse, const std::vector<std::string>& group_names, int keep,
+                      const Communicator& communicator)
+{
+  if (keep < 1) throw std::invalid_argument("a checkpoint that is not to be kept");
+  const fs::path file = folder / name_of(header.step);
+  fs::path part = file;
+  part += ".part";
+  by_first(communicator, [&] { prepare(folder); });
+  try {
+    write_checkpoint_file(part, header, host, warehouse, group_names, communicator);
+    by_first(communicator, [&] { put_in_place(part, file); });
+  } catch (...) {
+    std::error_code is_gone;
+    if (communicator.is_first()) fs::remove(part, is_gone);
+    throw;
+  }
+  by_first(communicator, [&] { remove_outdated(folder, header.step, keep); });
+}
+
+std::optional<FoundCheckpoint> newest_checkpoint(const fs::path& folder, std::vector<std::string>& refused,
+                                                 const Communicator& communicator)
+{
+  std::string names;
+  if (communicator.is_first()) {
+    for (const auto& [step, file] : checkpoints_in(folder)) names += file.filename().string() + "\n";
+  }
+  std::istringstream lines(communicator.gather(names).front());
+  for (std::string name; std::getline(lines, name);) {
+    try {
+      return looked_at(folder / name, communicator);
+    } catch (const FileError& error) {
+      refused.emplace_back(error.what());
+    }
+  }
+  return std::nullopt;
+}
+
+void read_checkpoint(const FoundCheckpoint& found, Warehouse& warehouse, const std::vector<std::string>& group_names,
+                     const Communicator& communicator)
+{
+  const std::vector<StateTable> tables = state_tables(warehouse, group_names);
+  together(communicator, [&] {
+    const CheckpointReader reader(found.file);
+    reader.expect(warehouse.layout(), group_names);
+    expect_tables(found.file, reader.tables(), tables);
+    read_own(reader, found.file, warehouse, tables);
+  });
+}
+
+}  // namespace tamp::runtime

@@ -1,0 +1,43 @@
+#pragma once
+
+#include <cstddef>
+#include <utility>
+#include <vector>
+
+#include "runtime/storage/field_columns.hpp"
+#include "runtime/storage/hdf5.hpp"
+
+namespace tamp::runtime
+{
+
+/// Where the items that one rank gives stand in a dataset of all ranks.
+struct ItemPlace {
+  /// Of the whole dataset, an item each.
+  std::vector<hsize_t> dimensions;
+  std::vector<hdf5::Slab> slabs;
+  std::size_t n_own = 0;
+  /// This rank's items in the order in which they stand in the file, which is how HDF5 takes those of many slabs.
+  std::vector<RowRun> file_order;
+
+  std::size_t n_total() const;
+};
+
+/// Throws std::invalid_argument for rows or boxes outside of the whole, or that are not as many as the block says.
+ItemPlace place_of(const ParticleBlock& block);
+ItemPlace place_of(const NodeBlock& block);
+
+/// `values`, `n_components` for each of this rank's items, in the order of the file.
+template <class T>
+std::vector<T> in_file_order(std::vector<T> values, const ItemPlace& place, std::size_t n_components)
+{
+  if (place.file_order.size() <= 1) return values;
+  std::vector<T> ordered;
+  ordered.reserve(values.size());
+  for (const RowRun& run : place.file_order) {
+    const auto begin = values.begin() + static_cast<std::ptrdiff_t>(run.first * n_components);
+    ordered.insert(ordered.end(), begin, begin + static_cast<std::ptrdiff_t>(run.n * n_components));
+  }
+  return ordered;
+}
+
+}  // namespace tamp::runtime

@@ -1,0 +1,13 @@
+#pragma once
+
+#include "runtime/data/warehouse.hpp"
+#include "runtime/ranks/communicator.hpp"
+#include "runtime/storage/row_share.hpp"
+
+namespace tamp::runtime
+{
+
+/// Where this rank's particles of a group stand in a table of those of all ranks, patch after patch. Collective.
+RowShare particle_share(const Warehouse& warehouse, int group, const Communicator& communicator);
+
+}  // namespace tamp::runtime

@@ -1,0 +1,108 @@
+#include "runtime/storage/state_tables.hpp"
+
+#include <algorithm>
+#include <map>
+
+#include "runtime/storage/checksum.hpp"
+#include "runtime/storage/known_by_all.hpp"
+
+namespace tamp::runtime
+{
+
+namespace
+{
+
+std::string path_of(const Field& field, std::span<const std::string> group_names)
+{
+  const std::string kind = std::string(to_string(field.label->centring())) + "s/";
+  const std::string& label = field.label->name();
+  if (field.group < 0) return "common/" + kind + label;
+  return kind + group_names[static_cast<std::size_t>(field.group)] + "/" + label;
+}
+
+/// Calls `visit(first byte, number of bytes)` for what lies together in memory, in the order of the values.
+template <class Visit>
+void for_each_piece(const PatchState& state, Visit&& visit)
+{
+  const Field& field = *state.field;
+  const std::size_t value_bytes = field.label->value_bytes();
+  std::byte* const memory = field.previous_buffer.data();
+  if (field.n_particles != nullptr) return visit(memory, field.n_bytes());
+  const auto strides = field.box.strides();
+  IndexBox starts = state.inside;
+  starts.upper[0] = starts.lower[0] + 1;
+  for_each(starts, [&](const Index& i) {
+    std::ptrdiff_t at = 0;
+    for (std::size_t axis = 0; axis < 3; ++axis) at += strides[axis] * (i[axis] - field.box.lower[axis]);
+    visit(memory + static_cast<std::size_t>(at) * value_bytes,
+          static_cast<std::size_t>(state.inside.extent(0)) * value_bytes);
+  });
+}
+
+}  // namespace
+
+std::size_t PatchState::n_values() const
+{
+  return field->n_particles != nullptr ? *field->n_particles : static_cast<std::size_t>(inside.size());
+}
+
+std::vector<std::byte> PatchState::bytes() const
+{
+  std::vector<std::byte> all;
+  all.reserve(n_values() * field->label->value_bytes());
+  for_each_piece(*this, [&](const std::byte* piece, std::size_t n) { all.insert(all.end(), piece, piece + n); });
+  return all;
+}
+
+void PatchState::set_bytes(std::span<const std::byte> bytes) const
+{
+  auto from = bytes.begin();
+  for_each_piece(*this, [&](std::byte* piece, std::size_t n) {
+    const auto end = from + static_cast<std::ptrdiff_t>(n);
+    std::copy(from, end, piece);
+    from = end;
+  });
+}
+
+std::vector<StateTable> state_tables(Warehouse& warehouse, std::span<const std::string> group_names)
+{
+  const PatchLayout& layout = warehouse.layout();
+  std::map<std::string, StateTable> by_path;
+  for (Field& field : warehouse.fields()) {
+    if (!field.state || field.label->centring() == Centring::reduction) continue;
+    const std::string path = path_of(field, group_names);
+    StateTable& table = by_path[path];
+    table.path = path;
+    table.value_bytes = field.label->value_bytes();
+    table.patches.resize(static_cast<std::size_t>(layout.size()));
+    const Patch& patch = layout[field.patch];
+    if (!warehouse.is_local(patch)) continue;
+    const IndexBox& inside = field.label->centring() == Centring::node ? patch.nodes : patch.cells;
+    table.patches[static_cast<std::size_t>(patch.id)] = {&field, inside};
+  }
+  std::vector<StateTable> tables;
+  tables.reserve(by_path.size());
+  for (auto& [path, table] : by_path) tables.push_back(std::move(table));
+  return tables;
+}
+
+std::vector<std::vector<PatchEntry>> patch_entries(std::span<const StateTable> tables, const Communicator& communicator)
+{
+  std::vector<std::uint64_t> numbers;
+  for (const StateTable& table : tables) {
+    for (const PatchState& state : table.patches) {
+      numbers.push_back(state.field == nullptr ? 0 : state.n_values());
+      numbers.push_back(state.field == nullptr ? 0 : checksum(state.bytes()));
+    }
+  }
+  numbers = known_by_all(std::move(numbers), communicator);
+  std::vector<std::vector<PatchEntry>> entries;
+  std::size_t at = 0;
+  for (const StateTable& table : tables) {
+    auto& of_table = entries.emplace_back();
+    for (std::size_t p = 0; p < table.patches.size(); ++p, at += 2) of_table.push_back({numbers[at], numbers[at + 1]});
+  }
+  return entries;
+}
+
+}  // namespace tamp::runtime

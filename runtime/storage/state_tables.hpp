@@ -1,0 +1,49 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "runtime/data/warehouse.hpp"
+#include "runtime/ranks/communicator.hpp"
+
+namespace tamp::runtime
+{
+
+/// One label of the state for one group on one patch.
+struct PatchState {
+  /// Null where another rank has the patch.
+  const Field* field = nullptr;
+  /// The patch's own cells or nodes: halos are made anew by the step.
+  IndexBox inside;
+
+  std::size_t n_values() const;
+  /// The bytes of its values, x fastest, and setting them to others of the same number.
+  std::vector<std::byte> bytes() const;
+  void set_bytes(std::span<const std::byte> bytes) const;
+};
+
+/// One label of the state for one group, over all patches.
+struct StateTable {
+  /// Such as particles/sand/position, cells/sand/temperature, or common/nodes/mass of a field of no group.
+  std::string path;
+  std::size_t value_bytes = 0;
+  /// By patch.
+  std::vector<PatchState> patches;
+};
+
+/// All state that a step leaves to the next, the same tables on all ranks. Reductions are none.
+std::vector<StateTable> state_tables(Warehouse& warehouse, std::span<const std::string> group_names);
+
+/// What a file says of one patch in a table: how many values it has, and the checksum of their bytes.
+struct PatchEntry {
+  std::uint64_t n_values = 0;
+  std::uint64_t sum = 0;
+};
+
+/// The entries of each table, by patch, from the memory of all ranks. Collective.
+std::vector<std::vector<PatchEntry>> patch_entries(std::span<const StateTable> tables,
+                                                   const Communicator& communicator);
+
+}  // namespace tamp::runtime

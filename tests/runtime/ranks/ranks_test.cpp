@@ -1,0 +1,269 @@
+#include <array>
+#include <catch2/catch.hpp>
+#include <cmath>
+
+#include "runtime/execute/bound_graph.hpp"
+#include "runtime/execute/executor.hpp"
+#include "runtime/execute/move_patches.hpp"
+#include "runtime/grid/curve_order.hpp"
+#include "runtime/ranks/deal_patches.hpp"
+
+namespace tamp::runtime
+{
+
+namespace
+{
+
+using Point = std::array<double, 2>;
+
+const ParticleLabel<Point> place{"place"};
+const ParticleLabel<double> warmth{"warmth"};
+const NodeLabel<double> heat{"heat"};
+const CellLabel<double> smooth{"smooth"};
+const CellLabel<double> smoother{"smoother"};
+
+struct Sum {
+  double value = 0;
+  void combine(const Sum& other) { value += other.value; }
+};
+const ReductionLabel<Sum> total{"total"};
+
+/// Particles that wander, warm the nodes and are warmed by their neighbourhood: every kind of message there is. The
+/// numbers are such that another order of sums shows.
+std::vector<TaskDeclaration> wandering()
+{
+  auto warm =
+      task("warm")
+          .over_patches_and_groups()
+          .reads(place.previous(), warmth.previous())
+          .accumulates(heat.halo(1))
+          .body([](const TaskContext&, std::span<const Point> x, std::span<const double> w, GridView<double> h) {
+            for (std::size_t p = 0; p < x.size(); ++p) {
+              const Index cell{static_cast<int>(x[p][0]), static_cast<int>(x[p][1]), 0};
+              for_each(IndexBox{{cell[0] - 1, cell[1] - 1, 0}, {cell[0] + 2, cell[1] + 2, 1}},
+                       [&](const Index& i) { h[i] += w[p] / (1 + std::hypot(x[p][0] - i[0], x[p][1] - i[1])); });
+            }
+          });
+  auto average =
+      task("average")
+          .over_patches_and_groups()
+          .reads(heat.halo(1), smooth.previous().halo(1))
+          .computes(smooth)
+          .body([](const TaskContext& at, GridView<const double> h, GridView<const double> old, GridView<double> now) {
+            const IndexBox all = at.layout.grid().cells();
+            for_each(at.patch.cells, [&](const Index& i) {
+              double sum = h[i] + h[{i[0] + 1, i[1] + 1, 0}];
+              for_each(intersection(grown(IndexBox{i, {i[0] + 1, i[1] + 1, 1}}, 1, 2), all),
+                       [&](const Index& j) { sum += 0.1 * old[j]; });
+              now[i] = sum / 3;
+            });
+          });
+  auto average_again = task("average again")
+                           .over_patches_and_groups()
+                           .reads(smooth.halo(1))
+                           .computes(smoother)
+                           .reduces(total)
+                           .body([](const TaskContext& at, GridView<const double> s, GridView<double> now, Sum& sum) {
+                             const IndexBox all = at.layout.grid().cells();
+                             for_each(at.patch.cells, [&](const Index& i) {
+                               now[i] = 0;
+                               for_each(intersection(grown(IndexBox{i, {i[0] + 1, i[1] + 1, 1}}, 1, 2), all),
+                                        [&](const Index& j) { now[i] += s[j] / 9; });
+                               sum.value += now[i];
+                             });
+                           });
+  auto wander =
+      task("wander")
+          .over_patches_and_groups()
+          .reads(smoother, total, place.previous(), warmth.previous())
+          .computes(place, warmth)
+          .body([](const TaskContext& at, GridView<const double> s, const Sum& sum, std::span<const Point> old,
+                   std::span<const double> was, std::span<Point> now, std::span<double> is) {
+            const Index n = at.layout.grid().n_cells;
+            for (std::size_t p = 0; p < old.size(); ++p) {
+              const double w = s[{static_cast<int>(old[p][0]), static_cast<int>(old[p][1]), 0}];
+              is[p] = 0.5 * was[p] + w / (1 + std::abs(sum.value));
+              now[p] = {old[p][0] + 0.9 * std::sin(37 * w), old[p][1] + 0.9 * std::cos(91 * w)};
+              for (std::size_t k = 0; k < 2; ++k) now[p][k] = std::clamp(now[p][k], 0.01, n[k] - 0.01);
+            }
+          });
+  return {warm, average, average_again, wander, migration(place, total)};
+}
+
+struct World {
+  World(const Communicator& communicator_, const std::vector<int>& ranks, int n_threads)
+      : communicator(communicator_),
+        layout(dealt(ranks)),
+        graph(wandering(), layout, {"only"}, {{&place, &warmth, &smooth}, {&total}}),
+        warehouse(std::vector<const TaskGraph*>{&graph}, communicator.rank()),
+        bound(graph, warehouse, communicator),
+        schedule(bound, n_threads),
+        executor(n_threads)
+  {
+  }
+
+  static const Index& n_patches()
+  {
+    static const Index n{4, 3, 1};
+    return n;
+  }
+
+  PatchLayout dealt(const std::vector<int>& ranks) const
+  {
+    PatchLayout patches({2, {0, 0, 0}, 1, {16, 12, 1}}, n_patches());
+    patches.give_to_ranks(ranks, communicator.size());
+    return patches;
+  }
+
+  void fill()
+  {
+    for (const Patch& patch : layout) {
+      if (!warehouse.is_local(patch)) continue;
+      warehouse.set_n_particles(patch.id, 0, static_cast<std::size_t>(patch.cells.size()));
+      std::size_t p = 0;
+      for_each(patch.cells, [&](const Index& i) {
+        warehouse.state(place, patch.id, 0)[p] = {i[0] + 0.3, i[1] + 0.6};
+        warehouse.state(warmth, patch.id, 0)[p++] = 1.0 / (1 + i[0] + 7 * i[1]);
+      });
+    }
+  }
+
+  void run(int n_steps)
+  {
+    for (int n = 0; n < n_steps; ++n) {
+      executor.run(schedule, {n, 0, 1, 1});
+      warehouse.advance();
+    }
+  }
+
+  /// All that is state, and the last total, on all ranks: by patch.
+  std::vector<double> values()
+  {
+    std::vector<double> all{warehouse.result(total).value};
+    for (const Patch& patch : layout) {
+      std::vector<double> own;
+      if (warehouse.is_local(patch)) {
+        for (const Point& x : warehouse.state(place, patch.id, 0)) own.insert(own.end(), x.begin(), x.end());
+        const auto w = warehouse.state(warmth, patch.id, 0);
+        own.insert(own.end(), w.begin(), w.end());
+        const auto s = warehouse.grid_state(smooth, patch.id, 0);
+        for_each(patch.cells, [&](const Index& i) { own.push_back(s[i]); });
+      }
+      for (const auto& bytes : communicator.gather(std::as_bytes(std::span(own)))) {
+        const auto* first = reinterpret_cast<const double*>(bytes.data());
+        all.insert(all.end(), first, first + bytes.size() / sizeof(double));
+      }
+    }
+    return all;
+  }
+
+  Communicator communicator;
+  PatchLayout layout;
+  TaskGraph graph;
+  Warehouse warehouse;
+  BoundGraph bound;
+  Schedule schedule;
+  Executor executor;
+};
+
+std::vector<int> along_curve(int n_ranks)
+{
+  return deal_patches(curve_order(World::n_patches()), std::vector<double>(12, 1.0), n_ranks);
+}
+
+std::vector<double> alone(int n_steps)
+{
+  World world({}, std::vector<int>(12, 0), 1);
+  world.fill();
+  world.run(n_steps);
+  return world.values();
+}
+
+}  // namespace
+
+TEST_CASE("any ranks and threads give the same bits", "[ranks]")
+{
+  const Communicator all = Communicator::world();
+  const int n_threads = GENERATE(1, 2, 3);
+  World world(all, along_curve(all.size()), n_threads);
+  world.fill();
+
+  world.run(40);
+
+  CHECK(world.values() == alone(40));
+}
+
+TEST_CASE("patches dealt in turn, with neighbours on every rank, give the same bits", "[ranks]")
+{
+  const Communicator all = Communicator::world();
+  std::vector<int> ranks;
+  for (int p = 0; p < 12; ++p) ranks.push_back(p % all.size());
+  World world(all, ranks, 2);
+  world.fill();
+
+  world.run(40);
+
+  CHECK(world.values() == alone(40));
+}
+
+TEST_CASE("a rank without patches takes part", "[ranks]")
+{
+  const Communicator all = Communicator::world();
+  World world(all, std::vector<int>(12, all.size() - 1), 1);
+  world.fill();
+
+  world.run(10);
+
+  CHECK(world.values() == alone(10));
+}
+
+TEST_CASE("patches that move to other ranks between steps change nothing", "[ranks]")
+{
+  const Communicator all = Communicator::world();
+  World before(all, along_curve(all.size()), 2);
+  before.fill();
+  before.run(15);
+  std::vector<int> ranks;
+  for (int p = 0; p < 12; ++p) ranks.push_back((p * 5) % all.size());
+  World after(all, ranks, 2);
+
+  move_patches(before.warehouse, after.warehouse, all);
+  after.run(25);
+
+  CHECK(after.values() == alone(40));
+}
+
+TEST_CASE("a task that throws on one rank stops the others, which hear why", "[ranks]")
+{
+  const Communicator all = Communicator::world();
+  const int thrower = all.size() - 1;
+  PatchLayout layout({2, {0, 0, 0}, 1, {16, 12, 1}}, World::n_patches());
+  layout.give_to_ranks(along_curve(all.size()), all.size());
+  auto make =
+      task("make").over_patches_and_groups().computes(smooth).body([&](const TaskContext& at, GridView<double>) {
+        if (at.patch.rank == thrower && at.step.index == 3) throw std::runtime_error("no luck");
+      });
+  auto use = task("use")
+                 .over_patches_and_groups()
+                 .reads(smooth.halo(1))
+                 .computes(smoother)
+                 .reduces(total)
+                 .body([](const TaskContext&, GridView<const double>, GridView<double>, Sum&) {});
+  const TaskGraph graph({make, use}, layout, {"only"}, {{}, {&total, &smoother}});
+  Warehouse warehouse(std::vector<const TaskGraph*>{&graph}, all.rank());
+  BoundGraph bound(graph, warehouse, all);
+  Schedule schedule(bound, 2);
+  Executor executor(2);
+
+  std::string heard;
+  try {
+    for (long n = 0; n < 10; ++n) executor.run(schedule, {n, 0, 1, 1});
+  } catch (const std::runtime_error& error) {
+    heard = error.what();
+  }
+
+  CHECK(heard.find("no luck") != std::string::npos);
+  all.barrier();
+}
+
+}  // namespace tamp::runtime

@@ -1,0 +1,120 @@
+#include <catch2/catch.hpp>
+
+#include "tasks/simulation_error.hpp"
+#include "tests/tasks/scenes.hpp"
+
+using namespace tamp;
+using namespace tamp::test;
+
+namespace
+{
+
+/// Two disks of 12 x 12 patches' worth that glance off each other and leave through the open faces.
+Scene glancing_disks()
+{
+  Scene scene = empty_scene(2, {24, 18, 1}, 0.1);
+  scene.n_patches = {6, 6, 1};
+  const int soft = add_elastic(scene, 1000, 1e6, 0.3);
+  const int hard = add_elastic(scene, 2000, 4e6, 0.2);
+  add_disk(scene, soft, 0.7, 0.8, 0.4, {6, 0.5, 0});
+  add_disk(scene, hard, 1.7, 1.0, 0.4, {-6, -0.5, 0});
+  scene.gravity = {0, -9.81, 0};
+  return scene;
+}
+
+struct Ending {
+  std::string digest;
+  double plastic;
+  double contact;
+  std::size_t n_lost;
+  double lost_momentum;
+
+  bool operator==(const Ending&) const = default;
+};
+
+Ending ending(Simulation& simulation)
+{
+  const LostParticles lost = simulation.lost();
+  return {simulation.digest(), simulation.totals().plastic, simulation.totals().contact, lost.count, lost.momentum[0]};
+}
+
+Ending alone(const Scene& scene, double end)
+{
+  const auto simulation = Simulation::make(scene, 1);
+  advance_to(*simulation, end);
+  return ending(*simulation);
+}
+
+std::unique_ptr<Simulation> on_all_ranks(const Scene& scene, int n_threads)
+{
+  return Simulation::make(scene, std::make_shared<runtime::Executor>(n_threads), runtime::Communicator::world());
+}
+
+}  // namespace
+
+TEST_CASE("a collision with losses ends with the same bits on any ranks and threads", "[ranks]")
+{
+  const Scene scene = glancing_disks();
+  const Ending expected = alone(scene, 0.3);
+  REQUIRE(expected.n_lost > 0);
+  const int n_threads = GENERATE(1, 2, 3);
+
+  const auto simulation = on_all_ranks(scene, n_threads);
+  advance_to(*simulation, 0.3);
+
+  CHECK(ending(*simulation) == expected);
+}
+
+TEST_CASE("a collision in three dimensions ends with the same bits on any ranks", "[ranks]")
+{
+  Scene scene = empty_scene(3, {12, 8, 8}, 0.1);
+  scene.n_patches = {4, 2, 2};
+  const int soft = add_elastic(scene, 1000, 1e6, 0.3);
+  add_box(scene, soft, {0.1, 0.2, 0.2}, {0.5, 0.6, 0.6}, {5, 0.5, 0});
+  add_box(scene, add_elastic(scene, 1500, 1e6, 0.2), {0.6, 0.3, 0.2}, {1.0, 0.7, 0.6}, {-5, 0, 0.5});
+
+  const auto simulation = on_all_ranks(scene, 2);
+  advance_to(*simulation, 0.02);
+
+  CHECK(ending(*simulation) == alone(scene, 0.02));
+}
+
+TEST_CASE("patches that follow the load to other ranks change no bit", "[ranks]")
+{
+  const Scene scene = glancing_disks();
+  const auto simulation = on_all_ranks(scene, 2);
+  simulation->balance_every(5);
+
+  advance_to(*simulation, 0.3);
+
+  CHECK(ending(*simulation) == alone(scene, 0.3));
+  // The disks move on and leave, and the load with them.
+  const bool several = simulation->communicator().size() > 1;
+  CHECK(simulation->rebalances().empty() != several);
+  for (const Rebalance& r : simulation->rebalances()) CHECK(r.imbalance_expected < r.imbalance_before);
+}
+
+TEST_CASE("a particle that goes wrong on one rank is the same error on all", "[ranks]")
+{
+  Scene scene = glancing_disks();
+  scene.bodies[0].velocity_field = [](const Triple& x) { return Triple{x[0] < 0.7 ? 900.0 : -900.0, 0, 0}; };
+  const auto message_of = [](Simulation& simulation) -> std::string {
+    try {
+      advance_to(simulation, 0.1);
+    } catch (const SimulationError& error) {
+      return error.what();
+    }
+    return "nothing went wrong";
+  };
+
+  const auto simulation = on_all_ranks(scene, 2);
+  const std::string message = message_of(*simulation);
+
+  const auto single = Simulation::make(scene, 1);
+  CHECK_THAT(message, Catch::Contains("particle") && Catch::Contains("elastic 0"));
+  for (const std::string& other : simulation->communicator().gather(message)) CHECK(other == message);
+  message_of(*single);
+  // The state of the last good step is still there.
+  CHECK(simulation->n_steps() == single->n_steps());
+  CHECK(simulation->digest() == single->digest());
+}

@@ -1,0 +1,70 @@
+#pragma once
+
+#include <signal.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cstdio>
+#include <fstream>
+#include <sstream>
+#include <string>
+#include <vector>
+
+namespace tamp::test
+{
+
+/// A program that runs on while the test does, with its output thrown away.
+class BackgroundProgram
+{
+ public:
+  BackgroundProgram(const std::string& program, const std::string& arguments)
+  {
+    std::vector<std::string> words{program};
+    std::istringstream stream(arguments);
+    for (std::string word; stream >> word;) words.push_back(word);
+    std::vector<char*> argv;
+    for (std::string& word : words) argv.push_back(word.data());
+    argv.push_back(nullptr);
+    id_ = fork();
+    if (id_ != 0) return;
+    static_cast<void>(std::freopen("/dev/null", "w", stdout));
+    static_cast<void>(std::freopen("/dev/null", "w", stderr));
+    execv(program.c_str(), argv.data());
+    _exit(127);
+  }
+  ~BackgroundProgram()
+  {
+    if (id_ > 0) {
+      send(SIGKILL);
+      waitpid(id_, nullptr, 0);
+    }
+  }
+  BackgroundProgram(const BackgroundProgram&) = delete;
+  BackgroundProgram& operator=(const BackgroundProgram&) = delete;
+
+  void send(int signal) const { kill(id_, signal); }
+
+  /// Waits for its end; 128 and the signal if one ended it.
+  int exit_code()
+  {
+    int status = 0;
+    waitpid(id_, &status, 0);
+    id_ = -1;
+    return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+  }
+
+  /// The processes that it has started and that still run (Linux).
+  std::vector<pid_t> children() const
+  {
+    const std::string id = std::to_string(id_);
+    std::ifstream stream("/proc/" + id + "/task/" + id + "/children");
+    std::vector<pid_t> all;
+    for (pid_t child = 0; stream >> child;) all.push_back(child);
+    return all;
+  }
+
+ private:
+  pid_t id_ = -1;
+};
+
+}  // namespace tamp::test

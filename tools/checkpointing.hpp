@@ -1,0 +1,58 @@
+#pragma once
+
+#include <chrono>
+#include <filesystem>
+#include <limits>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "runtime/storage/checkpoint.hpp"
+#include "tools/moments.hpp"
+#include "tools/scene/read_scene.hpp"
+
+namespace tamp::tools
+{
+
+/// When a run keeps its state, besides when a signal stops it: at intervals of steps, of simulated and of wall time.
+struct CheckpointPolicy {
+  /// 0: never.
+  long steps = 0;
+  /// [s]
+  double simulated = std::numeric_limits<double>::infinity();
+  double wall = 600;
+  /// How many are kept, the newest.
+  int keep = 2;
+};
+
+/// Tells when a checkpoint is due.
+class CheckpointClock
+{
+ public:
+  explicit CheckpointClock(const CheckpointPolicy& policy);
+
+  /// A run that is restarted has what was due until then.
+  void skip_to(double time) { simulated_.skip_to(time); }
+  /// By steps and simulated time: the same on all ranks.
+  bool due(long step, double time);
+  /// By wall time: one rank asks, all write.
+  bool wall_time_over() const;
+  void written() { last_ = Clock::now(); }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+
+  CheckpointPolicy policy_;
+  Every simulated_;
+  Clock::time_point last_ = Clock::now();
+};
+
+/// What of a scene must be the same for a run to go on: all but its title, its end and its output.
+std::string fingerprint(const CheckedScene& scene);
+
+/// The newest whole checkpoint of a run. Says on stderr which were refused. Throws InputError if there is none, or if
+/// it is of another scene. Collective.
+runtime::FoundCheckpoint checkpoint_to_restart(const std::filesystem::path& run_folder, const CheckedScene& scene,
+                                               const runtime::Communicator& communicator);
+
+}  // namespace tamp::tools

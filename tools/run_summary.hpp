@@ -1,0 +1,30 @@
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "tasks/simulation.hpp"
+#include "tools/run_history.hpp"
+
+namespace tamp::tools
+{
+
+/// How a run went, besides what its simulation and history know.
+struct RunOutcome {
+  /// completed, unstable or interrupted, and why.
+  std::string status;
+  std::string reason;
+  /// [s]; a step's is the median.
+  double wall = 0;
+  double wall_per_step = 0;
+  /// Where a restarted run went on; -1 for one from the start.
+  long restarted_at = -1;
+};
+
+/// The content of `summary.json`. Collective.
+nlohmann::ordered_json run_summary(tasks::Simulation& simulation, const RunHistory& history, const RunOutcome& outcome);
+
+/// A few lines of it for a person.
+std::string told_in_short(const nlohmann::ordered_json& summary);
+
+}  // namespace tamp::tools

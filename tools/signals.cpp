@@ -1,0 +1,49 @@
+#include "tools/signals.hpp"
+
+#include <atomic>
+#include <csignal>
+
+namespace tamp::tools
+{
+
+namespace
+{
+
+std::atomic<int> noted_signal{0};
+std::atomic<runtime::Executor*> watched{nullptr};
+
+void note(int signal)
+{
+  noted_signal = signal;
+}
+
+void ask_for_report(int)
+{
+  if (runtime::Executor* executor = watched; executor != nullptr) executor->request_report();
+}
+
+}  // namespace
+
+SignalWatch::SignalWatch(runtime::Executor& executor)
+{
+  noted_signal = 0;
+  watched = &executor;
+  std::signal(SIGTERM, note);
+  std::signal(SIGINT, note);
+  std::signal(SIGUSR1, ask_for_report);
+}
+
+SignalWatch::~SignalWatch()
+{
+  for (const int signal : {SIGTERM, SIGINT}) std::signal(signal, SIG_DFL);
+  // A report asked for too late is no reason to end the program, which this signal would by default.
+  std::signal(SIGUSR1, SIG_IGN);
+  watched = nullptr;
+}
+
+int SignalWatch::noted() const
+{
+  return noted_signal;
+}
+
+}  // namespace tamp::tools

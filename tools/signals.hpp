@@ -1,0 +1,31 @@
+#pragma once
+
+#include <stdexcept>
+#include <string>
+
+#include "runtime/execute/executor.hpp"
+
+namespace tamp::tools
+{
+
+/// A run that ended early because a signal asked it to, with its state kept.
+struct Interrupted : std::runtime_error {
+  Interrupted(const std::string& what, int signal_) : std::runtime_error(what), signal(signal_) {}
+  int signal;
+};
+
+/// While it lives, SIGTERM and SIGINT are noted instead of ending the program, and SIGUSR1 has the executor say what
+/// it is at. One at a time.
+class SignalWatch
+{
+ public:
+  explicit SignalWatch(runtime::Executor& executor);
+  ~SignalWatch();
+  SignalWatch(const SignalWatch&) = delete;
+  SignalWatch& operator=(const SignalWatch&) = delete;
+
+  /// The last signal that asked to stop; 0 for none.
+  int noted() const;
+};
+
+}  // namespace tamp::tools
