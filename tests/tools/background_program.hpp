@@ -13,6 +13,14 @@
 namespace tamp::test
 {
 
+/// Whether a process is at work: neither gone nor dead and waiting for its parent's notice (Linux).
+inline bool is_running(pid_t process)
+{
+  std::ifstream stream("/proc/" + std::to_string(process) + "/stat");
+  std::string number, name, state;
+  return static_cast<bool>(stream >> number >> name >> state) && state != "Z";
+}
+
 /// A program that runs on while the test does, with its output thrown away.
 class BackgroundProgram
 {
@@ -25,6 +33,7 @@ class BackgroundProgram
     std::vector<char*> argv;
     for (std::string& word : words) argv.push_back(word.data());
     argv.push_back(nullptr);
+    std::fflush(nullptr);
     id_ = fork();
     if (id_ != 0) return;
     static_cast<void>(std::freopen("/dev/null", "w", stdout));
