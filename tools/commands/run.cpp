@@ -38,6 +38,7 @@ void apply_schedule(const std::string& schedule, RunOptions& run)
 {
   if (schedule == "parallel") return;
   run.n_threads = 1;
+  run.executor.window = 1;
   if (schedule != "serial") run.shuffle_seed = std::stoull(schedule.substr(schedule.find(':') + 1));
 }
 

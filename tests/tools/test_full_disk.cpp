@@ -1,0 +1,32 @@
+#include <catch2/catch.hpp>
+
+#include "tests/tools/program.hpp"
+
+using namespace tamp::test;
+
+TEST_CASE("a disk that fills while a checkpoint is written ends the run with 4, and the one before still restarts")
+{
+  const int n_ranks = GENERATE(1, 2);
+  const TemporaryFolder folder;
+  const std::string disk = folder.path().string() + "/disk", kept = folder.path().string() + "/kept";
+  const std::string mount = "mkdir -p " + disk + " && mount -t tmpfs -o size=7m tmpfs " + disk;
+  const auto as_root = [](const std::string& script) {
+    return outcome_of("unshare --map-root-user --mount sh -c '" + script + "'");
+  };
+  if (as_root(mount).exit_code != 0) {
+    WARN("no disk of a given size can be made here: not tested");
+    return;
+  }
+  allow_ranks_anywhere();
+  const std::string launcher = n_ranks == 1 ? "" : TAMP_MPIEXEC " -n 2 ";
+  const std::string run = TAMP_PROGRAM " run " TAMP_SOURCE_DIR "/inputs/punch/quick.json --quiet --threads 1 ";
+
+  const Outcome full = as_root(mount + "; " + launcher + run + "--checkpoint-steps 25 --out " + disk +
+                               "/run; code=$?; cp -r " + disk + "/run " + kept + "; exit $code");
+  const Outcome restarted = outcome_of(std::string(run) + "--steps 150 --restart " + kept);
+
+  CHECK(full.exit_code == 4);
+  CHECK_THAT(full.err, Catch::Contains("tamp: ") && Catch::Contains("checkpoints/step_") &&
+                           Catch::Contains("No space left on device"));
+  CHECK(restarted.exit_code == 0);
+}

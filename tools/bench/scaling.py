@@ -1,0 +1,64 @@
+#!/usr/bin/env python3
+"""Strong and weak scaling of the punch over ranks and threads of one machine.
+
+    tools/bench/scaling.py [--tamp build/release/tamp] [--rounds 5] [--steps 300]
+
+Strong: the punch at 200 x 160 cells with 1 x 1, 1 x 2 and 2 x 1 ranks x threads. Weak: 1 x 1 with half of it (the punch
+is symmetric) against the whole with two workers. The runs take turns; the table has the ratios of the medians over the
+rounds of the time per step, the share of message time that was hidden behind tasks, and that all digests agree."""
+
+import argparse
+import json
+import pathlib
+import statistics
+import sys
+import tempfile
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "studies"))
+
+import ranks
+
+WHOLE = ["--set", "/grid/patches=[4,4]"]
+HALF = ["--set", "/grid/lower=[0.5,0]", "--set", "/grid/patches=[2,4]",
+        "--set", "/bodies/punch/geometry/lower=[0.5,0.5]", "--set", "/bodies/sand/geometry/lower=[0.5,0]"]
+RUNS = {"1 x 1": (1, 1, WHOLE), "1 x 2": (1, 2, WHOLE), "2 x 1": (2, 1, WHOLE), "half, 1 x 1": (1, 1, HALF)}
+
+
+def measure(options, folder, name):
+    """(seconds per step, digest, share of message time hidden)"""
+    n_ranks, n_threads, patches = RUNS[name]
+    ranks.run(options.tamp, n_ranks,
+              [ranks.PUNCH / "table.json", "--set", "/grid/cell_size=0.005", *patches, "--set",
+               "/output/fields_interval=1", "--set", "/output/history_interval=1", "--steps", options.steps, "--threads",
+               n_threads, "--out", folder, "--force"])
+    summary = ranks.summary(folder)
+    profile = json.loads((folder / "profile.json").read_text())
+    hidden = 1 - profile["message_wait_s"] / profile["message_s"] if profile["messages"] else None
+    return summary["wall_per_step_s"], summary["state_digest"], hidden
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("--tamp", type=pathlib.Path, default=ranks.ROOT / "build/release/tamp")
+    parser.add_argument("--rounds", type=int, default=5)
+    parser.add_argument("--steps", type=int, default=300)
+    options = parser.parse_args()
+    found = {name: [] for name in RUNS}
+    with tempfile.TemporaryDirectory() as folder:
+        for _ in range(options.rounds):
+            for name in RUNS:
+                found[name].append(measure(options, pathlib.Path(folder) / "run", name))
+    step = {name: statistics.median(time for time, _, _ in rounds) for name, rounds in found.items()}
+    hidden = statistics.median(share for _, _, share in found["2 x 1"])
+    digests = {digest for name in ("1 x 1", "1 x 2", "2 x 1") for _, digest, _ in found[name]}
+    print("| ranks x threads | ms per step | strong efficiency | weak efficiency |\n| --- | --- | --- | --- |")
+    print(f"| 1 x 1 | {step['1 x 1'] * 1e3:.2f} | 1 | 1 (half: {step['half, 1 x 1'] * 1e3:.2f} ms) |")
+    for name in ("1 x 2", "2 x 1"):
+        print(f"| {name} | {step[name] * 1e3:.2f} | {step['1 x 1'] / step[name] / 2:.3f} "
+              f"| {step['half, 1 x 1'] / step[name]:.3f} |")
+    print(f"\nmessage time hidden behind tasks: {hidden:.3f}; digests: {', '.join(sorted(digests))}")
+    return 0 if len(digests) == 1 else 1
+
+
+if __name__ == "__main__":
+    sys.exit(main())
