@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cstring>
 #include <numeric>
 #include <optional>
 #include <utility>
@@ -15,6 +14,7 @@
 #include "runtime/grid/curve_order.hpp"
 #include "runtime/ranks/deal_patches.hpp"
 #include "runtime/ranks/load_balance.hpp"
+#include "tasks/common_failure.hpp"
 #include "tasks/engine.hpp"
 #include "tasks/field_columns.hpp"
 #include "tasks/fill_bodies.hpp"
@@ -69,7 +69,7 @@ class SimulationOf : public Simulation
     particles.store(engine_->warehouse);
     profiler_.emplace(engine_->step_schedule, engine_->step, n_threads(), n_traced_steps);
     forecast_bytes_ = sum_over_ranks(engine_->warehouse.forecast_bytes());
-    lost_.resize(static_cast<std::size_t>(engine_->layout.size()));
+    lost_.emplace(engine_->layout.size());
     totals_.stable_step = initial_stable_step();
   }
 
@@ -82,7 +82,7 @@ class SimulationOf : public Simulation
     engine_->warehouse.advance();
     if (engine_->step_schedule.recording) profiler_->add_step();
     take_totals();
-    take_lost();
+    lost_->take<D>(*engine_->step.migration(), engine_->layout, engine_->warehouse.n_groups());
     ++n_steps_;
     time_ = time_ + size >= end * (1 - 1e-14) ? end : time_ + size;
     last_step_size_ = size;
@@ -94,15 +94,10 @@ class SimulationOf : public Simulation
     return engine_->warehouse.result(particle_report);
   }
 
-  LostParticles lost() const override
+  LostParticles lost() override
   {
-    LostParticles sum;
-    for (const LostParticles& lost : lost_of_all_patches()) {
-      sum.count += lost.count;
-      sum.mass += lost.mass;
-      sum.momentum += lost.momentum;
-    }
-    return sum;
+    lost_->share(engine_->layout, communicator_);
+    return lost_->sum();
   }
 
   const runtime::TaskGraph& graph() const override { return engine_->step_graph; }
@@ -126,7 +121,8 @@ class SimulationOf : public Simulation
     own.add(last_step_size_);
     own.add(totals_);
     own.add(impulse_);
-    for (const LostParticles& lost : lost_of_all_patches()) own.add(lost);
+    lost_->share(engine_->layout, communicator_);
+    lost_->write(own);
     own.add_bytes(host);
     runtime::write_checkpoint(folder, {n_steps_, time_, fingerprint}, own.bytes(), engine_->warehouse,
                               material_names(scene_), keep, communicator_);
@@ -141,7 +137,7 @@ class SimulationOf : public Simulation
     own.read(last_step_size_);
     own.read(totals_);
     own.read(impulse_);
-    for (LostParticles& lost : lost_) own.read(lost);
+    lost_->read(own);
     return {own.rest().begin(), own.rest().end()};
   }
 
@@ -216,30 +212,7 @@ class SimulationOf : public Simulation
       own = error.cause;
     } catch (const runtime::OtherRankFailed&) {
     }
-    throw_first_failure(own);
-  }
-
-  /// All ranks come here when one has failed, and take the error of the first that has one of its own.
-  [[noreturn]] void throw_first_failure(const std::exception_ptr& own)
-  {
-    std::string text;
-    bool of_simulation = false;
-    try {
-      if (own != nullptr) std::rethrow_exception(own);
-    } catch (const SimulationError& error) {
-      text = error.what();
-      of_simulation = true;
-    } catch (const std::exception& error) {
-      text = error.what();
-    }
-    const std::vector<std::string> texts = communicator_.gather(text);
-    const std::vector<char> kinds = communicator_.gather_value(static_cast<char>(of_simulation));
-    const std::vector<long> steps = communicator_.gather_value(n_steps_);
-    const auto first = std::find_if(texts.begin(), texts.end(), [](const std::string& t) { return !t.empty(); });
-    const bool same_step = std::equal(steps.begin() + 1, steps.end(), steps.begin());
-    if (kinds[static_cast<std::size_t>(first - texts.begin())] != 0 && same_step)
-      throw SimulationError(*first, "", -1, {});
-    throw std::runtime_error(*first);
+    throw_common_failure(own, n_steps_, communicator_);
   }
 
   void check_failed_updates()
@@ -261,39 +234,6 @@ class SimulationOf : public Simulation
     totals_.combine(step);
     asked_ = step.host_requests;
     impulse_.combine(engine_->warehouse.result(grid_impulse));
-  }
-
-  /// Kept by patch, so that the sum over patches has the same bits for any ranks.
-  void take_lost()
-  {
-    runtime::Migration& migration = *engine_->step.migration();
-    for (const runtime::Patch& patch : engine_->layout) {
-      LostParticles& lost = lost_[static_cast<std::size_t>(patch.id)];
-      for (int g = 0; g < engine_->warehouse.n_groups(); ++g) {
-        if (migration.n_lost(patch.id, g) == 0) continue;
-        const auto mass = migration.lost(particle::mass, patch.id, g);
-        const auto velocity = migration.lost(particle::velocity<D>, patch.id, g);
-        lost.count += mass.size();
-        for (std::size_t p = 0; p < mass.size(); ++p) {
-          lost.mass += mass[p];
-          lost.momentum.template head<D>() += mass[p] * velocity[p];
-        }
-      }
-    }
-    migration.clear_lost();
-  }
-
-  /// Each patch's from the rank that it belongs to.
-  std::vector<LostParticles> lost_of_all_patches() const
-  {
-    std::vector<LostParticles> all = lost_;
-    const auto from_each = communicator_.gather(std::as_bytes(std::span(lost_)));
-    for (const runtime::Patch& patch : engine_->layout) {
-      const auto p = static_cast<std::size_t>(patch.id);
-      const auto& bytes = from_each[static_cast<std::size_t>(patch.rank)];
-      std::memcpy(static_cast<void*>(&all[p]), bytes.data() + p * sizeof(LostParticles), sizeof(LostParticles));
-    }
-    return all;
   }
 
   /// Looks at what the patches have cost since the last look, and deals them anew if that pays.
@@ -320,7 +260,7 @@ class SimulationOf : public Simulation
 
   void deal_anew(const std::vector<int>& ranks)
   {
-    lost_ = lost_of_all_patches();
+    lost_->share(engine_->layout, communicator_);
     runtime::PatchLayout layout = engine_->layout;
     layout.give_to_ranks(ranks, communicator_.size());
     auto engine = make_engine(layout);
@@ -335,7 +275,7 @@ class SimulationOf : public Simulation
   std::optional<runtime::Profiler> profiler_;
   FieldColumns<Interpolator> columns_;
   std::size_t forecast_bytes_ = 0;
-  std::vector<LostParticles> lost_;
+  std::optional<LostByPatch> lost_;
 };
 
 }  // namespace

@@ -13,19 +13,13 @@
 #include "runtime/ranks/communicator.hpp"
 #include "runtime/storage/checkpoint.hpp"
 #include "runtime/storage/field_columns.hpp"
+#include "tasks/lost_particles.hpp"
 #include "tasks/report.hpp"
 #include "tasks/scene.hpp"
 #include "tasks/step_totals.hpp"
 
 namespace tamp::tasks
 {
-
-/// Particles that left the domain through its open faces since the start.
-struct LostParticles {
-  std::size_t count = 0;
-  double mass = 0;
-  Eigen::Vector3d momentum = Eigen::Vector3d::Zero();
-};
 
 /// Patches dealt anew to the ranks before a step. An imbalance is the load of the busiest rank over the mean.
 struct Rebalance {
@@ -75,7 +69,7 @@ class Simulation
   /// One step, as long as stability allows and not past `end` [s].
   virtual void advance(double end) = 0;
   virtual ParticleReport report() = 0;
-  virtual LostParticles lost() const = 0;
+  virtual LostParticles lost() = 0;
 
   virtual const runtime::TaskGraph& graph() const = 0;
   /// This rank's.

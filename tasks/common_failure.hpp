@@ -1,0 +1,16 @@
+#pragma once
+
+#include <exception>
+
+#include "runtime/ranks/communicator.hpp"
+
+namespace tamp::tasks
+{
+
+/// Throws on all ranks what the first of them that has an error of its own (`own`, else null) has: a SimulationError if
+/// it is one and all are at the same step, so that there is a common last good state; else std::runtime_error.
+/// Collective, of ranks that have stopped in the middle of a step.
+[[noreturn]] void throw_common_failure(const std::exception_ptr& own, long step,
+                                       const runtime::Communicator& communicator);
+
+}  // namespace tamp::tasks
