@@ -1,0 +1,143 @@
+#include "runtime/graph/step_builder.hpp"
+
+#include <utility>
+
+namespace tamp::runtime
+{
+
+int StepBuilder::add(Instance fresh)
+{
+  step_.instances.push_back(std::move(fresh));
+  return static_cast<int>(step_.instances.size()) - 1;
+}
+
+int StepBuilder::add_on_patch(InstanceKind kind, int declaration, int patch, int group)
+{
+  Instance fresh;
+  fresh.kind = kind;
+  fresh.declaration = declaration;
+  fresh.patch = patch;
+  fresh.group = group;
+  fresh.rank = layout_[patch].rank;
+  return add(std::move(fresh));
+}
+
+int StepBuilder::add_on_rank(InstanceKind kind, int declaration, int rank)
+{
+  Instance fresh;
+  fresh.kind = kind;
+  fresh.declaration = declaration;
+  fresh.rank = rank;
+  return add(std::move(fresh));
+}
+
+void StepBuilder::edge(int from, int to, const Label* label, int halo, std::size_t bytes, int message)
+{
+  if (from != to) step_.edges.push_back({from, to, label, halo, bytes, message});
+}
+
+bool StepBuilder::crosses(const Transfer& t)
+{
+  return layout_[t.part.from_patch].rank != instance(t.consumer).rank;
+}
+
+void StepBuilder::transfer(const Transfer& t)
+{
+  if (!crosses(t)) {
+    if (t.producer >= 0) edge(t.producer, t.consumer, t.part.label, t.halo, t.bytes);
+    return;
+  }
+  const int m = message_for(t);
+  Message& message = step_.messages[static_cast<std::size_t>(m)];
+  message.parts.push_back(t.part);
+  message.consumers.push_back(t.consumer);
+  if (t.producer >= 0) edge(t.producer, message.send, t.part.label, t.halo, t.bytes, m);
+  edge(message.receive, t.consumer, t.part.label, t.halo, t.bytes, m);
+}
+
+int StepBuilder::copier(const Transfer& t)
+{
+  return crosses(t) ? step_.messages[static_cast<std::size_t>(message_for(t))].send : t.consumer;
+}
+
+/// The one message from rank to rank for the purpose of a transfer.
+int StepBuilder::message_for(const Transfer& t)
+{
+  const int from = layout_[t.part.from_patch].rank;
+  const int to = instance(t.consumer).rank;
+  const InstanceKind purpose = instance(t.consumer).kind;
+  const bool of_one_label = purpose == InstanceKind::fill_halo || purpose == InstanceKind::combine;
+  const MessageKey key{purpose, of_one_label ? t.part.label : nullptr, t.maker, from, to};
+  const auto [found, fresh] = messages_.try_emplace(key, static_cast<int>(step_.messages.size()));
+  if (fresh) {
+    const int consumed_by = instance(t.consumer).declaration;
+    Message message{purpose, from, to, 0, 0, {}, {}, 0};
+    message.send = add_on_rank(InstanceKind::send_message, t.maker >= 0 ? t.maker : consumed_by, from);
+    message.receive = add_on_rank(InstanceKind::receive_message, consumed_by, to);
+    for (const int end : {message.send, message.receive}) instance(end).message = found->second;
+    edge(message.send, message.receive, t.part.label, t.halo, 0, found->second);
+    step_.messages.push_back(std::move(message));
+  }
+  return found->second;
+}
+
+IndexBox StepBuilder::box_of(const Label& label, int patch, int halo) const
+{
+  return grown(label.centring() == Centring::node ? layout_[patch].nodes : layout_[patch].cells, halo,
+               layout_.grid().dimension);
+}
+
+std::size_t StepBuilder::bytes_of(const Label& label, const IndexBox& box)
+{
+  return static_cast<std::size_t>(box.size()) * label.value_bytes();
+}
+
+CompiledStep StepBuilder::finish()
+{
+  keep_versions_apart();
+  measure_messages();
+  return std::move(step_);
+}
+
+/// Several versions of a label come into the same copies of the other rank's patches: one is used before the next.
+void StepBuilder::keep_versions_apart()
+{
+  for (const auto& [key, earlier] : messages_) {
+    const auto& [purpose, label, maker, from, to] = key;
+    if (purpose != InstanceKind::fill_halo || maker < 0) continue;
+    for (auto next = messages_.upper_bound(MessageKey{purpose, label, maker, from, to}); next != messages_.end();
+         ++next) {
+      const auto& [next_purpose, next_label, next_maker, next_from, next_to] = next->first;
+      if (next_purpose != purpose || next_label != label) break;
+      if (next_maker == maker || next_from != from || next_to != to) continue;
+      const int receive = step_.messages[static_cast<std::size_t>(next->second)].receive;
+      for (const int user : step_.messages[static_cast<std::size_t>(earlier)].consumers)
+        edge(user, receive, label, 0, 0);
+    }
+  }
+}
+
+/// Halos may have grown with later readers: only at the end is it known how much of a patch goes along.
+void StepBuilder::measure_messages()
+{
+  for (Message& message : step_.messages) {
+    if (message.purpose != InstanceKind::receive_particles) measure(message);
+  }
+}
+
+void StepBuilder::measure(Message& message)
+{
+  for (std::size_t k = 0; k < message.parts.size(); ++k) {
+    MessagePart& part = message.parts[k];
+    if (message.purpose == InstanceKind::combine) {
+      message.bytes += part.label->value_bytes();
+      continue;
+    }
+    const int halo = instance(message.consumers[k]).halo;
+    const int given = message.purpose == InstanceKind::sum_halo ? halo : 0;
+    part.box = intersection(box_of(*part.label, part.to_patch, halo), box_of(*part.label, part.from_patch, given));
+    message.bytes += bytes_of(*part.label, part.box);
+  }
+}
+
+}  // namespace tamp::runtime
