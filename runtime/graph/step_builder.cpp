@@ -92,37 +92,13 @@ std::size_t StepBuilder::bytes_of(const Label& label, const IndexBox& box)
   return static_cast<std::size_t>(box.size()) * label.value_bytes();
 }
 
+/// Halos may have grown with later readers: only now is it known how much of a patch goes along.
 CompiledStep StepBuilder::finish()
-{
-  keep_versions_apart();
-  measure_messages();
-  return std::move(step_);
-}
-
-/// Several versions of a label come into the same copies of the other rank's patches: one is used before the next.
-void StepBuilder::keep_versions_apart()
-{
-  for (const auto& [key, earlier] : messages_) {
-    const auto& [purpose, label, maker, from, to] = key;
-    if (purpose != InstanceKind::fill_halo || maker < 0) continue;
-    for (auto next = messages_.upper_bound(MessageKey{purpose, label, maker, from, to}); next != messages_.end();
-         ++next) {
-      const auto& [next_purpose, next_label, next_maker, next_from, next_to] = next->first;
-      if (next_purpose != purpose || next_label != label) break;
-      if (next_maker == maker || next_from != from || next_to != to) continue;
-      const int receive = step_.messages[static_cast<std::size_t>(next->second)].receive;
-      for (const int user : step_.messages[static_cast<std::size_t>(earlier)].consumers)
-        edge(user, receive, label, 0, 0);
-    }
-  }
-}
-
-/// Halos may have grown with later readers: only at the end is it known how much of a patch goes along.
-void StepBuilder::measure_messages()
 {
   for (Message& message : step_.messages) {
     if (message.purpose != InstanceKind::receive_particles) measure(message);
   }
+  return std::move(step_);
 }
 
 void StepBuilder::measure(Message& message)

@@ -62,8 +62,6 @@ class StepBuilder
   int add(Instance fresh);
   bool crosses(const Transfer& transfer);
   int message_for(const Transfer& transfer);
-  void keep_versions_apart();
-  void measure_messages();
   void measure(Message& message);
 
   const PatchLayout& layout_;

@@ -196,4 +196,33 @@ TEST_CASE("the dump has every instance and every edge", "[graph]")
   CHECK(std::count(dot.begin(), dot.end(), '\n') > static_cast<long>(graph.instances().size()));
 }
 
+TEST_CASE("what one rank needs of another for one purpose is one message, sent as soon as its data are there",
+          "[graph]")
+{
+  PatchLayout layout(line, {4, 1, 1});
+  layout.give_to_ranks({0, 0, 1, 1}, 2);
+  const TaskGraph graph({gather(1), move(1)}, layout, {"only"}, host);
+
+  // Patches 1 and 2 touch: each rank sends the part of the other's seam.
+  REQUIRE(graph.messages().size() == 2);
+  for (const Message& message : graph.messages()) {
+    CHECK(message.purpose == InstanceKind::sum_halo);
+    CHECK(message.parts.size() == 1);
+    CHECK(message.bytes ==
+          message.parts[0].label->value_bytes() * static_cast<std::size_t>(message.parts[0].box.size()));
+    const Instance& send = graph.instances()[static_cast<std::size_t>(message.send)];
+    CHECK(send.rank == message.from_rank);
+    REQUIRE(send.predecessors.size() == 1);
+    CHECK(graph.instances()[static_cast<std::size_t>(send.predecessors[0])].patch == message.parts[0].from_patch);
+    const Instance& receive = graph.instances()[static_cast<std::size_t>(message.receive)];
+    CHECK(receive.rank == message.to_rank);
+    CHECK(receive.predecessors == std::vector<int>{message.send});
+  }
+  for (const Edge& edge : graph.edges()) {
+    const Instance& from = graph.instances()[static_cast<std::size_t>(edge.from)];
+    const Instance& to = graph.instances()[static_cast<std::size_t>(edge.to)];
+    CHECK((from.rank == to.rank || (edge.message >= 0 && from.kind == InstanceKind::send_message)));
+  }
+}
+
 }  // namespace tamp::runtime

@@ -20,6 +20,7 @@ const ParticleLabel<Point> place{"place"};
 const ParticleLabel<double> warmth{"warmth"};
 const NodeLabel<double> heat{"heat"};
 const CellLabel<double> smooth{"smooth"};
+const CellLabel<double> edges{"edges"};
 const CellLabel<double> smoother{"smoother"};
 
 struct Sum {
@@ -58,6 +59,23 @@ std::vector<TaskDeclaration> wandering()
               now[i] = sum / 3;
             });
           });
+  // What has been sent is changed where it came from, in the same step.
+  auto sharpen = task("sharpen").over_patches_and_groups().reads(edges).updates(smooth).body(
+      [](const TaskContext& at, GridView<const double> e, GridView<double> s) {
+        for_each(at.patch.cells, [&](const Index& i) { s[i] += 0.25 * e[i]; });
+      });
+  auto find_edges = task("find edges")
+                        .over_patches_and_groups()
+                        .reads(smooth.halo(1))
+                        .computes(edges)
+                        .body([](const TaskContext& at, GridView<const double> s, GridView<double> e) {
+                          const IndexBox all = at.layout.grid().cells();
+                          for_each(at.patch.cells, [&](const Index& i) {
+                            e[i] = 0;
+                            for_each(intersection(grown(IndexBox{i, {i[0] + 1, i[1] + 1, 1}}, 1, 2), all),
+                                     [&](const Index& j) { e[i] += s[i] - s[j]; });
+                          });
+                        });
   auto average_again = task("average again")
                            .over_patches_and_groups()
                            .reads(smooth.halo(1))
@@ -75,7 +93,7 @@ std::vector<TaskDeclaration> wandering()
   auto wander =
       task("wander")
           .over_patches_and_groups()
-          .reads(smoother, total, place.previous(), warmth.previous())
+          .reads(smooth, total, place.previous(), warmth.previous())
           .computes(place, warmth)
           .body([](const TaskContext& at, GridView<const double> s, const Sum& sum, std::span<const Point> old,
                    std::span<const double> was, std::span<Point> now, std::span<double> is) {
@@ -87,7 +105,7 @@ std::vector<TaskDeclaration> wandering()
               for (std::size_t k = 0; k < 2; ++k) now[p][k] = std::clamp(now[p][k], 0.01, n[k] - 0.01);
             }
           });
-  return {warm, average, average_again, wander, migration(place, total)};
+  return {warm, average, find_edges, average_again, sharpen, wander, migration(place, total)};
 }
 
 struct World {
