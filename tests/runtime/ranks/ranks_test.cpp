@@ -60,10 +60,14 @@ std::vector<TaskDeclaration> wandering()
             });
           });
   // What has been sent is changed where it came from, in the same step.
-  auto sharpen = task("sharpen").over_patches_and_groups().reads(edges).updates(smooth).body(
-      [](const TaskContext& at, GridView<const double> e, GridView<double> s) {
-        for_each(at.patch.cells, [&](const Index& i) { s[i] += 0.25 * e[i]; });
-      });
+  auto sharpen =
+      task("sharpen")
+          .over_patches_and_groups()
+          .reads(edges, smoother)
+          .updates(smooth)
+          .body([](const TaskContext& at, GridView<const double> e, GridView<const double> t, GridView<double> s) {
+            for_each(at.patch.cells, [&](const Index& i) { s[i] += 0.25 * e[i] - 0.5 * t[i]; });
+          });
   auto find_edges = task("find edges")
                         .over_patches_and_groups()
                         .reads(smooth.halo(1))
