@@ -63,6 +63,11 @@ void Warehouse::reserve_copies(const TaskGraph& graph)
     for (const MessagePart& part : message.parts) {
       Field& f = field(*part.label, part.from_patch, part.group);
       f.buffer(part.buffer).reserve(f.n_bytes());
+      // The two buffers of a state change places with every step.
+      if (f.state && !f.carried) {
+        f.previous_buffer.reserve(f.n_bytes());
+        f.current_buffer.reserve(f.n_bytes());
+      }
     }
   }
 }

@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cstring>
 
-#include "runtime/execute/halo.hpp"
-
 namespace tamp::runtime
 {
 
@@ -39,10 +37,33 @@ BoundGraph::BoundGraph(const TaskGraph& graph, Warehouse& warehouse, const Commu
 
 BoundGraph::Bound BoundGraph::bind(const Instance& instance)
 {
+  if (instance.rank != rank_) return {};
+  switch (instance.kind) {
+    case InstanceKind::body:
+      return bind_body(instance);
+    case InstanceKind::sum_halo:
+    case InstanceKind::fill_halo:
+      return bind_halos(instance);
+    case InstanceKind::combine:
+      return bind_reduction(*instance.labels.front());
+    default:
+      return {};
+  }
+}
+
+BoundGraph::Bound BoundGraph::bind_halos(const Instance& instance)
+{
+  const auto bind_halo = instance.kind == InstanceKind::sum_halo ? bind_halo_sum : bind_halo_fill;
   Bound bound;
-  if (instance.rank != rank_) return bound;
-  if (instance.kind == InstanceKind::combine) return bind_reduction(*instance.labels.front());
-  if (instance.kind != InstanceKind::body) return bound;
+  for (const Label* label : instance.labels) {
+    bound.halos.push_back(bind_halo(warehouse_, *label, instance.patch, instance.group, instance.halo));
+  }
+  return bound;
+}
+
+BoundGraph::Bound BoundGraph::bind_body(const Instance& instance)
+{
+  Bound bound;
   const PatchLayout& layout = graph_.layout();
   const Patch& patch = layout[instance.patch];
   const auto& accesses = graph_.declaration(instance).accesses;
@@ -103,13 +124,10 @@ void BoundGraph::run(int i, const Step& step)
       break;
     }
     case InstanceKind::sum_halo:
-      for (const Label* label : instance.labels) {
-        sum_halo(warehouse_, *label, instance.patch, instance.group, instance.halo);
-      }
+      for (const BoundHalo& halo : bound.halos) sum_halo(halo);
       break;
     case InstanceKind::fill_halo:
-      fill_halo(warehouse_, *instance.labels.front(), instance.patch, instance.group, instance.halo,
-                instance.of_previous_step ? FieldBuffer::previous : FieldBuffer::current);
+      fill_halo(bound.halos.front(), instance.of_previous_step ? FieldBuffer::previous : FieldBuffer::current);
       break;
     case InstanceKind::combine:
       combine(bound);

@@ -5,6 +5,7 @@
 
 #include "runtime/data/warehouse.hpp"
 #include "runtime/execute/exchange.hpp"
+#include "runtime/execute/halo.hpp"
 #include "runtime/execute/migration.hpp"
 #include "runtime/execute/work.hpp"
 #include "runtime/graph/task_graph.hpp"
@@ -47,11 +48,15 @@ class BoundGraph final : public Work
   struct Bound {
     std::vector<Field*> fields;
     std::vector<BoundArgument> arguments;
+    /// One for each label.
+    std::vector<BoundHalo> halos;
     bool uses_particles = false;
   };
 
   const Instance& at(int instance) const { return graph_.instances()[static_cast<std::size_t>(instance)]; }
   Bound bind(const Instance& instance);
+  Bound bind_body(const Instance& instance);
+  Bound bind_halos(const Instance& instance);
   void prepare(const Instance& instance, const Bound& bound);
   Bound bind_reduction(const Label& label);
   static void combine(const Bound& bound);

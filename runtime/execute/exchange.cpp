@@ -65,6 +65,7 @@ void Exchange::open_line(Line& line, int message)
   line.bytes.resize(header_bytes + m.bytes);
   const int n = static_cast<int>(line.bytes.size());
   if (incoming) {
+    line.incoming_request = requests_.size();
     MPI_Recv_init(line.bytes.data(), n, MPI_BYTE, m.from_rank, message, communicator_.handle(),
                   &requests_.emplace_back());
     message_of_request_.push_back(message);
@@ -116,8 +117,7 @@ void Exchange::receive(int message)
   if (of_particles(*line.message)) {
     line.open = true;
   } else {
-    const auto found = std::find(message_of_request_.begin(), message_of_request_.end(), message);
-    MPI_Start(&requests_[static_cast<std::size_t>(found - message_of_request_.begin())]);
+    MPI_Start(&requests_[line.incoming_request]);
   }
 }
 

@@ -41,6 +41,25 @@ void for_each_row(const IndexBox& box, const Field& a, const Field& b, const Row
   for_each_row(box, [&](int j, int k) { row(row_offset(a, box, j, k), row_offset(b, box, j, k), row_bytes(a, box)); });
 }
 
+/// What of `a` lies outside of `b`, in boxes that do not overlap.
+std::vector<IndexBox> difference(IndexBox a, const IndexBox& b)
+{
+  std::vector<IndexBox> pieces;
+  const auto add = [&](const IndexBox& piece) {
+    if (!piece.empty()) pieces.push_back(piece);
+  };
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    IndexBox below = a, above = a;
+    below.upper[axis] = std::min(a.upper[axis], b.lower[axis]);
+    above.lower[axis] = std::max(a.lower[axis], b.upper[axis]);
+    add(below);
+    add(above);
+    a.lower[axis] = std::max(a.lower[axis], b.lower[axis]);
+    a.upper[axis] = std::min(a.upper[axis], b.upper[axis]);
+  }
+  return pieces;
+}
+
 IndexBox patch_box(const Label& label, const Patch& patch)
 {
   return label.centring() == Centring::node ? patch.nodes : patch.cells;
@@ -48,45 +67,56 @@ IndexBox patch_box(const Label& label, const Patch& patch)
 
 }  // namespace
 
-void sum_halo(Warehouse& warehouse, const Label& label, int patch, int group, int halo)
+BoundHalo bind_halo_sum(Warehouse& warehouse, const Label& label, int patch, int group, int halo)
 {
   const PatchLayout& layout = warehouse.layout();
-  const int dimension = layout.grid().dimension;
-  Field& total = warehouse.field(label, patch, group);
-  std::memset(total.current_buffer.data(), 0, total.n_bytes());
-
-  const IndexBox box = grown(patch_box(label, layout[patch]), halo, dimension);
-  const auto add_part = [&](int from) {
-    const Field& part = warehouse.field(label, from, group);
-    const IndexBox shared = intersection(box, grown(patch_box(label, layout[from]), halo, dimension));
-    for_each_row(shared, total, part, [&](std::size_t to_offset, std::size_t from_offset, std::size_t bytes) {
-      auto* into = reinterpret_cast<double*>(total.current_buffer.data() + to_offset);
-      const auto* add = reinterpret_cast<const double*>(part.part_buffer.data() + from_offset);
-      for (std::size_t i = 0; i < bytes / sizeof(double); ++i) into[i] += add[i];
-    });
-  };
-  const auto& neighbours = layout[patch].neighbours;
-  const auto higher = std::upper_bound(neighbours.begin(), neighbours.end(), patch);
-  std::for_each(neighbours.begin(), higher, add_part);
-  add_part(patch);
-  std::for_each(higher, neighbours.end(), add_part);
+  const auto box_of = [&](int p) { return grown(patch_box(label, layout[p]), halo, layout.grid().dimension); };
+  std::vector<int> sources = layout[patch].neighbours;
+  sources.insert(std::upper_bound(sources.begin(), sources.end(), patch), patch);
+  BoundHalo bound{&warehouse.field(label, patch, group), {}};
+  for (const int from : sources) {
+    bound.parts.push_back({&warehouse.field(label, from, group), intersection(box_of(patch), box_of(from))});
+  }
+  return bound;
 }
 
-void fill_halo(Warehouse& warehouse, const Label& label, int patch, int group, int halo, FieldBuffer buffer)
+void sum_halo(const BoundHalo& halo)
+{
+  std::byte* const sums = halo.to->current_buffer.data();
+  std::memset(sums, 0, halo.to->n_bytes());
+  for (const auto& [from, box] : halo.parts) {
+    const std::byte* const values = from->part_buffer.data();
+    for_each_row(box, *halo.to, *from, [&](std::size_t to_offset, std::size_t from_offset, std::size_t bytes) {
+      auto* into = reinterpret_cast<double*>(sums + to_offset);
+      const auto* add = reinterpret_cast<const double*>(values + from_offset);
+      for (std::size_t i = 0; i < bytes / sizeof(double); ++i) into[i] += add[i];
+    });
+  }
+}
+
+BoundHalo bind_halo_fill(Warehouse& warehouse, const Label& label, int patch, int group, int halo)
 {
   const PatchLayout& layout = warehouse.layout();
-  Field& to = warehouse.field(label, patch, group);
   const IndexBox own = patch_box(label, layout[patch]);
   const IndexBox box = grown(own, halo, layout.grid().dimension);
+  BoundHalo bound{&warehouse.field(label, patch, group), {}};
   for (const int other : layout[patch].neighbours) {
     const Field& from = warehouse.field(label, other, group);
-    // Seam nodes are both patches' own: a row is copied only where it lies outside of this patch.
-    for_each(intersection(box, patch_box(label, layout[other])), [&](const Index& i) {
-      if (own.contains(i)) return;
-      for_each_row(IndexBox{i, {i[0] + 1, i[1] + 1, i[2] + 1}}, to, from,
-                   [&](std::size_t to_offset, std::size_t from_offset, std::size_t bytes) {
-                     std::memcpy(to.buffer(buffer).data() + to_offset, from.buffer(buffer).data() + from_offset, bytes);
-                   });
+    // Seam nodes are both patches' own, and stay as they are.
+    for (const IndexBox& piece : difference(intersection(box, patch_box(label, layout[other])), own)) {
+      bound.parts.push_back({&from, piece});
+    }
+  }
+  return bound;
+}
+
+void fill_halo(const BoundHalo& halo, FieldBuffer buffer)
+{
+  std::byte* const to = halo.to->buffer(buffer).data();
+  for (const auto& [from, box] : halo.parts) {
+    const std::byte* const values = from->buffer(buffer).data();
+    for_each_row(box, *halo.to, *from, [&](std::size_t to_offset, std::size_t from_offset, std::size_t bytes) {
+      std::memcpy(to + to_offset, values + from_offset, bytes);
     });
   }
 }

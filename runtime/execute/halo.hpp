@@ -1,16 +1,34 @@
 #pragma once
 
+#include <vector>
+
 #include "runtime/data/warehouse.hpp"
 
 namespace tamp::runtime
 {
 
-/// Adds the parts of a patch and its neighbours, in the order of their ids, into the current values of `label` on the
-/// patch with `halo` layers: the same sums on both sides of every seam, bit for bit.
-void sum_halo(Warehouse& warehouse, const Label& label, int patch, int group, int halo);
+/// A field of a patch and what it takes from its own and others' fields, looked up once.
+struct BoundHalo {
+  struct Part {
+    const Field* from;
+    IndexBox box;
+  };
 
-/// Copies neighbours' values into the `halo` layers around a patch.
-void fill_halo(Warehouse& warehouse, const Label& label, int patch, int group, int halo, FieldBuffer buffer);
+  Field* to;
+  std::vector<Part> parts;
+};
+
+/// For the values of a patch with `halo` layers: the parts of the patch and its neighbours, in the order of their ids.
+BoundHalo bind_halo_sum(Warehouse& warehouse, const Label& label, int patch, int group, int halo);
+
+/// Adds all parts into the current values: the same sums on both sides of every seam, bit for bit.
+void sum_halo(const BoundHalo& halo);
+
+/// For the `halo` layers around a patch: the neighbours' values.
+BoundHalo bind_halo_fill(Warehouse& warehouse, const Label& label, int patch, int group, int halo);
+
+/// Copies the values.
+void fill_halo(const BoundHalo& halo, FieldBuffer buffer);
 
 /// Copies what a field holds in `box` (all of a reduction) to bytes in a row; returns the end of them.
 std::byte* copy_out(const Field& field, FieldBuffer buffer, const IndexBox& box, std::byte* to);

@@ -29,11 +29,15 @@ struct TaskOptions {
   int n_rounds = 15;
   /// After this no further round begins: where others use the cores, schedulers that spin may take very long.
   std::chrono::seconds patience{50};
+  /// On one rank.
   std::vector<int> n_threads{1, 2};
+  /// Between ranks; a multiple of 8.
+  int message_bytes = 1024;
 };
 
 /// What a task costs with TAMP's executor and with others, after Task Bench (Slaughter et al., SC 2020): overhead per
-/// task with an empty body, and METG(50 %), the granularity at which half of the time is work.
+/// task with an empty body, and METG(50 %), the granularity at which half of the time is work. On several ranks it is
+/// the exchange between them that is measured, with one thread each; collective.
 Result tasks(const TaskOptions& options);
 
 }  // namespace tamp::tools::bench

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <optional>
 
 #include "tools/bench/tasks_metg.hpp"
@@ -30,7 +31,19 @@ struct TaskFigures {
 /// Cores of a virtual machine may turn into siblings of one core and back at any time.
 constexpr double most_drift = 0.1;
 
+/// Tasks whose length can be set.
+struct TaskSubject {
+  /// Time of all cores per task [ns] with so many iterations of the kernel in each.
+  std::function<double(int kernel_iterations)> granularity;
+  /// Of the kernel alone on all these cores at once, per iteration [ns].
+  std::function<double()> kernel_ns;
+};
+
+TaskFigures measure_tasks(const TaskSubject& subject);
 /// Throws std::logic_error if the contestant runs a task before what it reads.
 TaskFigures measure_tasks(const TaskContest& contest);
+
+/// The median time of a run [ns] in batches of runs, where `run_ns(n_runs)` gives the time of each of so many.
+double steady_run_ns(const std::function<double(int n_runs)>& run_ns);
 
 }  // namespace tamp::tools::bench

@@ -6,6 +6,7 @@
 #include <map>
 #include <memory>
 
+#include "runtime/ranks/communicator.hpp"
 #include "runtime/storage/whole_file.hpp"
 #include "tools/commands/commands.hpp"
 #include "tools/errors.hpp"
@@ -34,19 +35,37 @@ const std::map<std::string, Benchmark>& benchmarks()
   return all;
 }
 
+/// Those asked for, or all that there are for so many ranks.
+std::vector<std::string> names_of(const Options& options, int n_ranks)
+{
+  if (n_ranks > 1) {
+    for (const std::string& name : options.names) {
+      if (name != "tasks") throw InputError({name, "started on several ranks", "expected one, or the benchmark tasks"});
+    }
+    return {"tasks"};
+  }
+  if (!options.names.empty()) return options.names;
+  std::vector<std::string> names;
+  for (const auto& [name, benchmark] : benchmarks()) names.push_back(name);
+  return names;
+}
+
 void run_benchmarks(const Options& options)
 {
-  std::vector<std::string> names = options.names;
-  if (names.empty()) {
-    for (const auto& [name, benchmark] : benchmarks()) names.push_back(name);
-  }
+  const auto ranks = runtime::Communicator::world();
   nlohmann::ordered_json json;
-  for (const std::string& name : names) {
+  for (const std::string& name : names_of(options, ranks.size())) {
     const bench::Result result = benchmarks().at(name)(options);
-    fmt::print("{}", result.text);
+    if (ranks.is_first()) fmt::print("{}", result.text);
     json[name] = result.json;
   }
-  if (!options.json.empty()) runtime::write_whole_file(options.json, json.dump(2) + "\n");
+  if (ranks.is_first() && !options.json.empty()) runtime::write_whole_file(options.json, json.dump(2) + "\n");
+}
+
+/// What is wrong with a number of bytes that is to hold whole values.
+std::string multiple_of_8(const std::string& bytes)
+{
+  return std::stoi(bytes) % 8 == 0 ? "" : bytes + " is no multiple of 8";
 }
 
 }  // namespace
@@ -67,6 +86,11 @@ CLI::App* add_bench_command(CLI::App& app)
       ->delimiter(',')
       ->allow_extra_args(false)
       ->check(CLI::PositiveNumber);
+  command
+      ->add_option("--message-bytes", options->tasks.message_bytes,
+                   "of tasks on several ranks: data that one sends to the next in a step, a multiple of 8")
+      ->check(CLI::Range(8, 1 << 20))
+      ->check(CLI::Validator(multiple_of_8, ""));
   command->callback([options] { run_benchmarks(*options); });
   return command;
 }

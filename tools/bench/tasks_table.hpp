@@ -1,0 +1,29 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "tools/bench/bench.hpp"
+#include "tools/bench/tasks_measurement.hpp"
+
+namespace tamp::tools::bench
+{
+
+/// One scheduler on one pattern, with what its rounds found.
+struct TaskRow {
+  std::string scheduler;
+  std::string pattern;
+  int ranks = 1;
+  /// Of each rank.
+  int threads = 1;
+  /// Data of a message from rank to rank; 0 where there are none.
+  int message_bytes = 0;
+  std::vector<double> overhead_ns{}, metg50_us{}, calibration_ns{};
+  int n_discarded = 0;
+
+  void add(const TaskFigures& figures);
+};
+
+Result task_table(const std::string& title, const std::vector<TaskRow>& rows);
+
+}  // namespace tamp::tools::bench
