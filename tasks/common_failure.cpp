@@ -26,6 +26,8 @@ Failure told(const std::exception_ptr& error)
     return {simulation_error.what(), true};
   } catch (const std::exception& other) {
     return {other.what(), false};
+  } catch (...) {
+    return {"unknown exception", false};
   }
 }
 
@@ -38,6 +40,7 @@ void throw_common_failure(const std::exception_ptr& own, long step, const runtim
   const std::vector<char> of_simulation = communicator.gather_value(static_cast<char>(failure.of_simulation));
   const std::vector<long> steps = communicator.gather_value(step);
   const auto first = std::find_if(texts.begin(), texts.end(), [](const std::string& text) { return !text.empty(); });
+  if (first == texts.end()) throw std::runtime_error("another rank has failed");
   const bool same_step = std::all_of(steps.begin(), steps.end(), [&](long other) { return other == steps.front(); });
   if (same_step && of_simulation[static_cast<std::size_t>(first - texts.begin())] != 0) {
     throw SimulationError(*first, "", -1, {});

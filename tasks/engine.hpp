@@ -1,7 +1,9 @@
 #pragma once
 
 #include <array>
+#include <functional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "runtime/execute/bound_graph.hpp"
@@ -20,11 +22,12 @@ template <class Interpolator>
 class Engine
 {
  public:
-  /// Collective.
+  /// A step that is not `accepted` leaves the state before it whole. Collective.
   Engine(const Method<Interpolator>& method, const std::vector<std::string>& material_names,
-         const runtime::PatchLayout& dealt, const runtime::Communicator& communicator, int n_workers)
+         const runtime::PatchLayout& dealt, const runtime::Communicator& communicator, int n_workers,
+         std::function<bool(const StepTotals&)> accepted)
       : layout(dealt),
-        step_graph(time_step(method), layout, material_names, host_data<Interpolator>()),
+        step_graph(time_step(method, std::move(accepted)), layout, material_names, host_data<Interpolator>()),
         report_graph(report_tasks(method), layout, material_names,
                      {host_data<Interpolator>().state, {&particle_report}}),
         warehouse(std::array<const runtime::TaskGraph*, 2>{&step_graph, &report_graph}, communicator.rank()),

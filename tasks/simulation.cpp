@@ -155,7 +155,14 @@ class SimulationOf : public Simulation
  private:
   std::unique_ptr<Engine<Interpolator>> make_engine(const runtime::PatchLayout& layout)
   {
-    return std::make_unique<Engine<Interpolator>>(method_, material_names(scene_), layout, communicator_, n_threads());
+    return std::make_unique<Engine<Interpolator>>(method_, material_names(scene_), layout, communicator_, n_threads(),
+                                                  [this](const StepTotals& step) { return accepts(step); });
+  }
+
+  bool accepts(const StepTotals& step) const
+  {
+    const std::size_t failures = totals_.updates.failures + step.updates.failures;
+    return failures <= static_cast<std::size_t>(scene_.failed_updates_allowed);
   }
 
   std::size_t sum_over_ranks(std::size_t own) const
@@ -212,14 +219,14 @@ class SimulationOf : public Simulation
       own = error.cause;
     } catch (const runtime::OtherRankFailed&) {
     }
-    throw_common_failure(own, n_steps_, communicator_);
+    throw_common_failure(own, n_steps_, after_failure_);
   }
 
   void check_failed_updates()
   {
     const StepTotals& step = engine_->warehouse.result(step_totals);
+    if (accepts(step)) return;
     const std::size_t failures = totals_.updates.failures + step.updates.failures;
-    if (failures <= static_cast<std::size_t>(scene_.failed_updates_allowed)) return;
     const FailedUpdate& failed = step.failed;
     throw SimulationError(fmt::format("{}; {} stress updates have failed, {} are allowed", failed.reason(), failures,
                                       scene_.failed_updates_allowed),
@@ -241,6 +248,7 @@ class SimulationOf : public Simulation
   {
     if (balance_interval_ == 0 || communicator_.size() == 1 || n_steps_ == 0 || n_steps_ % balance_interval_ != 0)
       return;
+    const auto watch = executor_->watch("dealing patches anew");
     const std::vector<double> own = profiler_->take_patch_costs();
     std::vector<double> costs(own.size(), 0.0);
     for (const auto& bytes : communicator_.gather(std::as_bytes(std::span(own)))) {
@@ -271,6 +279,8 @@ class SimulationOf : public Simulation
   }
 
   Method<Interpolator> method_;
+  /// Ranks that failed at different places meet here, where no other messages are.
+  runtime::Communicator after_failure_ = communicator_.duplicate();
   std::unique_ptr<Engine<Interpolator>> engine_;
   std::optional<runtime::Profiler> profiler_;
   FieldColumns<Interpolator> columns_;

@@ -58,7 +58,7 @@ class Simulation
   /// What the grid gave to the particles since the start [N s].
   const GridImpulse& impulse() const { return impulse_; }
 
-  /// Bits that this rank tells all ranks with the next step; not collective.
+  /// Bits that this rank tells all ranks with the next step; not collective. A rank without patches is not heard.
   void ask(unsigned requests) { requests_ |= requests; }
   /// What any rank asked for in the last step.
   unsigned asked() const { return asked_; }

@@ -7,7 +7,8 @@ namespace tamp::tasks
 {
 
 template <class Interpolator>
-std::vector<runtime::TaskDeclaration> time_step(const Method<Interpolator>& method)
+std::vector<runtime::TaskDeclaration> time_step(const Method<Interpolator>& method,
+                                                std::function<bool(const StepTotals&)> accepted)
 {
   std::vector<runtime::TaskDeclaration> step;
   step.push_back(particles_to_grid(method));
@@ -18,7 +19,7 @@ std::vector<runtime::TaskDeclaration> time_step(const Method<Interpolator>& meth
   for (int material = 0; material < static_cast<int>(method.materials.size()); ++material) {
     step.push_back(update_stress(method, material));
   }
-  step.push_back(runtime::migration(particle::position<Interpolator::dimension>, step_totals));
+  step.push_back(runtime::migration(particle::position<Interpolator::dimension>, step_totals, std::move(accepted)));
   return step;
 }
 
@@ -32,8 +33,10 @@ runtime::HostData host_data()
           {&step_totals, &grid_impulse}};
 }
 
-template std::vector<runtime::TaskDeclaration> time_step(const Method<components::Gimp<2>>&);
-template std::vector<runtime::TaskDeclaration> time_step(const Method<components::Gimp<3>>&);
+template std::vector<runtime::TaskDeclaration> time_step(const Method<components::Gimp<2>>&,
+                                                         std::function<bool(const StepTotals&)>);
+template std::vector<runtime::TaskDeclaration> time_step(const Method<components::Gimp<3>>&,
+                                                         std::function<bool(const StepTotals&)>);
 template runtime::HostData host_data<components::Gimp<2>>();
 template runtime::HostData host_data<components::Gimp<3>>();
 

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 
+#include "runtime/ranks/together.hpp"
 #include "tools/errors.hpp"
 
 namespace tamp::tools
@@ -18,6 +19,16 @@ std::uint64_t hash_of(const std::string& text)
   std::uint64_t hash = 0xcbf29ce484222325U;
   for (const char c : text) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3U;
   return hash;
+}
+
+/// Those that were refused are newer than the one that was found; under their names they would count as kept.
+void set_aside_newer(const std::filesystem::path& found)
+{
+  std::vector<std::filesystem::path> newer;
+  for (const auto& entry : std::filesystem::directory_iterator(found.parent_path())) {
+    if (entry.path().extension() == ".h5" && entry.path() > found) newer.push_back(entry.path());
+  }
+  for (const auto& file : newer) std::filesystem::rename(file, file.string() + ".damaged");
 }
 
 }  // namespace
@@ -63,6 +74,7 @@ runtime::FoundCheckpoint checkpoint_to_restart(const std::filesystem::path& run_
     throw InputError({found->file.string(), "a checkpoint of another scene",
                       "expected one of this scene, of which only the title, /time/end and /output may have changed"});
   }
+  runtime::by_first(communicator, [&] { set_aside_newer(found->file); });
   return *std::move(found);
 }
 

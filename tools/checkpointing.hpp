@@ -50,8 +50,8 @@ class CheckpointClock
 /// What of a scene must be the same for a run to go on: all but its title, its end and its output.
 std::string fingerprint(const CheckedScene& scene);
 
-/// The newest whole checkpoint of a run. Says on stderr which were refused. Throws InputError if there is none, or if
-/// it is of another scene. Collective.
+/// The newest whole checkpoint of a run. Says on stderr which were refused, and renames them. Throws InputError if
+/// there is none, or if it is of another scene. Collective.
 runtime::FoundCheckpoint checkpoint_to_restart(const std::filesystem::path& run_folder, const CheckedScene& scene,
                                                const runtime::Communicator& communicator);
 

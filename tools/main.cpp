@@ -16,6 +16,7 @@
 namespace
 {
 
+using tamp::runtime::Communicator;
 using tamp::tools::ExitCode;
 using tamp::tools::settle;
 
@@ -26,9 +27,14 @@ bool is_for_all_ranks(int argc, char** argv)
   return command == "run" || command == "bench";
 }
 
+/// The ranks that work on a command.
+Communicator ranks_of(int argc, char** argv)
+{
+  return is_for_all_ranks(argc, argv) ? Communicator::world() : Communicator{};
+}
+
 int run_program(int argc, char** argv)
 {
-  if (!tamp::runtime::Communicator::world().is_first() && !is_for_all_ranks(argc, argv)) return 0;
   CLI::App app("Material point simulations of things driven into sand, on a task graph.", "tamp");
   app.set_version_flag("--version", tamp::tools::version_text());
   app.require_subcommand(1);
@@ -45,29 +51,31 @@ int run_program(int argc, char** argv)
   try {
     app.parse(argc, argv);
   } catch (const CLI::Success& asked) {  // --help, --version
-    return app.exit(asked);
+    return Communicator::world().is_first() ? app.exit(asked) : 0;
   } catch (const CLI::ParseError& error) {
-    return settle(error.what(), ExitCode::bad_input);
+    return settle(error.what(), ExitCode::bad_input, ranks_of(argc, argv));
   }
   return static_cast<int>(ExitCode::done);
 }
 
 int run_or_settle(int argc, char** argv)
 {
+  const Communicator ranks = ranks_of(argc, argv);
+  if (ranks.size() == 1 && !Communicator::world().is_first()) return 0;
   try {
     return run_program(argc, argv);
   } catch (const tamp::tools::Interrupted& stop) {
-    return settle(stop.what(), ExitCode{static_cast<int>(ExitCode::signal) + stop.signal});
+    return settle(stop.what(), ExitCode{static_cast<int>(ExitCode::signal) + stop.signal}, ranks);
   } catch (const tamp::tools::InputError& error) {
-    return settle(error.what(), ExitCode::bad_input);
+    return settle(error.what(), ExitCode::bad_input, ranks);
   } catch (const tamp::tasks::SimulationError& error) {
-    return settle(error.what(), ExitCode::bad_simulation);
+    return settle(error.what(), ExitCode::bad_simulation, ranks);
   } catch (const tamp::runtime::FileError& error) {
-    return settle(error.what(), ExitCode::bad_file);
+    return settle(error.what(), ExitCode::bad_file, ranks);
   } catch (const tamp::runtime::OtherRankFailed&) {
-    return settle("", ExitCode::fault);
+    return settle("", ExitCode::fault, ranks);
   } catch (const std::exception& error) {
-    return settle(error.what(), ExitCode::fault);
+    return settle(error.what(), ExitCode::fault, ranks);
   }
 }
 
@@ -79,6 +87,6 @@ int main(int argc, char** argv)
     const tamp::runtime::MpiSession session(argc, argv);
     return run_or_settle(argc, argv);
   } catch (const std::exception& error) {
-    return settle(error.what(), ExitCode::fault);
+    return settle(error.what(), ExitCode::fault, Communicator{});
   }
 }

@@ -44,7 +44,7 @@ std::shared_ptr<runtime::Executor> executor_of(const RunOptions& options)
   return std::make_shared<runtime::Executor>(options.n_threads, options.executor);
 }
 
-/// The last steps whose output was due, of a run that is stopped: what it wrote later it wrote as it left.
+/// The last steps with output.
 struct OutputSteps {
   long history = -1;
   long fields = -1;
@@ -125,10 +125,11 @@ class Runner
   {
     const auto found = checkpoint_to_restart(options_.folder, checked_, options_.communicator);
     const std::vector<std::byte> own = simulation_->restart(found);
-    runtime::ByteReader(own).read(output_);
+    runtime::ByteReader(own).read(due_);
+    written_ = due_;
     restarted_at_ = simulation_->n_steps();
-    history_.go_on(options_.folder, output_.history);
-    fields_.emplace(runtime::FieldFile::continued(options_.folder, output_.fields, options_.communicator));
+    history_.go_on(options_.folder, due_.history);
+    fields_.emplace(runtime::FieldFile::continued(options_.folder, due_.fields, options_.communicator));
     history_moment_.skip_to(simulation_->time());
     fields_moment_.skip_to(simulation_->time());
     checkpoint_clock_.skip_to(simulation_->time());
@@ -143,11 +144,11 @@ class Runner
   {
     if (history_moment_.due(simulation_->time())) {
       write_history();
-      output_.history = simulation_->n_steps();
+      due_.history = simulation_->n_steps();
     }
     if (fields_moment_.due(simulation_->time())) {
       write_fields();
-      output_.fields = simulation_->n_steps();
+      due_.fields = simulation_->n_steps();
     }
   }
 
@@ -159,8 +160,12 @@ class Runner
 
   void write_fields()
   {
+    const auto watch = executor_->watch("writing fields");
     const auto particles = simulation_->particle_columns();
-    fields_->write_step(simulation_->n_steps(), simulation_->time(), particles, simulation_->node_columns());
+    // What is on the grid is no state: after a restart there is nothing there before the first step.
+    std::optional<runtime::NodeBlock> nodes;
+    if (simulation_->n_steps() != restarted_at_) nodes = simulation_->node_columns();
+    fields_->write_step(simulation_->n_steps(), simulation_->time(), particles, nodes);
     written_.fields = simulation_->n_steps();
   }
 
@@ -189,8 +194,9 @@ class Runner
   {
     const bool due = checkpoint_clock_.due(simulation_->n_steps(), simulation_->time());
     if (!due && simulation_->asked() == 0) return;
+    const auto watch = executor_->watch("writing a checkpoint");
     runtime::ByteWriter own;
-    own.add(output_);
+    own.add(due_);
     simulation_->write_checkpoint(options_.folder / "checkpoints", fingerprint(checked_), own.bytes(),
                                   options_.checkpoints.keep);
     checkpoint_clock_.written();
@@ -219,6 +225,7 @@ class Runner
 
   void finish(const std::string& status, const std::string& reason)
   {
+    history_.measure();
     const runtime::Profile profile = simulation_->profile();
     const nlohmann::json json = to_json(profile, simulation_->ledger(), options_.communicator);
     const nlohmann::ordered_json told = run_summary(
@@ -252,7 +259,8 @@ class Runner
   Every history_moment_;
   CheckpointClock checkpoint_clock_;
   double end_;
-  OutputSteps output_;
+  /// Written because it was due: what a stopped run wrote later, it wrote as it left.
+  OutputSteps due_;
   OutputSteps written_;
   long restarted_at_ = -1;
   std::vector<float> step_seconds_;

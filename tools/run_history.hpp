@@ -33,7 +33,9 @@ class RunHistory
   void begin(const std::filesystem::path& folder);
   /// Goes on with it after the row of step `kept_until`: later ones are taken out.
   void go_on(const std::filesystem::path& folder, long kept_until);
-  /// Writes one row of the state now.
+  /// Takes in the state now.
+  void measure();
+  /// The same, and writes it as a row.
   void write_row();
 
   /// The error of the total energy, of the initial kinetic energy (of the largest energy if that is nothing), and that
@@ -50,7 +52,6 @@ class RunHistory
 
  private:
   std::vector<std::string> columns() const;
-  void measure();
   void add_body(std::size_t body, std::vector<double>& row) const;
   void add_material(std::size_t material, std::vector<double>& row) const;
 

@@ -8,8 +8,6 @@
 #include <cstdio>
 #include <thread>
 
-#include "runtime/ranks/communicator.hpp"
-
 namespace tamp::tools
 {
 
@@ -42,10 +40,9 @@ bool done_soon(MPI_Request& request)
 
 }  // namespace
 
-int settle(const std::string& text, ExitCode code)
+int settle(const std::string& text, ExitCode code, const runtime::Communicator& ranks)
 {
-  const runtime::Communicator world = runtime::Communicator::world();
-  if (world.size() == 1) {
+  if (ranks.size() == 1) {
     complain(text);
     return static_cast<int>(code);
   }
@@ -54,16 +51,16 @@ int settle(const std::string& text, ExitCode code)
     int order;
     int code;
   };
-  const int last = world.size();
-  const Verdict own{text.empty() ? last : world.rank(), static_cast<int>(code)};
+  const int last = ranks.size();
+  const Verdict own{text.empty() ? last : ranks.rank(), static_cast<int>(code)};
   Verdict common{};
   MPI_Request request = MPI_REQUEST_NULL;
   MPI_Iallreduce(&own, &common, 1, MPI_2INT, MPI_MINLOC, MPI_COMM_WORLD, &request);
   if (done_soon(request)) {
-    if (common.order == world.rank()) complain(text);
+    if (common.order == ranks.rank()) complain(text);
     return common.code;
   }
-  complain(fmt::format("rank {}: {}", world.rank(), text.empty() ? "another rank has failed" : text));
+  complain(fmt::format("rank {}: {}", ranks.rank(), text.empty() ? "another rank has failed" : text));
   MPI_Abort(MPI_COMM_WORLD, static_cast<int>(code));
   return static_cast<int>(code);
 }

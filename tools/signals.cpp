@@ -14,7 +14,7 @@ std::atomic<runtime::Executor*> watched{nullptr};
 
 void note(int signal)
 {
-  noted_signal = signal;
+  noted_signal = signal == SIGUSR2 ? SIGTERM : signal;
 }
 
 void ask_for_report(int)
@@ -30,14 +30,15 @@ SignalWatch::SignalWatch(runtime::Executor& executor)
   watched = &executor;
   std::signal(SIGTERM, note);
   std::signal(SIGINT, note);
+  std::signal(SIGUSR2, note);
   std::signal(SIGUSR1, ask_for_report);
 }
 
 SignalWatch::~SignalWatch()
 {
   for (const int signal : {SIGTERM, SIGINT}) std::signal(signal, SIG_DFL);
-  // A report asked for too late is no reason to end the program, which this signal would by default.
-  std::signal(SIGUSR1, SIG_IGN);
+  // What is asked for too late is no reason to end the program, which these signals would by default.
+  for (const int signal : {SIGUSR1, SIGUSR2}) std::signal(signal, SIG_IGN);
   watched = nullptr;
 }
 

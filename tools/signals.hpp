@@ -14,8 +14,8 @@ struct Interrupted : std::runtime_error {
   int signal;
 };
 
-/// While it lives, SIGTERM and SIGINT are noted instead of ending the program, and SIGUSR1 has the executor say what
-/// it is at. One at a time.
+/// While it lives, SIGTERM and SIGINT are noted instead of ending the program, SIGUSR2, which mpirun hands on at once,
+/// counts as SIGTERM, and SIGUSR1 has the executor say what it is at. One at a time.
 class SignalWatch
 {
  public:

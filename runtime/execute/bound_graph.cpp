@@ -133,7 +133,11 @@ void BoundGraph::run(int i, const Step& step)
       combine(bound);
       break;
     case InstanceKind::send_particles:
-      migration_->send(instance.patch, instance.group);
+      if (may_move(instance)) {
+        migration_->send(instance.patch, instance.group);
+      } else {
+        migration_->hold(instance.patch, instance.group);
+      }
       break;
     case InstanceKind::receive_particles:
       migration_->receive(instance.patch, instance.group);
@@ -166,6 +170,14 @@ void BoundGraph::prepare(const Instance& instance, const Bound& bound)
       }
     }
   }
+}
+
+bool BoundGraph::may_move(const Instance& instance)
+{
+  const TaskDeclaration& migration = graph_.declaration(instance);
+  if (!migration.may_move) return true;
+  const Label& last_check = *migration.accesses.back().label;
+  return migration.may_move(warehouse_.field(last_check, -1, -1).current_buffer.data());
 }
 
 /// The whole value, then the parts in the order of patch, then group, whichever rank's they are.

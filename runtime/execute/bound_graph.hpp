@@ -58,6 +58,7 @@ class BoundGraph final : public Work
   Bound bind_body(const Instance& instance);
   Bound bind_halos(const Instance& instance);
   void prepare(const Instance& instance, const Bound& bound);
+  bool may_move(const Instance& instance);
   Bound bind_reduction(const Label& label);
   static void combine(const Bound& bound);
 

@@ -62,6 +62,9 @@ class Executor
   /// schedule is spent then.
   void run(Schedule& schedule, const Step& step);
 
+  /// Between runs: has the watchdog see to it that what the host does meanwhile, with other ranks, ends in time.
+  Watchdog::Watch watch(const char* activity) { return Watchdog::Watch(watchdog_, activity); }
+
   /// Has the state of the run printed within a tenth of a second. May be called from a signal handler.
   void request_report() noexcept { watchdog_.request_report(); }
 

@@ -81,11 +81,17 @@ void Migration::pack(ParticleParcel& parcel, std::size_t particle, const std::ve
   ++parcel.n_particles;
 }
 
-void Migration::send(int patch, int group)
+void Migration::hold(int patch, int group)
 {
   Outbox& out = box(patch, group);
   for (auto& [destination_patch, parcel] : out.to_patch) clear(parcel);
   out.leavers.clear();
+}
+
+void Migration::send(int patch, int group)
+{
+  hold(patch, group);
+  Outbox& out = box(patch, group);
   Field& positions = warehouse_.field(position_, patch, group);
   const std::size_t n = *positions.n_particles;
   std::vector<Field*> fields;

@@ -26,6 +26,8 @@ class Migration
 
   /// Packs the particles of a patch and group that have left it and closes the gaps.
   void send(int patch, int group);
+  /// Packs nothing: all particles stay where they are stored.
+  void hold(int patch, int group);
   /// Takes in what the neighbours packed for this patch.
   void receive(int patch, int group);
 

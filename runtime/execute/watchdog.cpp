@@ -1,5 +1,7 @@
 #include "runtime/execute/watchdog.hpp"
 
+#include <fmt/format.h>
+
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>
@@ -40,9 +42,10 @@ Watchdog::~Watchdog()
   thread_.join();
 }
 
-void Watchdog::set_watching(bool watching)
+void Watchdog::set_watching(bool watching, const char* activity)
 {
   const std::lock_guard lock(mutex_);
+  activity_ = activity;
   watching_ = watching;
   begun_ = watching;
 }
@@ -62,7 +65,7 @@ void Watchdog::look_on()
 void Watchdog::look()
 {
   const Clock::time_point now = Clock::now();
-  const std::uint64_t progress = progress_();
+  const std::uint64_t progress = activity_ == nullptr ? progress_() : 0;
   if (begun_ || progress != last_progress_) {
     begun_ = false;
     reported_ = false;
@@ -71,7 +74,9 @@ void Watchdog::look()
   }
   const double idle_time = std::chrono::duration<double>(now - last_change_).count();
   const bool stalled = idle_time > options_.limit && !reported_;
-  if (requested_.exchange(false) || stalled) print(report_(idle_time));
+  if (requested_.exchange(false) || stalled) {
+    print(activity_ == nullptr ? report_(idle_time) : fmt::format("{} for {:.1f} s\n", activity_, idle_time));
+  }
   if (stalled) {
     reported_ = true;
     options_.give_up();

@@ -40,12 +40,13 @@ class Watchdog
   Watchdog(const Watchdog&) = delete;
   Watchdog& operator=(const Watchdog&) = delete;
 
-  /// While one of these lives there is something to look at.
+  /// While one of these lives there is something to look at: a run that makes progress, or an activity, described as in
+  /// "writing fields", that must end in time. One at a time.
   class Watch
   {
    public:
-    explicit Watch(Watchdog& dog) : dog_(dog) { dog_.set_watching(true); }
-    ~Watch() { dog_.set_watching(false); }
+    explicit Watch(Watchdog& dog, const char* activity = nullptr) : dog_(dog) { dog_.set_watching(true, activity); }
+    ~Watch() { dog_.set_watching(false, nullptr); }
     Watch(const Watch&) = delete;
     Watch& operator=(const Watch&) = delete;
 
@@ -58,7 +59,7 @@ class Watchdog
  private:
   using Clock = std::chrono::steady_clock;
 
-  void set_watching(bool watching);
+  void set_watching(bool watching, const char* activity);
   void look_on();
   void look();
   void print(const std::string& report) const;
@@ -73,6 +74,8 @@ class Watchdog
   std::condition_variable leaving_;
   bool leave_ = false;
   bool watching_ = false;
+  /// Null while a run is watched.
+  const char* activity_ = nullptr;
   bool begun_ = false;
   bool reported_ = false;
   std::uint64_t last_progress_ = 0;

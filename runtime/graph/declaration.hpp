@@ -60,6 +60,8 @@ struct TaskDeclaration {
   std::vector<int> groups;
   std::vector<Access> accesses;
   std::function<void(const TaskContext&, const BoundArgument*)> body;
+  /// Of a migration that waits for a reduction: whether particles may move, given its value.
+  std::function<bool(const void*)> may_move;
 
   void add(const Access& access);
 };
@@ -171,15 +173,19 @@ inline TaskBuilder<> task(std::string name)
 
 /// The runtime's own task that moves particles to the patch that `position` puts them in, at the end of a step.
 /// `Point` is an array-like of coordinates [m], one for each dimension of the grid. It waits for the whole reduction
-/// `last_check`: until then a task may still fail, and the state before the step must be whole.
+/// `last_check`, and moves nothing if that is not `accepted`: the state before the step is still whole then.
 template <class Point, class T>
-TaskDeclaration migration(const ParticleLabel<Point>& position, const ReductionLabel<T>& last_check)
+TaskDeclaration migration(const ParticleLabel<Point>& position, const ReductionLabel<T>& last_check,
+                          std::function<bool(const T&)> accepted = nullptr)
 {
   TaskDeclaration declaration;
   declaration.name = "migrate particles";
   declaration.domain = Domain::migration;
   declaration.add({Mode::update, &position});
   declaration.add({Mode::read, &last_check});
+  if (accepted) {
+    declaration.may_move = [f = std::move(accepted)](const void* value) { return f(*static_cast<const T*>(value)); };
+  }
   return declaration;
 }
 

@@ -163,6 +163,19 @@ TEST_CASE("a stress update that fails ends the run with its particle's history, 
   CHECK(reasons[0].find("0 are allowed") != std::string::npos);
 }
 
+TEST_CASE("a step that is refused leaves the state before it whole, though particles would have left their patches")
+{
+  Scene scene = torn_sand();
+  scene.n_patches = {4, 4, 1};
+  const auto simulation = Simulation::make(scene, 2);
+  const std::string digest = simulation->digest();
+
+  failure_of(*simulation, 1);
+
+  CHECK(simulation->n_steps() == 0);
+  CHECK(simulation->digest() == digest);
+}
+
 TEST_CASE("updates that may fail are counted, and their particles marked")
 {
   Scene scene = torn_sand();

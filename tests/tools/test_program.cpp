@@ -32,6 +32,21 @@ TEST_CASE("help is given for the program and for its commands")
   CHECK_THAT(tamp_with("check --help").out, Catch::Contains("--set"));
 }
 
+TEST_CASE("a command that no ranks share is the first rank's alone")
+{
+  const TemporaryFolder folder;
+  const auto file = folder.write("small.json", small_scene);
+
+  const Outcome sound = tamp_on_ranks(3, "check " + file.string());
+  const Outcome bad = tamp_on_ranks(3, "check " + file.string() + " --set /time/end=0");
+
+  CHECK(sound.exit_code == 0);
+  CHECK(sound.err.find("block: 4 particles") == sound.err.rfind("block: 4 particles"));
+  CHECK(bad.exit_code == 2);
+  CHECK_THAT(bad.err, Catch::Contains("tamp: --set#/time/end: 0; expected a number above 0 [s]"));
+  CHECK(tamp_on_ranks(2, "--version").exit_code == 0);
+}
+
 TEST_CASE("a sound scene passes the check, is printed resolved, and its particles are counted")
 {
   const TemporaryFolder folder;

@@ -113,6 +113,7 @@ TEST_CASE("a damaged checkpoint is refused with its reason, and the one before i
 
   CHECK(outcome.exit_code == 0);
   CHECK_THAT(outcome.err, Catch::Contains("step_00000080.h5") && Catch::Contains("checksum"));
+  CHECK(fs::exists(run / "checkpoints/step_00000080.h5.damaged"));
   CHECK(summary_of(run)["restarted_at_step"] == 40);
   CHECK(summary_of(run)["state_digest"] == straight().digest);
 }
@@ -130,6 +131,24 @@ TEST_CASE("a folder without a whole checkpoint, or of another scene, cannot be g
   CHECK(other.exit_code == 2);
   CHECK_THAT(other.err, Catch::Contains("a checkpoint of another scene"));
   CHECK(tamp_with(restart_of(run, "--steps 30 --set /time/end=6e-3")).exit_code == 0);
+}
+
+TEST_CASE("a run that is restarted at its end ends again as it did")
+{
+  const TemporaryFolder folder;
+  const auto run = folder.path() / "run";
+  const std::string end = "--until 2e-4 --checkpoint-time 1e-4";
+  REQUIRE(tamp_with(run_of(run, end)).exit_code == 0);
+  const auto before = summary_of(run);
+  const std::string history = read_text(run / "history.csv");
+
+  CHECK(tamp_with(restart_of(run, end)).exit_code == 0);
+
+  const auto after = summary_of(run);
+  CHECK(after["restarted_at_step"] == before["steps"]);
+  CHECK(after["state_digest"] == before["state_digest"]);
+  CHECK(after["energies_J"] == before["energies_J"]);
+  CHECK(read_text(run / "history.csv") == history);
 }
 
 TEST_CASE("SIGTERM and SIGINT have a run keep its state and leave with 128 and their number")

@@ -20,6 +20,8 @@ struct Options {
   std::vector<std::string> assignments;
   std::string out;
   std::string restart;
+  /// 0: this rank's share of the cores.
+  int n_threads = 0;
   std::string schedule = "parallel";
   RunOptions run;
 };
@@ -57,9 +59,10 @@ void add_checkpoint_options(CLI::App& command, CheckpointPolicy& policy)
 }
 
 /// Ranks that share cores are slow, and slower still if those who wait do not let go of them.
-void look_at_cores(RunOptions& run)
+void look_at_cores(int n_threads, RunOptions& run)
 {
   const UsableCores cores = usable_cores(run.communicator);
+  run.n_threads = n_threads == 0 ? cores.of_rank : n_threads;
   const int wanted = cores.ranks_on_machine * run.n_threads;
   run.executor.oversubscribed = wanted > cores.of_machine;
   if (wanted <= cores.of_machine || run.quiet || !run.communicator.is_first()) return;
@@ -75,14 +78,14 @@ CLI::App* add_run_command(CLI::App& app)
   CLI::App* command = app.add_subcommand("run", "Run a scene and write its folder");
   const auto options = std::make_shared<Options>();
   options->run.communicator = runtime::Communicator::world();
-  options->run.n_threads = usable_cores(options->run.communicator).of_rank;
   command->add_option("SCENE", options->scene, "the scene's JSON file")->required();
   CLI::Option* out =
       command->add_option("--out", options->out, "the run's folder; by default runs/ and the scene's name");
   command->add_option("--set", options->assignments, "POINTER=VALUE: replace a value of the scene, may be repeated")
       ->allow_extra_args(false);
-  command->add_option("--threads", options->run.n_threads, "threads of each rank; by default its share of the cores")
-      ->check(CLI::Range(1, 1024));
+  command->add_option("--threads", options->n_threads, "threads of each rank")
+      ->check(CLI::Range(1, 1024))
+      ->default_str("its share of the cores");
   command
       ->add_option("--schedule", options->schedule,
                    "parallel; serial: program order on one thread; shuffle:SEED: random orders that the graph allows")
@@ -110,7 +113,6 @@ CLI::App* add_run_command(CLI::App& app)
   command->add_flag("--quiet", options->run.quiet, "print no progress and no table");
   command->callback([options] {
     const CheckedScene scene = read_scene(options->scene, options->assignments);
-    apply_schedule(options->schedule, options->run);
     options->run.restart = !options->restart.empty();
     options->run.folder = options->run.restart   ? options->restart
                           : options->out.empty() ? "runs/" + scene.scene.name
@@ -118,7 +120,8 @@ CLI::App* add_run_command(CLI::App& app)
     if (options->run.communicator.size() > 1) {
       options->run.executor.stall.prefix = fmt::format("rank {}: ", options->run.communicator.rank());
     }
-    look_at_cores(options->run);
+    look_at_cores(options->schedule == "parallel" ? options->n_threads : 1, options->run);
+    apply_schedule(options->schedule, options->run);
     run(scene, options->run);
   });
   return command;
