@@ -141,7 +141,7 @@ Scene torn_sand()
   scene.materials.push_back({"sand", 1600, sand});
   scene.time.rule = StepRule::published;
   scene.time.multiplier = 1;
-  add_box(scene, 0, {0.4, 0.4, 0}, {0.8, 0.8, 0}).velocity_field = [c](const Triple& x) {
+  add_box(scene, 0, {0.3, 0.4, 0}, {0.9, 0.8, 0}).velocity_field = [c](const Triple& x) {
     return Triple{x[0] < 0.6 ? -0.5 * c : 0.5 * c, 0, 0};
   };
   return scene;
