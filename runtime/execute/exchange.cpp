@@ -93,7 +93,7 @@ void Exchange::send(int message)
 {
   Line& line = lines_[static_cast<std::size_t>(message)];
   {
-    // The last message of this line ends at once, or soon: the receive that it goes to is always posted.
+    // Of the step before. Its receiver may be a step behind, but waits for nothing that this rank has not sent.
     const std::lock_guard lock(mutex_);
     MPI_Wait(&line.request, MPI_STATUS_IGNORE);
   }

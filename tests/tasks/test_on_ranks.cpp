@@ -9,7 +9,7 @@ using namespace tamp::test;
 namespace
 {
 
-/// Two disks of 12 x 12 patches' worth that glance off each other and leave through the open faces.
+/// Two disks that glance off each other and leave through the open faces.
 Scene glancing_disks()
 {
   Scene scene = empty_scene(2, {24, 18, 1}, 0.1);

@@ -1,8 +1,19 @@
 #include <catch2/catch.hpp>
+#include <nlohmann/json.hpp>
 
 #include "tests/tools/program.hpp"
 
 using namespace tamp::test;
+
+namespace
+{
+
+std::string digest_of(const std::filesystem::path& run)
+{
+  return nlohmann::json::parse(read_text(run / "summary.json"))["state_digest"];
+}
+
+}  // namespace
 
 TEST_CASE("a disk that fills while a checkpoint is written ends the run with 4, and the one before still restarts")
 {
@@ -28,5 +39,7 @@ TEST_CASE("a disk that fills while a checkpoint is written ends the run with 4, 
   CHECK(full.exit_code == 4);
   CHECK_THAT(full.err, Catch::Contains("tamp: ") && Catch::Contains("checkpoints/step_") &&
                            Catch::Contains("No space left on device"));
-  CHECK(restarted.exit_code == 0);
+  REQUIRE(restarted.exit_code == 0);
+  REQUIRE(outcome_of(run + "--steps 150 --out " + folder.path().string() + "/straight").exit_code == 0);
+  CHECK(digest_of(kept) == digest_of(folder.path() / "straight"));
 }

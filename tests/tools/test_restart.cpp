@@ -168,6 +168,23 @@ TEST_CASE("SIGTERM and SIGINT have a run keep its state and leave with 128 and t
   CHECK(summary_of(run)["restarted_at_step"] == summary["steps"]);
 }
 
+TEST_CASE("SIGUSR2, which mpiexec hands on, stops a run on ranks with its state kept")
+{
+  const TemporaryFolder folder;
+  const auto run = folder.path() / "run";
+  allow_ranks_anywhere();
+  BackgroundProgram program(TAMP_MPIEXEC, "-n 2 " TAMP_PROGRAM " " + run_of(run, "--checkpoint-steps 5 --threads 1"));
+  REQUIRE(keeps_its_state(run));
+
+  program.send(SIGUSR2);
+
+  CHECK(program.exit_code() == 128 + SIGTERM);
+  const auto summary = summary_of(run);
+  CHECK(summary["status"] == "interrupted");
+  REQUIRE(tamp_with(restart_of(run, "--steps " + std::to_string(summary["steps"].get<long>() + 1))).exit_code == 0);
+  CHECK(summary_of(run)["restarted_at_step"] == summary["steps"]);
+}
+
 TEST_CASE("when one rank is killed all are gone within ten seconds, and the run can be gone on with")
 {
   const TemporaryFolder folder;

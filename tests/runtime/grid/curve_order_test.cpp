@@ -1,5 +1,6 @@
 #include "runtime/grid/curve_order.hpp"
 
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cstdlib>
 #include <numeric>
