@@ -1,8 +1,8 @@
 #include <array>
-#include <cmath>
 
 #include "components/contact/friction.hpp"
 #include "components/loads/time_step.hpp"
+#include "tasks/contact_nodes.hpp"
 #include "tasks/labels.hpp"
 #include "tasks/phases.hpp"
 
@@ -19,46 +19,60 @@ using runtime::TaskContext;
 namespace
 {
 
-/// The materials at one node, side by side.
+/// What the impulses did at one node.
 template <int D>
-struct NodeOfGroups {
-  std::array<double, PerGroup<int>::max_groups> mass;
-  std::array<Vector<D>, PerGroup<int>::max_groups> surface_gradient;
-  std::array<Vector<D>, PerGroup<int>::max_groups> velocity;
+struct NodeImpulses {
+  /// By material [N s]; all together they are zero.
+  std::array<Vector<D>, PerGroup<int>::max_groups> impulse;
+  /// The energy that they took [J]: each times the mean of the velocities before and after the step, as the energies of
+  /// leapfrog are counted. Forces that contact balances then take nothing, however hard they press.
+  double energy = 0;
 
-  /// How many of the groups have mass here.
-  int gather(double least_node_mass, const PerGroup<GridView<const NodeSums<D>>>& sums,
-             const PerGroup<GridView<NodeMotion<D>>>& motions, const Index& i)
+  void add(std::size_t group, const Vector<D>& value, const Vector<D>& before, const Vector<D>& after)
   {
-    int n_present = 0;
-    for (std::size_t g = 0; g < sums.size(); ++g) {
-      const NodeSums<D>& node = sums[g][i];
-      mass[g] = node.mass();
-      if (mass[g] > least_node_mass) ++n_present;
-      surface_gradient[g] = node.surface_gradient();
-      velocity[g] = motions[g][i].velocity();
-    }
-    return n_present;
-  }
-
-  /// Hands on the velocities after the impulses, and returns the energy that the impulses took [J]: each times the mean
-  /// of the velocities before and after the step, as the energies of leapfrog are counted. Forces that contact balances
-  /// then take nothing, however hard they press.
-  double give_back(double least_node_mass, const PerGroup<GridView<const NodeSums<D>>>& sums,
-                   const PerGroup<GridView<NodeMotion<D>>>& motions, const Index& i) const
-  {
-    double taken = 0;
-    for (std::size_t g = 0; g < motions.size(); ++g) {
-      if (!(mass[g] > least_node_mass)) continue;
-      NodeMotion<D>& motion = motions[g][i];
-      const Vector<D> change = velocity[g] - motion.velocity();
-      const Vector<D> at_start = sums[g][i].momentum() / mass[g];
-      taken -= 0.5 * mass[g] * change.dot(at_start + velocity[g]);
-      motion.set(velocity[g], motion.velocity_change() + change);
-    }
-    return taken;
+    impulse[group] = value;
+    energy -= 0.5 * value.dot(before + after);
   }
 };
+
+/// Hands on the velocities after the impulses; a rigid body's stays, and it takes what the others together gave.
+template <class Interpolator, int D = Interpolator::dimension>
+NodeImpulses<D> give_back(const Method<Interpolator>& method, const NodeOfGroups<D>& node, const RigidBody* rigid,
+                          const PerGroup<GridView<const NodeSums<D>>>& sums,
+                          const PerGroup<GridView<NodeMotion<D>>>& motions, const Index& i)
+{
+  const auto at_start = [&](std::size_t g) { return Vector<D>(sums[g][i].momentum() / sums[g][i].mass()); };
+  NodeImpulses<D> done;
+  Vector<D> given = Vector<D>::Zero();
+  for (const int group : method.deformable_groups) {
+    const auto g = static_cast<std::size_t>(group);
+    if (!(node.mass[g] > method.least_node_mass)) continue;
+    NodeMotion<D>& motion = motions[g][i];
+    const Vector<D> change = node.velocity[g] - motion.velocity();
+    done.add(g, node.mass[g] * change, at_start(g), node.velocity[g]);
+    given += done.impulse[g];
+    motion.set(node.velocity[g], motion.velocity_change() + change);
+  }
+  if (rigid == nullptr) return done;
+  const auto g = static_cast<std::size_t>(rigid->group);
+  done.add(g, -given, at_start(g), node.velocity[g]);
+  return done;
+}
+
+template <class Interpolator, int D = Interpolator::dimension>
+void add_impulses(const Method<Interpolator>& method, const NodeOfGroups<D>& node, const NodeImpulses<D>& done,
+                  const Vector<D>& x, ContactImpulses& impulses)
+{
+  for (std::size_t g = 0; g < method.materials.size(); ++g) {
+    if (!(node.mass[g] > method.least_node_mass)) continue;
+    impulses.by_group[g].linear += in_space<D>(done.impulse[g]);
+  }
+  for (const RigidBody& body : method.rigid_bodies) {
+    const auto g = static_cast<std::size_t>(body.group);
+    if (!(node.mass[g] > method.least_node_mass)) continue;
+    impulses.by_group[g].angular += (in_space<D>(x) - body.state.centre).cross(in_space<D>(done.impulse[g]));
+  }
+}
 
 }  // namespace
 
@@ -70,25 +84,29 @@ runtime::TaskDeclaration contact(const Method<Interpolator>& method)
       .over_patches()
       .reads(node::sums<D>.halo(1).every_group())
       .updates(node::motion<D>.halo(1).every_group())
-      .reduces(step_totals)
+      .reduces(step_totals, contact_impulses)
       .body([&method](const TaskContext& at, const PerGroup<GridView<const NodeSums<D>>>& sums,
-                      const PerGroup<GridView<NodeMotion<D>>>& motions, StepTotals& totals) {
+                      const PerGroup<GridView<NodeMotion<D>>>& motions, StepTotals& totals, ContactImpulses& impulses) {
         totals.host_requests = at.step.host_requests;
         const std::size_t n_groups = sums.size();
-        const components::ContactThresholds thresholds{method.least_node_mass,
-                                                       1e-9 * std::pow(method.cell_size, D - 1)};
+        const components::ContactThresholds thresholds = contact_thresholds(method);
         const runtime::IndexBox owned = at.layout.owned_nodes(at.patch);
         NodeOfGroups<D> node;
         for_each(sums[0].box(), [&](const Index& i) {
-          if (node.gather(method.least_node_mass, sums, motions, i) < 2) return;
+          if (node.gather(method, sums, motions, i) < 2) return;
+          const RigidBody* rigid = node.rigid_body(method);
+          if (rigid != nullptr) {
+            node.mass[static_cast<std::size_t>(rigid->group)] = std::numeric_limits<double>::infinity();
+          }
           const auto outcome = components::resolve_contact<D>(
               std::span(node.mass.data(), n_groups), std::span(node.surface_gradient.data(), n_groups), method.friction,
               thresholds, std::span(node.velocity.data(), n_groups));
           if (outcome.approach_speed == 0) return;
-          const double taken = node.give_back(method.least_node_mass, sums, motions, i);
+          const NodeImpulses<D> done = give_back(method, node, rigid, sums, motions, i);
           // Nodes on a seam are worked on by every patch around it, and counted by one.
           if (!owned.contains(i)) return;
-          totals.contact += taken;
+          totals.contact += done.energy;
+          add_impulses(method, node, done, place_of<D>(at.layout.grid(), i), impulses);
           if (method.time_step_rule == StepRule::viscous) {
             totals.stable_step =
                 std::min(totals.stable_step, components::contact_time_step(method.cell_size, outcome.approach_speed));

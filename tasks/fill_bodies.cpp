@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <vector>
 
 #include "components/geometry/fill.hpp"
@@ -25,18 +26,17 @@ runtime::Index cell_of(const runtime::Grid& grid, const Vector<D>& x)
 }
 
 template <int D>
-components::ParticleLattice<D> lattice_of(const Scene& scene)
+components::ParticleLattice<D> lattice_of(const Scene& scene, int material)
 {
-  return {vector_of<D>(scene.grid.lower), scene.grid.cell_size, scene.particles_per_axis};
+  return {vector_of<D>(scene.grid.lower), scene.grid.cell_size, scene.particles_per_axis_of(material)};
 }
 
 template <int D>
-Vector<D> initial_velocity(const SceneBody& body, const Vector<D>& x)
+Vector<D> mean(const std::vector<Vector<D>>& places)
 {
-  if (!body.velocity_field) return vector_of<D>(body.velocity);
-  Triple at{0, 0, 0};
-  std::copy(x.begin(), x.end(), at.begin());
-  return vector_of<D>(body.velocity_field(at));
+  Vector<D> sum = Vector<D>::Zero();
+  for (const Vector<D>& x : places) sum += x;
+  return sum / static_cast<double>(places.size());
 }
 
 }  // namespace
@@ -53,7 +53,9 @@ BodyParticles<D>::BodyParticles(const Scene& scene, const runtime::PatchLayout& 
   std::int64_t id = 0;
   for (std::size_t b = 0; b < scene.bodies.size(); ++b) {
     const auto& solid = std::get<components::Solid<D>>(scene.bodies[b].solid);
-    for (const Vector<D>& x : components::fill(solid, lattice_of<D>(scene), cells)) {
+    const auto places = components::fill(solid, lattice_of<D>(scene, scene.bodies[b].material), cells);
+    centres_.push_back(mean<D>(places));
+    for (const Vector<D>& x : places) {
       const int patch = layout.patch_of_cell(cell_of<D>(scene.grid, x));
       auto& particles = particles_[static_cast<std::size_t>(patch)][static_cast<std::size_t>(scene.bodies[b].material)];
       particles.id.push_back(id++);
@@ -76,6 +78,41 @@ std::vector<double> BodyParticles<D>::per_patch() const
 }
 
 template <int D>
+Vector<D> BodyParticles<D>::initial_velocity(const SceneBody& body, std::size_t number, const Vector<D>& x) const
+{
+  if (body.velocity_field) {
+    Triple at{0, 0, 0};
+    std::copy(x.begin(), x.end(), at.begin());
+    return vector_of<D>(body.velocity_field(at));
+  }
+  const Eigen::Vector3d spin(body.angular_velocity.data());
+  const Vector<D> turning = spin.cross(in_space<D>(x - centres_[number])).template head<D>();
+  return vector_of<D>(body.velocity) + turning;
+}
+
+template <int D>
+RigidBody BodyParticles<D>::rigid_body(int body) const
+{
+  const int material = scene_.bodies[static_cast<std::size_t>(body)].material;
+  const auto lattice = lattice_of<D>(scene_, material);
+  std::vector<Eigen::Vector3d> position;
+  for (const auto& materials : particles_) {
+    const auto& own = materials[static_cast<std::size_t>(material)].position;
+    std::transform(own.begin(), own.end(), std::back_inserter(position), in_space<D>);
+  }
+  const double density = scene_.materials[static_cast<std::size_t>(material)].density;
+  const std::vector<double> mass(position.size(), density * lattice.particle_volume());
+  RigidBody rigid{.body = body, .group = material};
+  rigid.properties = components::mass_properties(mass, position, lattice.cell_size / lattice.n_per_axis, D == 2);
+  const SceneBody& given = scene_.bodies[static_cast<std::size_t>(body)];
+  rigid.state.centre = rigid.properties.centre;
+  rigid.state.momentum = rigid.properties.mass * in_space<D>(vector_of<D>(given.velocity));
+  rigid.state.angular_momentum = rigid.properties.inertia * Eigen::Vector3d(given.angular_velocity.data());
+  rigid.free = rigid.state;
+  return rigid;
+}
+
+template <int D>
 void BodyParticles<D>::store(runtime::Warehouse& warehouse) const
 {
   for (const runtime::Patch& patch : warehouse.layout()) {
@@ -91,15 +128,15 @@ void BodyParticles<D>::store(const Particles& particles, int patch, int material
   const std::size_t n = particles.id.size();
   warehouse.set_n_particles(patch, material, n);
   const auto state = [&](const auto& label) { return warehouse.state(label, patch, material); };
-  const double volume = lattice_of<D>(scene_).particle_volume();
+  const double volume = lattice_of<D>(scene_, material).particle_volume();
   const double density = scene_.materials[static_cast<std::size_t>(material)].density;
   for (std::size_t p = 0; p < n; ++p) {
-    const SceneBody& body = scene_.bodies[static_cast<std::size_t>(particles.body[p])];
+    const auto number = static_cast<std::size_t>(particles.body[p]);
     state(particle::id)[p] = particles.id[p];
     state(particle::body)[p] = particles.body[p];
     state(particle::position<D>)[p] = particles.position[p];
     state(particle::reference_position<D>)[p] = particles.position[p];
-    state(particle::velocity<D>)[p] = initial_velocity<D>(body, particles.position[p]);
+    state(particle::velocity<D>)[p] = initial_velocity(scene_.bodies[number], number, particles.position[p]);
     state(particle::deformation_gradient<D>)[p] = Matrix<D>::Identity();
     state(particle::volume)[p] = volume;
     state(particle::mass)[p] = density * volume;

@@ -5,6 +5,7 @@
 
 #include "components/tensors.hpp"
 #include "runtime/data/warehouse.hpp"
+#include "tasks/rigid_body.hpp"
 #include "tasks/scene.hpp"
 
 namespace tamp::tasks
@@ -21,6 +22,8 @@ class BodyParticles
 
   /// How many there are on each patch.
   std::vector<double> per_patch() const;
+  /// Of a rigid body. Throws BadValue for one that has fewer than two particles.
+  RigidBody rigid_body(int body) const;
   /// Puts them into the patches that are the warehouse's own.
   void store(runtime::Warehouse& warehouse) const;
 
@@ -32,11 +35,14 @@ class BodyParticles
     std::vector<Vector<D>> position;
   };
 
+  Vector<D> initial_velocity(const SceneBody& body, std::size_t number, const Vector<D>& x) const;
   void store(const Particles& particles, int patch, int material, runtime::Warehouse& warehouse) const;
 
   const Scene& scene_;
   /// By [patch][material], bodies in their order.
   std::vector<std::vector<Particles>> particles_;
+  /// Mean place of each body's particles.
+  std::vector<Vector<D>> centres_;
 };
 
 }  // namespace tamp::tasks

@@ -19,7 +19,7 @@ runtime::TaskDeclaration grid_to_particles(const Method<Interpolator>& method)
 {
   constexpr int D = Interpolator::dimension;
   return runtime::task("grid to particles")
-      .over_patches_and_groups()
+      .over_patches_and_groups(method.deformable_groups)
       .reads(node::motion<D>.halo(1), particle::id.previous(), particle::position<D>.previous(),
              particle::velocity<D>.previous(), particle::deformation_gradient<D>.previous(),
              particle::volume.previous(), particle::stress<D>.previous())
@@ -34,7 +34,8 @@ runtime::TaskDeclaration grid_to_particles(const Method<Interpolator>& method)
         const auto block = block_of<D>(at.layout, nodes);
         const double dt = at.step.size;
         for (std::size_t p = 0; p < position.size(); ++p) {
-          const auto motion = components::grid_to_particle(method.interpolator, block, old_position[p], nodes.data());
+          const auto motion =
+              components::grid_to_particle(method.interpolator(at.group), block, old_position[p], nodes.data());
           const auto step = components::strain_increment<D>(old_deformation[p], dt * motion.velocity_gradient);
           if (!step.admissible()) {
             const auto& material = method.materials[static_cast<std::size_t>(at.group)];

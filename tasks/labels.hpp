@@ -6,6 +6,7 @@
 #include "components/shapes/node_sums.hpp"
 #include "components/tensors.hpp"
 #include "runtime/data/label.hpp"
+#include "tasks/rigid_body.hpp"
 #include "tasks/step_totals.hpp"
 
 /// Every field of the method, by where it lives. SI units, tension positive unless the name says otherwise; in plane
@@ -58,5 +59,7 @@ inline const runtime::NodeLabel<components::NodeMotion<D>> motion{"node motion"}
 /// What a step adds to the energies, and how long the next may be.
 inline const runtime::ReductionLabel<StepTotals> step_totals{"step totals"};
 inline const runtime::ReductionLabel<GridImpulse> grid_impulse{"grid impulse"};
+inline const runtime::ReductionLabel<ContactImpulses> contact_impulses{"contact impulses"};
+inline const runtime::ReductionLabel<RigidCouplings> rigid_couplings{"rigid couplings"};
 
 }  // namespace tamp::tasks

@@ -17,29 +17,50 @@ constexpr double least_weight = 1e-24;
 
 double least_particle_mass(const Scene& scene)
 {
-  double density = std::numeric_limits<double>::infinity();
-  for (const SceneMaterial& m : scene.materials) density = std::min(density, m.density);
-  return density * std::pow(scene.grid.cell_size / scene.particles_per_axis, scene.grid.dimension);
+  double least = std::numeric_limits<double>::infinity();
+  for (int m = 0; m < static_cast<int>(scene.materials.size()); ++m) {
+    const double size = scene.grid.cell_size / scene.particles_per_axis_of(m);
+    const double density = scene.materials[static_cast<std::size_t>(m)].density;
+    least = std::min(least, density * std::pow(size, scene.grid.dimension));
+  }
+  return least;
 }
 
 }  // namespace
 
 template <class Interpolator>
 Method<Interpolator>::Method(const Scene& scene)
-    : interpolator(scene.particles_per_axis),
-      cell_size(scene.grid.cell_size),
+    : cell_size(scene.grid.cell_size),
       least_node_mass(least_weight * least_particle_mass(scene)),
       gravity(vector_of<dimension>(scene.gravity)),
       viscosity(scene.artificial_viscosity),
       time_step_rule(scene.time.rule),
-      step_factor(components::transfer_step_factor(scene.particles_per_axis)),
       friction(static_cast<int>(scene.materials.size())),
       materials(scene.materials)
 {
+  for (int m = 0; m < static_cast<int>(scene.materials.size()); ++m) {
+    interpolators.emplace_back(scene.particles_per_axis_of(m));
+    step_factors.push_back(components::transfer_step_factor(scene.particles_per_axis_of(m)));
+    const auto is_rigid = [m](const SceneBody& body) { return body.rigid && body.material == m; };
+    const auto body = std::find_if(scene.bodies.begin(), scene.bodies.end(), is_rigid);
+    if (body == scene.bodies.end()) {
+      deformable_groups.push_back(m);
+    } else {
+      rigid_bodies.push_back({.body = static_cast<int>(body - scene.bodies.begin()), .group = m});
+    }
+  }
   for (std::size_t k = 0; k < std::size_t{dimension}; ++k) {
     for (std::size_t side = 0; side < 2; ++side) mirrors[k][side] = scene.faces[k][side] == Face::symmetry;
   }
   for (const SceneContact& pair : scene.contacts) friction.set(pair.material_a, pair.material_b, pair.friction);
+}
+
+template <class Interpolator>
+const RigidBody* Method<Interpolator>::rigid_body(int group) const
+{
+  const auto has_group = [group](const RigidBody& body) { return body.group == group; };
+  const auto body = std::find_if(rigid_bodies.begin(), rigid_bodies.end(), has_group);
+  return body == rigid_bodies.end() ? nullptr : &*body;
 }
 
 template struct Method<components::Gimp<2>>;

@@ -3,6 +3,7 @@
 #include <array>
 #include <optional>
 #include <span>
+#include <vector>
 
 #include "components/contact/friction_table.hpp"
 #include "components/loads/artificial_viscosity.hpp"
@@ -11,6 +12,7 @@
 #include "components/tensors.hpp"
 #include "runtime/data/views.hpp"
 #include "runtime/graph/declaration.hpp"
+#include "tasks/rigid_body.hpp"
 #include "tasks/scene.hpp"
 
 namespace tamp::tasks
@@ -23,6 +25,24 @@ Vector<D> vector_of(const Triple& triple)
   return Eigen::Map<const Vector<D>>(triple.data());
 }
 
+/// A vector of the method among those of space; the plane is that of x and y.
+template <int D>
+Eigen::Vector3d in_space(const Vector<D>& v)
+{
+  Eigen::Vector3d padded = Eigen::Vector3d::Zero();
+  padded.head<D>() = v;
+  return padded;
+}
+
+/// Of a node [m].
+template <int D>
+Vector<D> place_of(const runtime::Grid& grid, const runtime::Index& node)
+{
+  Vector<D> x;
+  for (int k = 0; k < D; ++k) x[k] = grid.coordinate(k, node[static_cast<std::size_t>(k)]);
+  return x;
+}
+
 /// What the phases of a step need to know of a scene, typed by its interpolator and so by its dimension.
 template <class Interpolator_>
 struct Method {
@@ -32,7 +52,12 @@ struct Method {
   /// `scene` must outlive the method.
   explicit Method(const Scene& scene);
 
-  Interpolator interpolator;
+  /// The interpolator of a material's particles; they differ in the particles' size.
+  const Interpolator& interpolator(int group) const { return interpolators[static_cast<std::size_t>(group)]; }
+  /// The rigid body that a material is, or null.
+  const RigidBody* rigid_body(int group) const;
+
+  std::vector<Interpolator> interpolators;
   double cell_size;
   /// Nodes with less mass [kg] are not accelerated: they are touched by an edge of a particle to within round-off, and
   /// as force goes with the slope of the weight but mass with its square, they would turn round-off into finite strain.
@@ -42,10 +67,14 @@ struct Method {
   std::array<std::array<bool, 2>, std::size_t{dimension}> mirrors;
   std::optional<components::ArtificialViscosity> viscosity;
   StepRule time_step_rule;
-  /// On the bounds of the viscous rule; the published rule has none.
-  double step_factor;
+  /// On the bounds of the viscous rule, by material; the published rule has none.
+  std::vector<double> step_factors;
   components::FrictionTable friction;
   std::span<const SceneMaterial> materials;
+  /// The simulation moves them from step to step.
+  std::vector<RigidBody> rigid_bodies;
+  /// Materials that are no rigid body.
+  std::vector<int> deformable_groups;
 };
 
 /// The nodes of a view as the kernels of components see them.

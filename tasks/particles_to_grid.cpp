@@ -24,7 +24,7 @@ runtime::TaskDeclaration particles_to_grid(const Method<Interpolator>& method)
                       std::span<const double> mass, std::span<const double> volume,
                       std::span<const SymmetricTensor<D>> stress, std::span<const double> viscous_pressure,
                       GridView<NodeSums<D>> sums) {
-        components::particles_to_grid(method.interpolator, block_of<D>(at.layout, sums),
+        components::particles_to_grid(method.interpolator(at.group), block_of<D>(at.layout, sums),
                                       {position, velocity, mass, volume, stress, viscous_pressure}, sums.data());
         // The image behind a mirror gives to the grid as the particles do.
         for_each_wall(method, at, sums.box(), [&](const SymmetryWall<D>& wall) { wall.fold(sums.data()); });

@@ -15,6 +15,14 @@ runtime::TaskDeclaration particles_to_grid(const Method<Interpolator>& method);
 template <class Interpolator>
 runtime::TaskDeclaration accelerate_nodes(const Method<Interpolator>& method);
 
+/// What the contact of rigid bodies asks of their motion.
+template <class Interpolator>
+runtime::TaskDeclaration gather_rigid_contact(const Method<Interpolator>& method);
+
+/// The nodes of rigid bodies move as these do after contact.
+template <class Interpolator>
+runtime::TaskDeclaration move_rigid_nodes(const Method<Interpolator>& method);
+
 /// Where materials meet at a node and approach each other, impulses keep them apart.
 template <class Interpolator>
 runtime::TaskDeclaration contact(const Method<Interpolator>& method);
@@ -23,7 +31,11 @@ runtime::TaskDeclaration contact(const Method<Interpolator>& method);
 template <class Interpolator>
 runtime::TaskDeclaration symmetry_walls(const Method<Interpolator>& method);
 
-/// Particles are moved and deformed by the grid.
+/// The particles of a material that is a rigid body move with it; bounds the next step.
+template <class Interpolator>
+runtime::TaskDeclaration move_rigid_body(const Method<Interpolator>& method, int material);
+
+/// Particles of the other materials are moved and deformed by the grid.
 template <class Interpolator>
 runtime::TaskDeclaration grid_to_particles(const Method<Interpolator>& method);
 

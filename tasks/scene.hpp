@@ -46,6 +46,8 @@ struct SceneMaterial {
   /// Of the unstrained material [kg/m^3].
   double density;
   MaterialModel model;
+  /// Along each axis of a cell, where it is not that of the scene.
+  std::optional<int> own_particles_per_axis{};
 };
 
 using AnySolid = std::variant<components::Solid<2>, components::Solid<3>>;
@@ -57,6 +59,10 @@ struct SceneBody {
   AnySolid solid;
   Triple velocity{0, 0, 0};
   std::size_t n_particles;
+  /// About the centre of mass [rad/s]; in plane strain its third entry alone.
+  Triple angular_velocity{0, 0, 0};
+  /// Keeps its shape: its material gives it mass, but no stress, and is no other body's.
+  bool rigid = false;
   /// For scenes made in code: velocity [m/s] where a particle starts [m]; `velocity` then only bounds the first step.
   std::function<Triple(const Triple&)> velocity_field{};
 };
@@ -93,6 +99,11 @@ struct Scene {
   /// Stress updates that may fail in a run before it stops; their particles keep their stress.
   long failed_updates_allowed = 0;
   SceneOutput output;
+
+  int particles_per_axis_of(int material) const
+  {
+    return materials[static_cast<std::size_t>(material)].own_particles_per_axis.value_or(particles_per_axis);
+  }
 };
 
 }  // namespace tamp::tasks

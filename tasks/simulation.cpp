@@ -67,6 +67,7 @@ class SimulationOf : public Simulation
     const BodyParticles<D> particles(scene_, runtime::PatchLayout(scene_.grid, scene_.n_patches));
     engine_ = make_engine(dealt(scene_, particles.per_patch(), communicator.size()));
     particles.store(engine_->warehouse);
+    for (RigidBody& body : method_.rigid_bodies) body = particles.rigid_body(body.body);
     profiler_.emplace(engine_->step_schedule, engine_->step, n_threads(), n_traced_steps);
     forecast_bytes_ = sum_over_ranks(engine_->warehouse.forecast_bytes());
     lost_.emplace(engine_->layout.size());
@@ -77,11 +78,13 @@ class SimulationOf : public Simulation
   {
     balance_if_due();
     const double size = next_step_size(end);
+    accelerate_rigid_bodies(0.5 * (last_step_size_ + size));
     run_step({n_steps_, time_, size, last_step_size_, std::exchange(requests_, 0U)});
     check_failed_updates();
     engine_->warehouse.advance();
     if (engine_->step_schedule.recording) profiler_->add_step();
     take_totals();
+    move_rigid_bodies(size);
     lost_->take<D>(*engine_->step.migration(), engine_->layout, engine_->warehouse.n_groups());
     ++n_steps_;
     time_ = time_ + size >= end * (1 - 1e-14) ? end : time_ + size;
@@ -123,6 +126,7 @@ class SimulationOf : public Simulation
     own.add(impulse_);
     lost_->share(engine_->layout, communicator_);
     lost_->write(own);
+    for (const RigidBody& body : method_.rigid_bodies) own.add(body.state);
     own.add_bytes(host);
     runtime::write_checkpoint(folder, {n_steps_, time_, fingerprint}, own.bytes(), engine_->warehouse,
                               material_names(scene_), keep, communicator_);
@@ -138,6 +142,7 @@ class SimulationOf : public Simulation
     own.read(totals_);
     own.read(impulse_);
     lost_->read(own);
+    for (RigidBody& body : method_.rigid_bodies) own.read(body.state);
     return {own.rest().begin(), own.rest().end()};
   }
 
@@ -197,12 +202,13 @@ class SimulationOf : public Simulation
     double bound = std::numeric_limits<double>::infinity();
     const auto viscosity = method_.viscosity.value_or(components::ArtificialViscosity{0, 0});
     for (const SceneBody& body : scene_.bodies) {
-      const double c = initial_wave_speed(scene_.materials[static_cast<std::size_t>(body.material)]);
+      const auto material = static_cast<std::size_t>(body.material);
+      const double c = body.rigid ? 0 : initial_wave_speed(scene_.materials[material]);
       const Vector<D> v = vector_of<D>(body.velocity);
-      bound = std::min(
-          bound, method_.time_step_rule == StepRule::published
-                     ? components::published_time_step<D>(method_.cell_size, c, v)
-                     : method_.step_factor * components::viscous_time_step<D>(method_.cell_size, c, v, 0, viscosity));
+      bound = std::min(bound, body.rigid || method_.time_step_rule == StepRule::published
+                                  ? components::published_time_step<D>(method_.cell_size, c, v)
+                                  : method_.step_factors[material] *
+                                        components::viscous_time_step<D>(method_.cell_size, c, v, 0, viscosity));
     }
     return bound;
   }
@@ -241,6 +247,28 @@ class SimulationOf : public Simulation
     totals_.combine(step);
     asked_ = step.host_requests;
     impulse_.combine(engine_->warehouse.result(grid_impulse));
+  }
+
+  /// Body forces of a kick [s]; what contact adds comes in the step.
+  void accelerate_rigid_bodies(double kick)
+  {
+    for (RigidBody& body : method_.rigid_bodies) {
+      body.free = body.state;
+      body.free.momentum += kick * body.properties.mass * in_space<D>(method_.gravity);
+    }
+  }
+
+  void move_rigid_bodies(double size)
+  {
+    const ContactImpulses& impulses = engine_->warehouse.result(contact_impulses);
+    for (RigidBody& body : method_.rigid_bodies) {
+      const components::RigidState before =
+          std::exchange(body.state, moved(body, impulses.by_group[static_cast<std::size_t>(body.group)], size));
+      const Eigen::Vector3d given = body.state.momentum - before.momentum;
+      GridImpulse own;
+      std::copy(given.begin(), given.end(), own.value.begin());
+      impulse_.combine(own);
+    }
   }
 
   /// Looks at what the patches have cost since the last look, and deals them anew if that pays.

@@ -13,12 +13,15 @@ std::vector<runtime::TaskDeclaration> time_step(const Method<Interpolator>& meth
   std::vector<runtime::TaskDeclaration> step;
   step.push_back(particles_to_grid(method));
   step.push_back(accelerate_nodes(method));
+  if (!method.rigid_bodies.empty()) {
+    step.push_back(gather_rigid_contact(method));
+    step.push_back(move_rigid_nodes(method));
+  }
   step.push_back(contact(method));
   step.push_back(symmetry_walls(method));
-  step.push_back(grid_to_particles(method));
-  for (int material = 0; material < static_cast<int>(method.materials.size()); ++material) {
-    step.push_back(update_stress(method, material));
-  }
+  for (const RigidBody& body : method.rigid_bodies) step.push_back(move_rigid_body(method, body.group));
+  if (!method.deformable_groups.empty()) step.push_back(grid_to_particles(method));
+  for (const int material : method.deformable_groups) step.push_back(update_stress(method, material));
   step.push_back(runtime::migration(particle::position<Interpolator::dimension>, step_totals, std::move(accepted)));
   return step;
 }
@@ -30,7 +33,7 @@ runtime::HostData host_data()
   return {{&particle::id, &particle::body, &particle::reference_position<D>, &particle::mass, &particle::position<D>,
            &particle::velocity<D>, &particle::deformation_gradient<D>, &particle::volume, &particle::stress<D>,
            &particle::viscous_pressure, &particle::cap_state},
-          {&step_totals, &grid_impulse}};
+          {&step_totals, &grid_impulse, &contact_impulses}};
 }
 
 template std::vector<runtime::TaskDeclaration> time_step(const Method<components::Gimp<2>>&,

@@ -47,7 +47,7 @@ struct StressArguments {
 template <class Interpolator, int D = Interpolator::dimension>
 void account(const Method<Interpolator>& method, double dt, const StressArguments<D>& s, std::size_t first,
              std::span<const SymmetricTensor<D>> old_stress, const BatchAnswer& answer, double shear_ratio,
-             double shear_modulus, StepTotals& totals)
+             double shear_modulus, double step_factor, StepTotals& totals)
 {
   for (std::size_t k = 0; k < old_stress.size(); ++k) {
     const std::size_t p = first + k;
@@ -66,12 +66,11 @@ void account(const Method<Interpolator>& method, double dt, const StressArgument
     totals.plastic += plastic;
     totals.viscous += s.old_viscous_pressure[p] * (s.old_volume[p] - s.volume[p]);
 
-    const double bound =
-        method.time_step_rule == StepRule::published
-            ? components::published_time_step<D>(method.cell_size, c, s.velocity[p])
-            : method.step_factor *
-                  components::viscous_time_step<D>(method.cell_size, c, s.velocity[p], volume_rate,
-                                                   method.viscosity.value_or(components::ArtificialViscosity{0, 0}));
+    const double bound = method.time_step_rule == StepRule::published
+                             ? components::published_time_step<D>(method.cell_size, c, s.velocity[p])
+                             : step_factor * components::viscous_time_step<D>(
+                                                 method.cell_size, c, s.velocity[p], volume_rate,
+                                                 method.viscosity.value_or(components::ArtificialViscosity{0, 0}));
     // Written so that what is not a number does not pass for a bound.
     totals.stable_step = bound >= totals.stable_step ? totals.stable_step : bound;
   }
@@ -95,7 +94,8 @@ void in_batches(const Method<Interpolator>& method, const TaskContext& at, const
                             {s.position[p].begin(), s.position[p].end()});
     }
     account<Interpolator>(method, at.step.size, s, first, std::span<const SymmetricTensor<D>>(old_stress.data(), n),
-                          answer, shear_ratio, shear_modulus, totals);
+                          answer, shear_ratio, shear_modulus, method.step_factors[static_cast<std::size_t>(at.group)],
+                          totals);
   }
 }
 

@@ -1,0 +1,46 @@
+#pragma once
+
+#include <Eigen/Core>
+
+#include "components/rigid/rigid_body.hpp"
+
+/// Contact of a rigid body with matter on a grid: all nodes together, because they share the body's six degrees of
+/// freedom. At each node the impulse on the matter is J = C (u - v), v being its velocity before contact and u the
+/// body's velocity there when the step is done: C is m I where they stick, m (n + mu t) n^T where they slide along the
+/// unit tangent t with friction mu, n the unit normal from the body to the matter.
+namespace tamp::components
+{
+
+/// The contact of one node, C above [kg], and the velocity v of the matter [m/s].
+struct NodeContact {
+  Matrix3 coupling;
+  Vector3 velocity;
+};
+
+/// `free` is the velocity that the body would have at the node without contact. It tells whether they approach, and
+/// whether friction can hold them together; C is zero if they part.
+NodeContact node_contact(double mass, const Vector3& normal, double friction, const Vector3& free,
+                         const Vector3& velocity);
+
+/// Sums of all nodes' contact, from which the motion of the body after it follows.
+class RigidCoupling
+{
+ public:
+  /// `arm` is the place of the node seen from the body's centre [m].
+  void add(const NodeContact& contact, const Vector3& arm);
+  void combine(const RigidCoupling& other);
+
+  /// The motion of a body which has `free` momenta before contact: the one whose change of momentum is minus the sum of
+  /// all J. Implicit in the body's own velocity, so that it holds however light the body is beside what it touches.
+  RigidMotion solve(const MassProperties& body, const RigidState& free) const;
+
+ private:
+  using Matrix6 = Eigen::Matrix<double, 6, 6>;
+  using Vector6 = Eigen::Matrix<double, 6, 1>;
+
+  /// With B = (I, -[arm]x), the velocity at a node from that of the centre and the spin: sum B^T C B and sum B^T C v.
+  Matrix6 matrix_ = Matrix6::Zero();
+  Vector6 right_side_ = Vector6::Zero();
+};
+
+}  // namespace tamp::components

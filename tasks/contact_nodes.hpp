@@ -1,0 +1,66 @@
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "components/contact/friction.hpp"
+#include "components/shapes/node_sums.hpp"
+#include "runtime/data/views.hpp"
+#include "tasks/method.hpp"
+#include "tasks/simulation_error.hpp"
+
+namespace tamp::tasks
+{
+
+template <class Interpolator>
+components::ContactThresholds contact_thresholds(const Method<Interpolator>& method)
+{
+  return {method.least_node_mass, 1e-9 * std::pow(method.cell_size, Interpolator::dimension - 1)};
+}
+
+/// The materials at one node, side by side. A rigid body has infinite mass here: impulses at one node do not stop it.
+template <int D>
+struct NodeOfGroups {
+  static constexpr int max_groups = runtime::PerGroup<int>::max_groups;
+
+  std::array<double, max_groups> mass;
+  std::array<Vector<D>, max_groups> surface_gradient;
+  std::array<Vector<D>, max_groups> velocity;
+
+  /// How many of the groups have mass here.
+  template <class Interpolator, class Motions>
+  int gather(const Method<Interpolator>& method,
+             const runtime::PerGroup<runtime::GridView<const components::NodeSums<D>>>& sums, const Motions& motions,
+             const runtime::Index& i)
+  {
+    int n_present = 0;
+    for (std::size_t g = 0; g < sums.size(); ++g) {
+      const components::NodeSums<D>& node = sums[g][i];
+      mass[g] = node.mass();
+      if (mass[g] > method.least_node_mass) ++n_present;
+      surface_gradient[g] = node.surface_gradient();
+      velocity[g] = motions[g][i].velocity();
+    }
+    return n_present;
+  }
+
+  /// The rigid body here, or null. Throws SimulationError where two meet, whose impulse no node can tell.
+  template <class Interpolator>
+  const RigidBody* rigid_body(const Method<Interpolator>& method) const
+  {
+    const RigidBody* found = nullptr;
+    for (const RigidBody& body : method.rigid_bodies) {
+      if (!(mass[static_cast<std::size_t>(body.group)] > method.least_node_mass)) continue;
+      if (found != nullptr) {
+        throw SimulationError("two rigid bodies meet; one of them must be deformable",
+                              method.materials[static_cast<std::size_t>(body.group)].name, -1,
+                              {body.state.centre.begin(), body.state.centre.begin() + D});
+      }
+      found = &body;
+    }
+    return found;
+  }
+};
+
+}  // namespace tamp::tasks

@@ -1,0 +1,54 @@
+#pragma once
+
+#include <array>
+
+#include "components/rigid/rigid_body.hpp"
+#include "components/rigid/rigid_contact.hpp"
+#include "runtime/data/views.hpp"
+
+namespace tamp::tasks
+{
+
+/// A body of the scene that keeps its shape, in the step that is being made. All ranks know all of it.
+struct RigidBody {
+  /// Places in Scene::bodies and Scene::materials.
+  int body;
+  int group;
+  components::MassProperties properties{};
+  /// At the start of the step; like the velocities of particles, the momenta are half a step behind.
+  components::RigidState state{};
+  /// The same with the momenta that body forces alone give it in this step.
+  components::RigidState free{};
+};
+
+/// What contact gives to each material in one step.
+struct ContactImpulses {
+  struct Impulse {
+    Eigen::Vector3d linear = Eigen::Vector3d::Zero();   ///< N s
+    Eigen::Vector3d angular = Eigen::Vector3d::Zero();  ///< N m s; of rigid bodies alone, about their centre
+  };
+  std::array<Impulse, runtime::PerGroup<int>::max_groups> by_group;
+
+  void combine(const ContactImpulses& other)
+  {
+    for (std::size_t g = 0; g < by_group.size(); ++g) {
+      by_group[g].linear += other.by_group[g].linear;
+      by_group[g].angular += other.by_group[g].angular;
+    }
+  }
+};
+
+/// What each rigid body's contact asks of its motion; materials that are none have nothing here.
+struct RigidCouplings {
+  std::array<components::RigidCoupling, runtime::PerGroup<int>::max_groups> by_group;
+
+  void combine(const RigidCouplings& other)
+  {
+    for (std::size_t g = 0; g < by_group.size(); ++g) by_group[g].combine(other.by_group[g]);
+  }
+};
+
+/// The body at the end of a step of length `dt` in which contact gave it `impulse`.
+components::RigidState moved(const RigidBody& body, const ContactImpulses::Impulse& impulse, double dt);
+
+}  // namespace tamp::tasks

@@ -1,0 +1,153 @@
+#include "components/rigid/rigid_contact.hpp"
+
+#include <algorithm>
+
+#include "components/contact/friction.hpp"
+#include "components/loads/time_step.hpp"
+#include "tasks/contact_nodes.hpp"
+#include "tasks/labels.hpp"
+#include "tasks/phases.hpp"
+#include "tasks/simulation_error.hpp"
+
+namespace tamp::tasks
+{
+
+using components::NodeContact;
+using components::NodeMotion;
+using components::NodeSums;
+using runtime::GridView;
+using runtime::Index;
+using runtime::PerGroup;
+using runtime::TaskContext;
+
+namespace
+{
+
+/// What the materials at a node ask of the rigid body there.
+template <class Interpolator, int D = Interpolator::dimension>
+void add_node(const Method<Interpolator>& method, const RigidBody& body, const NodeOfGroups<D>& node,
+              const Vector<D>& x, RigidCouplings& couplings)
+{
+  const auto self = static_cast<std::size_t>(body.group);
+  for (const int g : method.deformable_groups) {
+    const auto other = static_cast<std::size_t>(g);
+    if (!(node.mass[other] > method.least_node_mass)) continue;
+    const Vector<D> outward = components::facing<D>(node.surface_gradient[self], node.surface_gradient[other]);
+    const double length = outward.norm();
+    if (!(length > contact_thresholds(method).surface_gradient)) continue;
+    const NodeContact contact =
+        components::node_contact(node.mass[other], in_space<D>(outward / length), method.friction(body.group, g),
+                                 in_space<D>(node.velocity[self]), in_space<D>(node.velocity[other]));
+    couplings.by_group[self].add(contact, in_space<D>(x) - body.state.centre);
+  }
+}
+
+/// Do the nodes that a particle at `x` reaches lie within the domain?
+template <class Interpolator, int D = Interpolator::dimension>
+bool inside(const Method<Interpolator>& method, const runtime::Grid& grid, int group, const Vector<D>& x)
+{
+  const double reach = (1 + method.interpolator(group).half_size()) * grid.cell_size;
+  for (int k = 0; k < D; ++k) {
+    if (x[k] < grid.coordinate(k, 0) + reach) return false;
+    if (x[k] > grid.coordinate(k, grid.n_cells[static_cast<std::size_t>(k)]) - reach) return false;
+  }
+  return true;
+}
+
+}  // namespace
+
+/// All nodes of a rigid body share its six degrees of freedom, so its contact is gathered from all patches before any
+/// of them can say how fast it moves.
+template <class Interpolator>
+runtime::TaskDeclaration gather_rigid_contact(const Method<Interpolator>& method)
+{
+  constexpr int D = Interpolator::dimension;
+  return runtime::task("gather rigid contact")
+      .over_patches()
+      .reads(node::sums<D>.halo(1).every_group(), node::motion<D>.halo(1).every_group())
+      .reduces(rigid_couplings)
+      .body([&method](const TaskContext& at, const PerGroup<GridView<const NodeSums<D>>>& sums,
+                      const PerGroup<GridView<const NodeMotion<D>>>& motions, RigidCouplings& couplings) {
+        NodeOfGroups<D> node;
+        for_each(at.layout.owned_nodes(at.patch), [&](const Index& i) {
+          if (node.gather(method, sums, motions, i) < 2) return;
+          if (const RigidBody* body = node.rigid_body(method)) {
+            add_node(method, *body, node, place_of<D>(at.layout.grid(), i), couplings);
+          }
+        });
+      });
+}
+
+/// Nodes of rigid bodies take the velocity that the bodies have after contact.
+template <class Interpolator>
+runtime::TaskDeclaration move_rigid_nodes(const Method<Interpolator>& method)
+{
+  constexpr int D = Interpolator::dimension;
+  return runtime::task("move rigid nodes")
+      .over_patches()
+      .reads(rigid_couplings, node::sums<D>.halo(1).every_group())
+      .updates(node::motion<D>.halo(1).every_group())
+      .body([&method](const TaskContext& at, const RigidCouplings& couplings,
+                      const PerGroup<GridView<const NodeSums<D>>>& sums,
+                      const PerGroup<GridView<NodeMotion<D>>>& motions) {
+        for (const RigidBody& body : method.rigid_bodies) {
+          const auto g = static_cast<std::size_t>(body.group);
+          const components::RigidMotion motion = couplings.by_group[g].solve(body.properties, body.free);
+          for_each(motions[g].box(), [&](const Index& i) {
+            if (!(sums[g][i].mass() > 0)) return;
+            const Vector<D> velocity = motion.at(in_space<D>(place_of<D>(at.layout.grid(), i))).template head<D>();
+            motions[g][i].set(velocity, Vector<D>::Zero());
+          });
+        }
+      });
+}
+
+/// A rigid body's particles keep their places in it.
+template <class Interpolator>
+runtime::TaskDeclaration move_rigid_body(const Method<Interpolator>& method, int group)
+{
+  constexpr int D = Interpolator::dimension;
+  const std::string& name = method.materials[static_cast<std::size_t>(group)].name;
+  return runtime::task("move rigid body: " + name)
+      .over_patches_and_groups({group})
+      .reads(contact_impulses, particle::id.previous(), particle::reference_position<D>.previous(),
+             particle::volume.previous())
+      .computes(particle::position<D>, particle::velocity<D>, particle::deformation_gradient<D>, particle::volume,
+                particle::stress<D>, particle::viscous_pressure)
+      .reduces(step_totals)
+      .body([&method](const TaskContext& at, const ContactImpulses& impulses, std::span<const std::int64_t> id,
+                      std::span<const Vector<D>> reference, std::span<const double> old_volume,
+                      std::span<Vector<D>> position, std::span<Vector<D>> velocity, std::span<Matrix<D>> deformation,
+                      std::span<double> volume, std::span<SymmetricTensor<D>> stress,
+                      std::span<double> viscous_pressure, StepTotals& totals) {
+        const RigidBody& body = *method.rigid_body(at.group);
+        const auto state = moved(body, impulses.by_group[static_cast<std::size_t>(at.group)], at.step.size);
+        const components::RigidMotion motion = components::motion_of(body.properties, state);
+        const Matrix<D> turn = state.orientation.toRotationMatrix().template topLeftCorner<D, D>();
+        const Vector<D> start = body.properties.centre.template head<D>(), centre = state.centre.template head<D>();
+        for (std::size_t p = 0; p < id.size(); ++p) {
+          position[p] = centre + turn * (reference[p] - start);
+          velocity[p] = motion.at(in_space<D>(position[p])).template head<D>();
+          deformation[p] = turn;
+          volume[p] = old_volume[p];
+          stress[p].setZero();
+          viscous_pressure[p] = 0;
+          if (!inside(method, at.layout.grid(), at.group, position[p])) {
+            throw SimulationError("a rigid body reaches the edge of the domain, where nothing is known to hold it",
+                                  method.materials[static_cast<std::size_t>(at.group)].name, id[p],
+                                  {position[p].begin(), position[p].end()});
+          }
+          totals.stable_step =
+              std::min(totals.stable_step, components::published_time_step<D>(method.cell_size, 0, velocity[p]));
+        }
+      });
+}
+
+template runtime::TaskDeclaration gather_rigid_contact(const Method<components::Gimp<2>>&);
+template runtime::TaskDeclaration gather_rigid_contact(const Method<components::Gimp<3>>&);
+template runtime::TaskDeclaration move_rigid_nodes(const Method<components::Gimp<2>>&);
+template runtime::TaskDeclaration move_rigid_nodes(const Method<components::Gimp<3>>&);
+template runtime::TaskDeclaration move_rigid_body(const Method<components::Gimp<2>>&, int);
+template runtime::TaskDeclaration move_rigid_body(const Method<components::Gimp<3>>&, int);
+
+}  // namespace tamp::tasks
