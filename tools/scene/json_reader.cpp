@@ -210,6 +210,17 @@ std::string JsonReader::text(const std::string& key, const std::string& default_
   return default_value;
 }
 
+bool JsonReader::flag(const std::string& key, bool default_value)
+{
+  if (!has(key)) write(key, default_value);
+  const std::string expected = "expected true or false";
+  const Json* value = require(key, expected);
+  if (value == nullptr) return default_value;
+  if (value->is_boolean()) return value->get<bool>();
+  add_problem(key, shown(*value), expected);
+  return default_value;
+}
+
 std::string JsonReader::choice(const std::string& key, const std::vector<std::string>& choices, bool has_default)
 {
   const std::string expected = (choices.size() == 1 ? "expected " : "expected one of ") + joined(choices);

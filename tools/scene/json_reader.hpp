@@ -50,6 +50,7 @@ class JsonReader
   std::vector<double> numbers(const std::string& key, std::size_t n, Range range);
   std::vector<double> numbers(const std::string& key, std::size_t n, Range range, double default_value);
   std::vector<int> integers(const std::string& key, std::size_t n, int least, int default_value);
+  bool flag(const std::string& key, bool default_value);
   std::string text(const std::string& key, const std::string& default_value);
   /// One of `choices`, or empty if it is none; the first is the default where `has_default`.
   std::string choice(const std::string& key, const std::vector<std::string>& choices, bool has_default = false);

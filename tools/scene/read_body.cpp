@@ -72,12 +72,12 @@ std::optional<components::Solid<D>> read_solid(JsonReader& body)
 }
 
 template <int D>
-std::vector<Vector<D>> sites(const components::Solid<D>& solid, const tasks::Scene& scene)
+std::vector<Vector<D>> sites(const components::Solid<D>& solid, const tasks::Scene& scene, int material)
 {
   components::ParticleLattice<D> lattice;
   lattice.origin = Eigen::Map<const Vector<D>>(scene.grid.lower.data());
   lattice.cell_size = scene.grid.cell_size;
-  lattice.n_per_axis = scene.particles_per_axis;
+  lattice.n_per_axis = scene.particles_per_axis_of(material);
   components::CellRange<D> cells{};
   std::copy_n(scene.grid.n_cells.begin(), D, cells.upper.begin());
   return components::fill(solid, lattice, cells);
@@ -103,9 +103,12 @@ std::optional<tasks::SceneBody> read(const std::string& name, JsonReader& reader
 {
   const std::string material = reader.choice("material", material_names);
   const std::vector<double> velocity = reader.numbers("velocity", D, any_number, 0);
+  const std::vector<double> spin = reader.numbers("angular_velocity", D == 3 ? 3 : 1, any_number, 0);
+  const bool rigid = reader.flag("rigid", false);
   const auto solid = read_solid<D>(reader);
   reader.finish();
-  if (!solid || material.empty() || !grid_is_good) return std::nullopt;
+  const bool materials_are_good = scene.materials.size() == material_names.size();
+  if (!solid || material.empty() || !grid_is_good || !materials_are_good) return std::nullopt;
 
   if (!within_grid(*solid, scene.grid)) {
     const components::Box<D> box = solid->bounding_box();
@@ -113,16 +116,22 @@ std::optional<tasks::SceneBody> read(const std::string& name, JsonReader& reader
                        "expected it to lie within the grid");
     return std::nullopt;
   }
-  const std::size_t n_particles = sites(*solid, scene).size();
+  const auto at = std::find(material_names.begin(), material_names.end(), material) - material_names.begin();
+  const int number = static_cast<int>(at);
+  const std::size_t n_particles = sites(*solid, scene, number).size();
   if (n_particles == 0) {
     reader.add_problem("geometry", "holds no particle",
                        fmt::format("expected a shape that holds a site of the particle lattice, whose spacing is {} m",
-                                   scene.grid.cell_size / scene.particles_per_axis));
+                                   scene.grid.cell_size / scene.particles_per_axis_of(number)));
     return std::nullopt;
   }
-  const auto at = std::find(material_names.begin(), material_names.end(), material) - material_names.begin();
-  tasks::SceneBody body{name, static_cast<int>(at), *solid, {0, 0, 0}, n_particles};
+  if (rigid && n_particles == 1) {
+    reader.add_problem("rigid", "a rigid body of one particle", "expected two or more, so that it has an orientation");
+  }
+  tasks::SceneBody body{name, number, *solid, {0, 0, 0}, n_particles};
   std::copy(velocity.begin(), velocity.end(), body.velocity.begin());
+  std::copy(spin.begin(), spin.end(), body.angular_velocity.end() - static_cast<std::ptrdiff_t>(spin.size()));
+  body.rigid = rigid;
   return body;
 }
 
@@ -131,7 +140,7 @@ template <int D>
 std::optional<std::pair<std::string, std::string>> first_overlap(const tasks::Scene& scene, std::size_t body)
 {
   const auto& solid = std::get<components::Solid<D>>(scene.bodies[body].solid);
-  for (const Vector<D>& site : sites(solid, scene)) {
+  for (const Vector<D>& site : sites(solid, scene, scene.bodies[body].material)) {
     for (std::size_t other = 0; other < body; ++other) {
       if (std::get<components::Solid<D>>(scene.bodies[other].solid).contains(site)) {
         return std::pair(scene.bodies[other].name, text<D>(site));
@@ -148,6 +157,18 @@ std::optional<tasks::SceneBody> read_body(const std::string& name, JsonReader re
 {
   return scene.grid.dimension == 2 ? read<2>(name, reader, scene, material_names, grid_is_good)
                                    : read<3>(name, reader, scene, material_names, grid_is_good);
+}
+
+void check_rigid_bodies(const tasks::Scene& scene, const JsonReader& bodies)
+{
+  for (const tasks::SceneBody& body : scene.bodies) {
+    if (!body.rigid) continue;
+    for (const tasks::SceneBody& other : scene.bodies) {
+      if (&other == &body || other.material != body.material) continue;
+      bodies.add_problem(body.name, fmt::format("rigid, but of one material with body \"{}\"", other.name),
+                         "expected a material of its own");
+    }
+  }
 }
 
 void check_no_overlap(const tasks::Scene& scene, const JsonReader& bodies)

@@ -9,11 +9,14 @@
 namespace tamp::tools
 {
 
-/// Reads one body of a scene whose grid, particles per axis and material names are known, and counts its particles.
+/// Reads one body of a scene whose grid, particles per axis and materials are known, and counts its particles.
 /// Empty if there is a problem, which the reader's document then knows. Where the grid is not good, nothing is said of
 /// how the body lies in it.
 std::optional<tasks::SceneBody> read_body(const std::string& name, JsonReader reader, const tasks::Scene& scene,
                                           const std::vector<std::string>& material_names, bool grid_is_good);
+
+/// Adds a problem for each rigid body whose material is another body's too: contact is between materials.
+void check_rigid_bodies(const tasks::Scene& scene, const JsonReader& bodies);
 
 /// Adds a problem for each body that would have a particle inside of one before it.
 void check_no_overlap(const tasks::Scene& scene, const JsonReader& bodies);

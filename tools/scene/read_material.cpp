@@ -134,9 +134,12 @@ std::optional<tasks::SceneMaterial> read_material(const std::string& name, JsonR
   const double density = reader.number("density", above_zero, "kg/m^3");
   const std::optional<tasks::MaterialModel> model =
       type == "hypoelastic" ? read_hypoelastic(reader) : read_tabular_cap(reader);
+  reader.allow("particles_per_axis");
+  std::optional<int> particles_per_axis;
+  if (reader.has("particles_per_axis")) particles_per_axis = reader.integer("particles_per_axis", 1, 16);
   reader.finish();
   if (!model) return std::nullopt;
-  return tasks::SceneMaterial{name, density, *model};
+  return tasks::SceneMaterial{name, density, *model, particles_per_axis};
 }
 
 tasks::SceneMaterial read_material_file(const std::filesystem::path& file, const std::vector<std::string>& assignments)

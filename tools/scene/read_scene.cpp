@@ -173,7 +173,9 @@ class SceneReader
       auto body = read_body(name, std::move(reader), scene_, material_names_, grid_is_good);
       if (body) scene_.bodies.push_back(std::move(*body));
     }
-    if (grid_is_good && document_.problems.size() == n_before) check_no_overlap(scene_, root_.object("bodies"));
+    if (!grid_is_good || document_.problems.size() > n_before) return;
+    check_no_overlap(scene_, root_.object("bodies"));
+    check_rigid_bodies(scene_, root_.object("bodies"));
   }
 
   int material_number(const std::string& name) const
