@@ -64,9 +64,10 @@ void report_motion(const Method<Interpolator>& method, int group, std::span<cons
   }
 }
 
-template <class Interpolator>
+/// Of what is elastic, and so has no more to tell than its motion and stress.
+template <class Interpolator, class Elastic>
 runtime::TaskDeclaration report_of(const Method<Interpolator>& method, int group, const std::string& name,
-                                   const components::Hypoelastic&)
+                                   const Elastic&)
 {
   return report_task<Interpolator::dimension>(name, group)
       .reduces(particle_report)

@@ -11,6 +11,7 @@
 #include "components/geometry/solid.hpp"
 #include "components/loads/artificial_viscosity.hpp"
 #include "components/materials/hypoelastic.hpp"
+#include "components/materials/neo_hookean.hpp"
 #include "components/materials/tabular_cap.hpp"
 #include "runtime/grid/patch_layout.hpp"
 
@@ -38,7 +39,7 @@ struct SceneTime {
   double maximum_step = std::numeric_limits<double>::infinity();
 };
 
-using MaterialModel = std::variant<components::Hypoelastic, components::TabularCap>;
+using MaterialModel = std::variant<components::Hypoelastic, components::NeoHookean, components::TabularCap>;
 
 /// Materials are the contact groups too: each has its own velocity field on the grid.
 struct SceneMaterial {

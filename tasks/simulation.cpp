@@ -37,13 +37,21 @@ std::vector<std::string> material_names(const Scene& scene)
   return names;
 }
 
+/// K and G of a material without strain.
+template <class Elastic>
+components::TangentModuli initial_moduli(const Elastic& solid)
+{
+  return {solid.bulk_modulus, solid.shear_modulus};
+}
+components::TangentModuli initial_moduli(const components::TabularCap& sand)
+{
+  return {sand.initial_bulk_modulus(), sand.initial_shear_modulus()};
+}
+
 double initial_wave_speed(const SceneMaterial& material)
 {
-  if (const auto* steel = std::get_if<components::Hypoelastic>(&material.model)) {
-    return components::wave_speed(steel->bulk_modulus, steel->shear_modulus, material.density);
-  }
-  const auto& sand = std::get<components::TabularCap>(material.model);
-  return components::wave_speed(sand.initial_bulk_modulus(), sand.initial_shear_modulus(), material.density);
+  const auto moduli = std::visit([](const auto& model) { return initial_moduli(model); }, material.model);
+  return components::wave_speed(moduli.bulk_modulus, moduli.shear_modulus, material.density);
 }
 
 /// The patches dealt to the ranks by the particles that start on them.

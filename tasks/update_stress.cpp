@@ -25,6 +25,7 @@ constexpr std::size_t batch_size = 256;
 /// What the material tells of a batch beside the stress.
 struct BatchAnswer {
   std::array<double, batch_size> bulk_modulus;
+  std::array<double, batch_size> shear_modulus;
   /// J per m^3 of current volume
   std::array<double, batch_size> plastic_work;
 };
@@ -46,15 +47,15 @@ struct StressArguments {
 /// One batch after the material has answered: artificial viscosity, energies, and the bound on the next step.
 template <class Interpolator, int D = Interpolator::dimension>
 void account(const Method<Interpolator>& method, double dt, const StressArguments<D>& s, std::size_t first,
-             std::span<const SymmetricTensor<D>> old_stress, const BatchAnswer& answer, double shear_ratio,
-             double shear_modulus, double step_factor, StepTotals& totals)
+             std::span<const SymmetricTensor<D>> old_stress, const BatchAnswer& answer, double step_factor,
+             StepTotals& totals)
 {
   for (std::size_t k = 0; k < old_stress.size(); ++k) {
     const std::size_t p = first + k;
     const double bulk = answer.bulk_modulus[k];
     const double density = s.mass[p] / s.volume[p];
     const double volume_rate = trace(s.strain[p]) / dt;
-    const double c = components::wave_speed(bulk, shear_ratio * bulk + shear_modulus, density);
+    const double c = components::wave_speed(bulk, answer.shear_modulus[k], density);
     s.viscous_pressure[p] =
         method.viscosity ? method.viscosity->pressure(density, bulk, volume_rate, method.cell_size) : 0;
 
@@ -79,7 +80,7 @@ void account(const Method<Interpolator>& method, double dt, const StressArgument
 /// Takes all particles to the material batch by batch; `update(first, n, answer)` updates the stress in place.
 template <class Interpolator, int D, class Update>
 void in_batches(const Method<Interpolator>& method, const TaskContext& at, const StressArguments<D>& s,
-                double shear_ratio, double shear_modulus, StepTotals& totals, const Update& update)
+                StepTotals& totals, const Update& update)
 {
   std::array<SymmetricTensor<D>, batch_size> old_stress;
   BatchAnswer answer;
@@ -94,8 +95,7 @@ void in_batches(const Method<Interpolator>& method, const TaskContext& at, const
                             {s.position[p].begin(), s.position[p].end()});
     }
     account<Interpolator>(method, at.step.size, s, first, std::span<const SymmetricTensor<D>>(old_stress.data(), n),
-                          answer, shear_ratio, shear_modulus, method.step_factors[static_cast<std::size_t>(at.group)],
-                          totals);
+                          answer, method.step_factors[static_cast<std::size_t>(at.group)], totals);
   }
 }
 
@@ -141,12 +141,36 @@ runtime::TaskDeclaration update(const Method<Interpolator>& method, int group, c
                               StepTotals& totals) {
         const StressArguments<D> s{id,     mass,   position,        velocity, old_volume, volume, old_viscous_pressure,
                                    strain, stress, viscous_pressure};
-        in_batches(method, at, s, 0, steel.shear_modulus, totals,
-                   [&](std::size_t first, std::size_t n, BatchAnswer& answer) {
-                     std::fill_n(answer.plastic_work.begin(), n, 0.0);
-                     std::fill_n(answer.bulk_modulus.begin(), n, steel.bulk_modulus);
-                     components::update<D>(steel, strain.subspan(first, n), stress.subspan(first, n));
-                   });
+        in_batches(method, at, s, totals, [&](std::size_t first, std::size_t n, BatchAnswer& answer) {
+          std::fill_n(answer.plastic_work.begin(), n, 0.0);
+          std::fill_n(answer.bulk_modulus.begin(), n, steel.bulk_modulus);
+          std::fill_n(answer.shear_modulus.begin(), n, steel.shear_modulus);
+          components::update<D>(steel, strain.subspan(first, n), stress.subspan(first, n));
+        });
+      });
+}
+
+template <class Interpolator>
+runtime::TaskDeclaration update(const Method<Interpolator>& method, int group, const std::string& name,
+                                const components::NeoHookean& rubber)
+{
+  constexpr int D = Interpolator::dimension;
+  return stress_task<D>(name, group)
+      .reads(particle::deformation_gradient<D>)
+      .body([&method, &rubber](const TaskContext& at, auto id, auto mass, auto position, auto velocity, auto old_volume,
+                               auto volume, auto old_viscous_pressure, auto strain, auto stress, auto viscous_pressure,
+                               StepTotals& totals, std::span<const Matrix<D>> deformation) {
+        const StressArguments<D> s{id,     mass,   position,        velocity, old_volume, volume, old_viscous_pressure,
+                                   strain, stress, viscous_pressure};
+        in_batches(method, at, s, totals, [&](std::size_t first, std::size_t n, BatchAnswer& answer) {
+          std::fill_n(answer.plastic_work.begin(), n, 0.0);
+          components::update<D>(rubber, deformation.subspan(first, n), stress.subspan(first, n));
+          for (std::size_t k = 0; k < n; ++k) {
+            const auto moduli = components::tangent_moduli<D>(rubber, deformation[first + k]);
+            answer.bulk_modulus[k] = moduli.bulk_modulus;
+            answer.shear_modulus[k] = moduli.shear_modulus;
+          }
+        });
       });
 }
 
@@ -163,17 +187,16 @@ runtime::TaskDeclaration update(const Method<Interpolator>& method, int group, c
                              StepTotals& totals, std::span<const CapState> old_state, std::span<CapState> state) {
         const StressArguments<D> s{id,     mass,   position,        velocity, old_volume, volume, old_viscous_pressure,
                                    strain, stress, viscous_pressure};
-        in_batches(
-            method, at, s, sand.shear_ratio(), 0, totals, [&](std::size_t first, std::size_t n, BatchAnswer& answer) {
-              const auto failure = components::update<D>(sand, strain.subspan(first, n), old_state.subspan(first, n),
-                                                         stress.subspan(first, n), state.subspan(first, n),
-                                                         std::span(answer.bulk_modulus).first(n),
-                                                         std::span(answer.plastic_work).first(n), totals.updates);
-              if (!failure) return;
-              const std::size_t p = first + failure->particle;
-              totals.note(
-                  failed_update<D>(id[p], at.group, failure->fault, position[p], state[p], stress[p], strain[p]));
-            });
+        in_batches(method, at, s, totals, [&](std::size_t first, std::size_t n, BatchAnswer& answer) {
+          const auto failure = components::update<D>(sand, strain.subspan(first, n), old_state.subspan(first, n),
+                                                     stress.subspan(first, n), state.subspan(first, n),
+                                                     std::span(answer.bulk_modulus).first(n),
+                                                     std::span(answer.plastic_work).first(n), totals.updates);
+          for (std::size_t k = 0; k < n; ++k) answer.shear_modulus[k] = sand.shear_ratio() * answer.bulk_modulus[k];
+          if (!failure) return;
+          const std::size_t p = first + failure->particle;
+          totals.note(failed_update<D>(id[p], at.group, failure->fault, position[p], state[p], stress[p], strain[p]));
+        });
       });
 }
 

@@ -13,11 +13,21 @@ namespace
 {
 
 using components::Hypoelastic;
+using components::NeoHookean;
 using components::TabularCap;
 
 std::optional<std::string> answer(const Hypoelastic& solid, const SymmetricTensor<3>& strain, MaterialPoint& point)
 {
   components::update<3>(solid, {&strain, 1}, {&point.stress, 1});
+  return std::nullopt;
+}
+
+std::optional<std::string> answer(const NeoHookean& solid, const SymmetricTensor<3>&, MaterialPoint& point)
+{
+  components::update<3>(solid, {&point.deformation_gradient, 1}, {&point.stress, 1});
+  const auto moduli = components::tangent_moduli<3>(solid, point.deformation_gradient);
+  point.bulk_modulus = moduli.bulk_modulus;
+  point.shear_modulus = moduli.shear_modulus;
   return std::nullopt;
 }
 
@@ -53,6 +63,9 @@ MaterialPoint fresh_point(const tasks::MaterialModel& material, const Matrix<3>&
   if (const auto* sand = std::get_if<TabularCap>(&material)) {
     point.bulk_modulus = sand->initial_bulk_modulus();
     point.shear_modulus = sand->initial_shear_modulus();
+  } else if (const auto* elastic = std::get_if<NeoHookean>(&material)) {
+    // Its stress is that of its deformation, wherever it starts.
+    answer(*elastic, SymmetricTensor<3>::Zero(), point);
   } else {
     const auto& solid = std::get<Hypoelastic>(material);
     point.bulk_modulus = solid.bulk_modulus;

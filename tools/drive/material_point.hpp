@@ -25,7 +25,8 @@ struct MaterialPoint {
   double equivalent_stress() const;
 };
 
-/// Fresh material at rest: free of stress and strain at this deformation gradient.
+/// Fresh material at rest: free of stress and strain at this deformation gradient, except that a neo-Hookean solid has
+/// the stress that goes with it.
 MaterialPoint fresh_point(const tasks::MaterialModel& material, const Matrix<3>& deformation_gradient);
 
 /// Takes the point to a deformation gradient in one increment, as a step of a run does it. Where that fails the answer

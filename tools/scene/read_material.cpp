@@ -117,23 +117,31 @@ std::optional<tasks::MaterialModel> read_tabular_cap(JsonReader& reader)
   }
 }
 
-tasks::MaterialModel read_hypoelastic(JsonReader& reader)
+/// A model that two elastic moduli define.
+template <class Elastic>
+tasks::MaterialModel read_elastic(JsonReader& reader)
 {
-  components::Hypoelastic model{};
+  Elastic model{};
   model.bulk_modulus = reader.number("bulk_modulus", above_zero, "Pa");
   model.shear_modulus = reader.number("shear_modulus", above_zero, "Pa");
   return model;
+}
+
+std::optional<tasks::MaterialModel> read_model(const std::string& type, JsonReader& reader)
+{
+  if (type == "hypoelastic") return read_elastic<components::Hypoelastic>(reader);
+  if (type == "neo_hookean") return read_elastic<components::NeoHookean>(reader);
+  return read_tabular_cap(reader);
 }
 
 }  // namespace
 
 std::optional<tasks::SceneMaterial> read_material(const std::string& name, JsonReader reader)
 {
-  const std::string type = reader.choice("type", {"hypoelastic", "tabular_cap"});
+  const std::string type = reader.choice("type", {"hypoelastic", "neo_hookean", "tabular_cap"});
   if (type.empty()) return std::nullopt;
   const double density = reader.number("density", above_zero, "kg/m^3");
-  const std::optional<tasks::MaterialModel> model =
-      type == "hypoelastic" ? read_hypoelastic(reader) : read_tabular_cap(reader);
+  const auto model = read_model(type, reader);
   reader.allow("particles_per_axis");
   std::optional<int> particles_per_axis;
   if (reader.has("particles_per_axis")) particles_per_axis = reader.integer("particles_per_axis", 1, 16);

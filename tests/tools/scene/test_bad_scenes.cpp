@@ -124,7 +124,8 @@ TEST_CASE("a number out of range is told with its range")
 TEST_CASE("a name that is none of the choices is told with the choices")
 {
   CHECK(problems_with({"/materials/steel/type=hypoelastik"}) ==
-        "--set#/materials/steel/type: \"hypoelastik\"; expected one of hypoelastic, tabular_cap, did you mean "
+        "--set#/materials/steel/type: \"hypoelastik\"; expected one of hypoelastic, neo_hookean, tabular_cap, did you "
+        "mean "
         "\"hypoelastic\"?");
   CHECK(problems_with({"/interpolator=linear"}) == "--set#/interpolator: \"linear\"; expected gimp");
   CHECK(problems_with({"/boundaries/x-=wall"}) == "--set#/boundaries/x-: \"wall\"; expected one of symmetry, open");
@@ -237,7 +238,7 @@ TEST_CASE("a missing file is told with the path that was tried")
 {
   CHECK(problems_with_sand({"/materials/sand/file=nothing.json"}) ==
         "--set#/materials/sand/file: there is no file nothing.json; expected the path of a JSON file\n"
-        "scenes/scene.json#/materials/sand/type: missing; expected one of hypoelastic, tabular_cap");
+        "scenes/scene.json#/materials/sand/type: missing; expected one of hypoelastic, neo_hookean, tabular_cap");
   CHECK(problems_with_sand({"/materials/sand/crush_curve=no.csv"}) ==
         "--set#/materials/sand/crush_curve: there is no file no.csv; expected the path of a file");
 }
