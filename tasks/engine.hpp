@@ -29,7 +29,7 @@ class Engine
       : layout(dealt),
         step_graph(time_step(method, std::move(accepted)), layout, material_names, host_data<Interpolator>()),
         report_graph(report_tasks(method), layout, material_names,
-                     {host_data<Interpolator>().state, {&particle_report}}),
+                     {host_data<Interpolator>().state, {&particle_report, &nose_report}}),
         warehouse(std::array<const runtime::TaskGraph*, 2>{&step_graph, &report_graph}, communicator.rank()),
         step(step_graph, warehouse, communicator),
         report(report_graph, warehouse, communicator),

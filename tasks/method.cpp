@@ -29,8 +29,9 @@ double least_particle_mass(const Scene& scene)
 }  // namespace
 
 template <class Interpolator>
-Method<Interpolator>::Method(const Scene& scene)
-    : cell_size(scene.grid.cell_size),
+Method<Interpolator>::Method(const Scene& given)
+    : scene(given),
+      cell_size(scene.grid.cell_size),
       least_node_mass(least_weight * least_particle_mass(scene)),
       gravity(vector_of<dimension>(scene.gravity)),
       viscosity(scene.artificial_viscosity),

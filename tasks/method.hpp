@@ -57,6 +57,7 @@ struct Method {
   /// The rigid body that a material is, or null.
   const RigidBody* rigid_body(int group) const;
 
+  const Scene& scene;
   std::vector<Interpolator> interpolators;
   double cell_size;
   /// Nodes with less mass [kg] are not accelerated: they are touched by an edge of a particle to within round-off, and

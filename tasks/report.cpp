@@ -1,5 +1,6 @@
 #include "tasks/report.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "tasks/labels.hpp"
@@ -12,33 +13,6 @@ using runtime::TaskContext;
 
 namespace
 {
-
-template <int D>
-Eigen::Vector3d in_space(const Vector<D>& v)
-{
-  Eigen::Vector3d padded = Eigen::Vector3d::Zero();
-  padded.head<D>() = v;
-  return padded;
-}
-
-template <int D>
-void add_motion(double mass, const Vector<D>& x, const Vector<D>& reference, const Vector<D>& v, BodySums& body)
-{
-  body.mass += mass;
-  body.momentum += in_space<D>(mass * v);
-  body.position += in_space<D>(mass * x);
-  body.reference_position += in_space<D>(mass * reference);
-  body.aligned += mass * (reference[0] * x[0] + reference[1] * x[1]);
-  body.turned += mass * (reference[0] * x[1] - reference[1] * x[0]);
-}
-
-template <int D>
-void add_stress(const SymmetricTensor<D>& stress, MaterialPeaks& peaks)
-{
-  const SymmetricTensor<D> s = deviator(stress);
-  peaks.pressure = std::max(peaks.pressure, -trace(stress) / 3);
-  peaks.q = std::max(peaks.q, std::sqrt(1.5 * double_dot(s, s)));
-}
 
 template <int D>
 auto report_task(const std::string& material, int group)
@@ -59,8 +33,9 @@ void report_motion(const Method<Interpolator>& method, int group, std::span<cons
   for (std::size_t p = 0; p < mass.size(); ++p) {
     report.kinetic += 0.5 * mass[p] * velocity[p].squaredNorm();
     report.gravity_work += mass[p] * method.gravity.dot(position[p]);
-    add_motion<D>(mass[p], position[p], reference[p], velocity[p], report.bodies[static_cast<std::size_t>(body[p])]);
-    add_stress<D>(stress[p], report.materials[static_cast<std::size_t>(group)]);
+    report.bodies[static_cast<std::size_t>(body[p])].add(mass[p], in_space<D>(position[p]), in_space<D>(reference[p]),
+                                                         in_space<D>(velocity[p]));
+    report.materials[static_cast<std::size_t>(group)].add(stress[p]);
   }
 }
 
@@ -88,33 +63,95 @@ runtime::TaskDeclaration report_of(const Method<Interpolator>& method, int group
                              auto stress, std::span<const CapState> state, ParticleReport& report) {
         report_motion(method, at.group, body, mass, position, reference, velocity, stress, report);
         MaterialPeaks& peaks = report.materials[static_cast<std::size_t>(at.group)];
-        for (const CapState& s : state) {
-          peaks.cap = std::max(peaks.cap, sand.crush_pressure(s.plastic_volumetric));
-          peaks.plastic_volumetric = std::max(peaks.plastic_volumetric, s.plastic_volumetric);
-          peaks.least_plastic_volumetric = std::min(peaks.least_plastic_volumetric, s.plastic_volumetric);
+        for (const CapState& s : state) peaks.add(sand, s);
+      });
+}
+
+/// Where the noses of bodies are now, and how far "near" reaches.
+class Noses
+{
+ public:
+  Noses(const Scene& scene, const ParticleReport& report) : reach_(scene.output.near_nose)
+  {
+    for (std::size_t b = 0; b < scene.bodies.size(); ++b) {
+      const SceneBody& body = scene.bodies[b];
+      if (body.axis) places_.push_back(report.bodies[b].place_of(Eigen::Vector3d(body.axis->nose.data())));
+    }
+  }
+
+  bool are_near(const Eigen::Vector3d& x) const
+  {
+    return std::any_of(places_.begin(), places_.end(),
+                       [&](const Eigen::Vector3d& nose) { return (x - nose).norm() <= reach_; });
+  }
+
+ private:
+  double reach_;
+  std::vector<Eigen::Vector3d> places_;
+};
+
+/// Waits for the report of the bodies, which tells where their noses are.
+template <int D>
+auto nose_task(const std::string& material, int group)
+{
+  return runtime::task("report near noses: " + material)
+      .over_patches_and_groups({group})
+      .reads(particle_report, particle::position<D>.previous(), particle::stress<D>.previous());
+}
+
+template <class Interpolator>
+runtime::TaskDeclaration report_near_noses(const Method<Interpolator>& method, int group)
+{
+  constexpr int D = Interpolator::dimension;
+  const SceneMaterial& m = method.materials[static_cast<std::size_t>(group)];
+  const auto* sand = std::get_if<components::TabularCap>(&m.model);
+  if (sand == nullptr) {
+    return nose_task<D>(m.name, group)
+        .reduces(nose_report)
+        .body([&method](const TaskContext& at, const ParticleReport& whole, auto position, auto stress,
+                        NoseReport& report) {
+          const Noses noses(method.scene, whole);
+          MaterialPeaks& peaks = report.materials[static_cast<std::size_t>(at.group)];
+          for (std::size_t p = 0; p < position.size(); ++p) {
+            if (noses.are_near(in_space<D>(position[p]))) peaks.add(stress[p]);
+          }
+        });
+  }
+  return nose_task<D>(m.name, group)
+      .reads(particle::cap_state.previous())
+      .reduces(nose_report)
+      .body([&method, sand](const TaskContext& at, const ParticleReport& whole, auto position, auto stress, auto state,
+                            NoseReport& report) {
+        const Noses noses(method.scene, whole);
+        MaterialPeaks& peaks = report.materials[static_cast<std::size_t>(at.group)];
+        for (std::size_t p = 0; p < position.size(); ++p) {
+          if (!noses.are_near(in_space<D>(position[p]))) continue;
+          peaks.add(stress[p]);
+          peaks.add(*sand, state[p]);
         }
       });
 }
 
-}  // namespace
-
-void BodySums::combine(const BodySums& other)
+void combine(PeaksOfMaterials& into, const PeaksOfMaterials& other)
 {
-  mass += other.mass;
-  momentum += other.momentum;
-  position += other.position;
-  reference_position += other.reference_position;
-  aligned += other.aligned;
-  turned += other.turned;
+  for (std::size_t k = 0; k < into.size(); ++k) into[k].combine(other[k]);
 }
 
-double BodySums::tilt() const
+}  // namespace
+
+template <int Size>
+void MaterialPeaks::add(const Eigen::Matrix<double, Size, 1>& stress)
 {
-  const Eigen::Vector3d& x = position;
-  const Eigen::Vector3d& r = reference_position;
-  const double cosine = aligned - (r[0] * x[0] + r[1] * x[1]) / mass;
-  const double sine = turned - (r[0] * x[1] - r[1] * x[0]) / mass;
-  return std::atan2(sine, cosine);
+  const Eigen::Matrix<double, Size, 1> s = deviator(stress);
+  pressure = std::max(pressure, -trace(stress) / 3);
+  q = std::max(q, std::sqrt(1.5 * double_dot(s, s)));
+}
+
+void MaterialPeaks::add(const components::TabularCap& sand, const CapState& state)
+{
+  cap = std::max(cap, sand.crush_pressure(state.plastic_volumetric));
+  plastic_volumetric = std::max(plastic_volumetric, state.plastic_volumetric);
+  least_plastic_volumetric = std::min(least_plastic_volumetric, state.plastic_volumetric);
 }
 
 void MaterialPeaks::combine(const MaterialPeaks& other)
@@ -130,10 +167,13 @@ void ParticleReport::combine(const ParticleReport& other)
 {
   kinetic += other.kinetic;
   gravity_work += other.gravity_work;
-  for (std::size_t k = 0; k < max_entries; ++k) {
-    bodies[k].combine(other.bodies[k]);
-    materials[k].combine(other.materials[k]);
-  }
+  for (std::size_t k = 0; k < max_entries; ++k) bodies[k].combine(other.bodies[k]);
+  tasks::combine(materials, other.materials);
+}
+
+void NoseReport::combine(const NoseReport& other)
+{
+  tasks::combine(materials, other.materials);
 }
 
 Eigen::Vector3d ParticleReport::momentum() const
@@ -150,6 +190,11 @@ std::vector<runtime::TaskDeclaration> report_tasks(const Method<Interpolator>& m
   for (int group = 0; group < static_cast<int>(method.materials.size()); ++group) {
     const SceneMaterial& m = method.materials[static_cast<std::size_t>(group)];
     tasks.push_back(std::visit([&](const auto& model) { return report_of(method, group, m.name, model); }, m.model));
+  }
+  if (method.scene.has_nose()) {
+    for (int group = 0; group < static_cast<int>(method.materials.size()); ++group) {
+      tasks.push_back(report_near_noses(method, group));
+    }
   }
   return tasks;
 }

@@ -9,27 +9,11 @@
 
 #include "runtime/data/views.hpp"
 #include "runtime/graph/task_graph.hpp"
+#include "tasks/body_sums.hpp"
 #include "tasks/method.hpp"
 
 namespace tamp::tasks
 {
-
-/// Sums over the particles of one body, from which its motion as a whole follows. In plane strain the third
-/// coordinates are 0. SI units; a slab of 1 m.
-struct BodySums {
-  double mass = 0;
-  Eigen::Vector3d momentum = Eigen::Vector3d::Zero();
-  /// sum m x, and sum m X of where they were at the start.
-  Eigen::Vector3d position = Eigen::Vector3d::Zero();
-  Eigen::Vector3d reference_position = Eigen::Vector3d::Zero();
-  /// sum m (X . x) and sum m (X cross x) within the x-y plane.
-  double aligned = 0;
-  double turned = 0;
-
-  void combine(const BodySums& other);
-  /// Angle of the rotation in the x-y plane that fits the motion from the start best, anticlockwise [rad].
-  double tilt() const;
-};
 
 /// Extremes over the particles of one material; compression positive.
 struct MaterialPeaks {
@@ -41,8 +25,13 @@ struct MaterialPeaks {
   double plastic_volumetric = -std::numeric_limits<double>::infinity();
   double least_plastic_volumetric = std::numeric_limits<double>::infinity();
 
+  template <int Size>
+  void add(const Eigen::Matrix<double, Size, 1>& stress);
+  void add(const components::TabularCap& sand, const components::CapState& state);
   void combine(const MaterialPeaks& other);
 };
+
+using PeaksOfMaterials = std::array<MaterialPeaks, runtime::PerGroup<int>::max_groups>;
 
 /// The state of all particles in a few numbers.
 struct ParticleReport {
@@ -52,15 +41,24 @@ struct ParticleReport {
   /// sum m g . x [J]: what it has gained since the start is the work of gravity.
   double gravity_work = 0;
   std::array<BodySums, max_entries> bodies;
-  std::array<MaterialPeaks, max_entries> materials;
+  PeaksOfMaterials materials;
 
   Eigen::Vector3d momentum() const;
   void combine(const ParticleReport& other);
 };
 
-inline const runtime::ReductionLabel<ParticleReport> particle_report{"particle report"};
+/// The same peaks of the particles that are near the nose of a body.
+struct NoseReport {
+  PeaksOfMaterials materials;
 
-/// The tasks that make a `particle_report` of the state at the end of the last step.
+  void combine(const NoseReport& other);
+};
+
+inline const runtime::ReductionLabel<ParticleReport> particle_report{"particle report"};
+inline const runtime::ReductionLabel<NoseReport> nose_report{"nose report"};
+
+/// The tasks that make a `particle_report`, and a `nose_report` if a body has a nose, of the state at the end of the
+/// last step.
 template <class Interpolator>
 std::vector<runtime::TaskDeclaration> report_tasks(const Method<Interpolator>& method);
 

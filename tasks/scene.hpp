@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <functional>
 #include <limits>
@@ -53,6 +54,12 @@ struct SceneMaterial {
 
 using AnySolid = std::variant<components::Solid<2>, components::Solid<3>>;
 
+/// The ends of a body that is longer than it is wide, at the start [m].
+struct BodyAxis {
+  Triple nose;
+  Triple tail;
+};
+
 struct SceneBody {
   std::string name;
   /// Place in Scene::materials.
@@ -64,6 +71,8 @@ struct SceneBody {
   Triple angular_velocity{0, 0, 0};
   /// Keeps its shape: its material gives it mass, but no stress, and is no other body's.
   bool rigid = false;
+  /// Followed in reports.
+  std::optional<BodyAxis> axis{};
   /// For scenes made in code: velocity [m/s] where a particle starts [m]; `velocity` then only bounds the first step.
   std::function<Triple(const Triple&)> velocity_field{};
 };
@@ -78,6 +87,8 @@ struct SceneContact {
 struct SceneOutput {
   double fields_interval;
   double history_interval;
+  /// How far from a nose its surroundings reach [m].
+  double near_nose = 0.01;
 };
 
 struct Scene {
@@ -101,6 +112,10 @@ struct Scene {
   long failed_updates_allowed = 0;
   SceneOutput output;
 
+  bool has_nose() const
+  {
+    return std::any_of(bodies.begin(), bodies.end(), [](const SceneBody& body) { return body.axis.has_value(); });
+  }
   int particles_per_axis_of(int material) const
   {
     return materials[static_cast<std::size_t>(material)].own_particles_per_axis.value_or(particles_per_axis);

@@ -105,6 +105,11 @@ class SimulationOf : public Simulation
     return engine_->warehouse.result(particle_report);
   }
 
+  NoseReport near_noses() const override
+  {
+    return scene_.has_nose() ? engine_->warehouse.result(nose_report) : NoseReport{};
+  }
+
   LostParticles lost() override
   {
     lost_->share(engine_->layout, communicator_);
@@ -132,6 +137,8 @@ class SimulationOf : public Simulation
     own.add(last_step_size_);
     own.add(totals_);
     own.add(impulse_);
+    own.add(contact_);
+    own.add(contact_since_);
     lost_->share(engine_->layout, communicator_);
     lost_->write(own);
     for (const RigidBody& body : method_.rigid_bodies) own.add(body.state);
@@ -149,6 +156,8 @@ class SimulationOf : public Simulation
     own.read(last_step_size_);
     own.read(totals_);
     own.read(impulse_);
+    own.read(contact_);
+    own.read(contact_since_);
     lost_->read(own);
     for (RigidBody& body : method_.rigid_bodies) own.read(body.state);
     return {own.rest().begin(), own.rest().end()};
@@ -255,6 +264,7 @@ class SimulationOf : public Simulation
     totals_.combine(step);
     asked_ = step.host_requests;
     impulse_.combine(engine_->warehouse.result(grid_impulse));
+    contact_.combine(engine_->warehouse.result(contact_impulses));
   }
 
   /// Body forces of a kick [s]; what contact adds comes in the step.
@@ -325,6 +335,18 @@ class SimulationOf : public Simulation
 };
 
 }  // namespace
+
+std::vector<Eigen::Vector3d> Simulation::take_contact_forces()
+{
+  const double span = time_ - contact_since_;
+  std::vector<Eigen::Vector3d> forces;
+  for (std::size_t m = 0; m < scene_.materials.size(); ++m) {
+    forces.push_back(span > 0 ? Eigen::Vector3d(contact_.by_group[m].linear / span) : Eigen::Vector3d::Zero());
+  }
+  contact_ = {};
+  contact_since_ = time_;
+  return forces;
+}
 
 std::unique_ptr<Simulation> Simulation::make(Scene scene, int n_threads)
 {

@@ -15,6 +15,7 @@
 #include "runtime/storage/field_columns.hpp"
 #include "tasks/lost_particles.hpp"
 #include "tasks/report.hpp"
+#include "tasks/rigid_body.hpp"
 #include "tasks/scene.hpp"
 #include "tasks/step_totals.hpp"
 
@@ -58,6 +59,10 @@ class Simulation
   /// What the grid gave to the particles since the start [N s].
   const GridImpulse& impulse() const { return impulse_; }
 
+  /// Mean force of contact on each material since the last call, or the start [N]; not collective, but to be called by
+  /// all ranks alike.
+  std::vector<Eigen::Vector3d> take_contact_forces();
+
   /// Bits that this rank tells all ranks with the next step; not collective. A rank without patches is not heard.
   void ask(unsigned requests) { requests_ |= requests; }
   /// What any rank asked for in the last step.
@@ -69,6 +74,8 @@ class Simulation
   /// One step, as long as stability allows and not past `end` [s].
   virtual void advance(double end) = 0;
   virtual ParticleReport report() = 0;
+  /// Of the last report; without a nose in the scene it is that of no particle.
+  virtual NoseReport near_noses() const = 0;
   virtual LostParticles lost() = 0;
 
   virtual const runtime::TaskGraph& graph() const = 0;
@@ -113,6 +120,9 @@ class Simulation
   double last_step_size_ = 0;
   StepTotals totals_;
   GridImpulse impulse_;
+  /// Since the forces of contact were last taken.
+  ContactImpulses contact_;
+  double contact_since_ = 0;
 };
 
 }  // namespace tamp::tasks

@@ -1,5 +1,7 @@
 #include "tools/run_history.hpp"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -24,7 +26,9 @@ std::vector<std::size_t> moving_bodies(const tasks::Scene& scene)
 {
   std::vector<std::size_t> moving;
   for (std::size_t b = 0; b < scene.bodies.size(); ++b) {
-    if (velocity_of(scene.bodies[b]).norm() > 0) moving.push_back(b);
+    const tasks::SceneBody& body = scene.bodies[b];
+    const bool turns = Eigen::Vector3d(body.angular_velocity.data()).norm() > 0;
+    if (velocity_of(body).norm() > 0 || turns || body.rigid) moving.push_back(b);
   }
   return moving;
 }
@@ -32,6 +36,21 @@ std::vector<std::size_t> moving_bodies(const tasks::Scene& scene)
 bool is_sand(const tasks::SceneMaterial& material)
 {
   return std::holds_alternative<components::TabularCap>(material.model);
+}
+
+void add_peak_columns(const tasks::SceneMaterial& material, const std::string& where, std::vector<std::string>& names)
+{
+  const std::string name = material.name + where;
+  names.insert(names.end(), {name + ".p_max[Pa]", name + ".q_max[Pa]"});
+  if (!is_sand(material)) return;
+  names.insert(names.end(),
+               {name + ".cap_max[Pa]", name + ".plastic_volumetric_max[-]", name + ".plastic_volumetric_min[-]"});
+}
+
+/// Where nothing has been measured there is no extreme; and 0 has no sign.
+double extreme_or_nothing(double value)
+{
+  return std::isfinite(value) ? value + 0.0 : 0;
 }
 
 }  // namespace
@@ -61,26 +80,35 @@ std::vector<std::string> RunHistory::columns() const
   const auto dimension = static_cast<std::size_t>(scene.grid.dimension);
   std::vector<std::string> names{"step",       "time[s]",    "dt[s]",      "kinetic[J]",  "elastic[J]",
                                  "plastic[J]", "viscous[J]", "contact[J]", "external[J]", "total[J]"};
-  for (std::size_t k = 0; k < dimension; ++k) names.push_back(std::string("momentum_") + axis_names[k] + "[N s]");
+  const auto add_vector = [&](const std::string& name, const std::string& unit) {
+    for (std::size_t k = 0; k < dimension; ++k) names.push_back(fmt::format("{}_{}[{}]", name, axis_names[k], unit));
+  };
+  add_vector("momentum", "N s");
   for (const std::size_t b : tracked_) {
     const std::string& body = scene.bodies[b].name;
     names.push_back(body + ".depth[m]");
-    for (std::size_t k = 0; k < dimension; ++k) names.push_back(body + ".velocity_" + axis_names[k] + "[m/s]");
+    add_vector(body + ".velocity", "m/s");
     names.push_back(body + ".tilt[deg]");
+    if (dimension == 3) add_vector(body + ".spin", "rad/s");
+    add_vector(body + ".contact_force", "N");
+    if (!scene.bodies[b].axis) continue;
+    add_vector(body + ".nose", "m");
+    add_vector(body + ".tail", "m");
+    names.push_back(body + ".axis_angle[deg]");
   }
-  for (const tasks::SceneMaterial& m : scene.materials) {
-    names.insert(names.end(), {m.name + ".p_max[Pa]", m.name + ".q_max[Pa]"});
-    if (!is_sand(m)) continue;
-    names.insert(names.end(), {m.name + ".cap_max[Pa]", m.name + ".plastic_volumetric_max[-]",
-                               m.name + ".plastic_volumetric_min[-]"});
+  for (const tasks::SceneMaterial& m : scene.materials) add_peak_columns(m, "", names);
+  if (scene.has_nose()) {
+    for (const tasks::SceneMaterial& m : scene.materials) add_peak_columns(m, ".near_nose", names);
   }
-  names.push_back("lost[particles]");
+  names.insert(names.end(), {"lost[particles]", "lost_mass[kg]"});
+  add_vector("lost_momentum", "N s");
   return names;
 }
 
 void RunHistory::measure()
 {
   report_ = simulation_.report();
+  near_noses_ = simulation_.near_noses();
   lost_ = simulation_.lost();
   const tasks::StepTotals& totals = simulation_.totals();
   EnergyBalance& e = energies_;
@@ -113,20 +141,38 @@ double RunHistory::depth(std::size_t body) const
   return moved.dot(velocity_of(simulation_.scene().bodies[body]).normalized());
 }
 
-void RunHistory::add_body(std::size_t body, std::vector<double>& row) const
+double RunHistory::axis_angle(std::size_t body) const
 {
+  const tasks::BodyAxis& axis = *simulation_.scene().bodies[body].axis;
   const tasks::BodySums& sums = report_.bodies[body];
-  row.push_back(depth(body));
-  for (int k = 0; k < simulation_.scene().grid.dimension; ++k) row.push_back(sums.momentum[k] / sums.mass);
-  row.push_back(sums.tilt() * 180 / std::numbers::pi);
+  const Eigen::Vector3d along =
+      sums.rotation() * (Eigen::Vector3d(axis.nose.data()) - Eigen::Vector3d(axis.tail.data()));
+  return std::asin(-along[simulation_.scene().grid.dimension - 1] / along.norm()) * 180 / std::numbers::pi;
 }
 
-void RunHistory::add_material(std::size_t material, std::vector<double>& row) const
+void RunHistory::add_body(std::size_t body, const std::vector<Eigen::Vector3d>& forces, std::vector<double>& row) const
 {
-  const tasks::MaterialPeaks& peaks = report_.materials[material];
-  row.insert(row.end(), {peaks.pressure, peaks.q});
+  const int dimension = simulation_.scene().grid.dimension;
+  const tasks::SceneBody& given = simulation_.scene().bodies[body];
+  const tasks::BodySums& sums = report_.bodies[body];
+  const auto add = [&](const Eigen::Vector3d& v) { row.insert(row.end(), v.data(), v.data() + dimension); };
+  row.push_back(depth(body));
+  add(sums.momentum / sums.mass);
+  row.push_back(sums.tilt(dimension) * 180 / std::numbers::pi);
+  if (dimension == 3) add(sums.spin());
+  add(forces[static_cast<std::size_t>(given.material)]);
+  if (!given.axis) return;
+  add(sums.place_of(Eigen::Vector3d(given.axis->nose.data())));
+  add(sums.place_of(Eigen::Vector3d(given.axis->tail.data())));
+  row.push_back(axis_angle(body));
+}
+
+void RunHistory::add_peaks(std::size_t material, const tasks::MaterialPeaks& peaks, std::vector<double>& row) const
+{
+  row.insert(row.end(), {extreme_or_nothing(peaks.pressure), peaks.q});
   if (!is_sand(simulation_.scene().materials[material])) return;
-  row.insert(row.end(), {peaks.cap, peaks.plastic_volumetric, peaks.least_plastic_volumetric});
+  row.insert(row.end(), {peaks.cap, extreme_or_nothing(peaks.plastic_volumetric),
+                         extreme_or_nothing(peaks.least_plastic_volumetric)});
 }
 
 void RunHistory::write_row()
@@ -145,9 +191,15 @@ void RunHistory::write_row()
                           e.total};
   const Eigen::Vector3d momentum = report_.momentum();
   for (int k = 0; k < simulation_.scene().grid.dimension; ++k) row.push_back(momentum[k]);
-  for (const std::size_t b : tracked_) add_body(b, row);
-  for (std::size_t m = 0; m < simulation_.scene().materials.size(); ++m) add_material(m, row);
-  row.push_back(static_cast<double>(lost_.count));
+  const std::vector<Eigen::Vector3d> forces = simulation_.take_contact_forces();
+  for (const std::size_t b : tracked_) add_body(b, forces, row);
+  const std::size_t n_materials = simulation_.scene().materials.size();
+  for (std::size_t m = 0; m < n_materials; ++m) add_peaks(m, report_.materials[m], row);
+  if (simulation_.scene().has_nose()) {
+    for (std::size_t m = 0; m < n_materials; ++m) add_peaks(m, near_noses_.materials[m], row);
+  }
+  row.insert(row.end(), {static_cast<double>(lost_.count), lost_.mass});
+  row.insert(row.end(), lost_.momentum.data(), lost_.momentum.data() + simulation_.scene().grid.dimension);
   runtime::by_first(simulation_.communicator(), [&] { csv_->write_row(row); });
 }
 

@@ -44,21 +44,26 @@ class RunHistory
   double momentum_error() const { return momentum_error_; }
   const EnergyBalance& energies() const { return energies_; }
   const tasks::ParticleReport& report() const { return report_; }
+  const tasks::NoseReport& near_noses() const { return near_noses_; }
 
   /// Bodies that move at the start; the others are what they move into.
   const std::vector<std::size_t>& tracked_bodies() const { return tracked_; }
   /// How far a body's centre of mass has moved along its initial velocity [m].
   double depth(std::size_t body) const;
+  /// Of a body with a nose: the angle of its axis below the horizontal [degrees], the last axis of the scene being
+  /// vertical; 90 points straight down.
+  double axis_angle(std::size_t body) const;
 
  private:
   std::vector<std::string> columns() const;
-  void add_body(std::size_t body, std::vector<double>& row) const;
-  void add_material(std::size_t material, std::vector<double>& row) const;
+  void add_body(std::size_t body, const std::vector<Eigen::Vector3d>& forces, std::vector<double>& row) const;
+  void add_peaks(std::size_t material, const tasks::MaterialPeaks& peaks, std::vector<double>& row) const;
 
   tasks::Simulation& simulation_;
   std::vector<std::size_t> tracked_;
   tasks::ParticleReport initial_;
   tasks::ParticleReport report_;
+  tasks::NoseReport near_noses_;
   tasks::LostParticles lost_;
   EnergyBalance energies_{};
   double energy_error_ = 0;

@@ -97,6 +97,21 @@ bool within_grid(const components::Solid<D>& solid, const runtime::Grid& grid)
   return true;
 }
 
+/// The keys nose and tail, which go together.
+template <int D>
+std::optional<tasks::BodyAxis> read_axis(JsonReader& reader)
+{
+  reader.allow("nose");
+  reader.allow("tail");
+  if (!reader.has("nose") && !reader.has("tail")) return std::nullopt;
+  const Vector<D> nose = vector<D>(reader, "nose"), tail = vector<D>(reader, "tail");
+  if (nose == tail) reader.add_problem("tail", text<D>(tail), "expected another place than the nose's");
+  tasks::BodyAxis axis{};
+  std::copy(nose.begin(), nose.end(), axis.nose.begin());
+  std::copy(tail.begin(), tail.end(), axis.tail.begin());
+  return axis;
+}
+
 template <int D>
 std::optional<tasks::SceneBody> read(const std::string& name, JsonReader& reader, const tasks::Scene& scene,
                                      const std::vector<std::string>& material_names, bool grid_is_good)
@@ -105,6 +120,7 @@ std::optional<tasks::SceneBody> read(const std::string& name, JsonReader& reader
   const std::vector<double> velocity = reader.numbers("velocity", D, any_number, 0);
   const std::vector<double> spin = reader.numbers("angular_velocity", D == 3 ? 3 : 1, any_number, 0);
   const bool rigid = reader.flag("rigid", false);
+  const auto axis = read_axis<D>(reader);
   const auto solid = read_solid<D>(reader);
   reader.finish();
   const bool materials_are_good = scene.materials.size() == material_names.size();
@@ -132,6 +148,7 @@ std::optional<tasks::SceneBody> read(const std::string& name, JsonReader& reader
   std::copy(velocity.begin(), velocity.end(), body.velocity.begin());
   std::copy(spin.begin(), spin.end(), body.angular_velocity.end() - static_cast<std::ptrdiff_t>(spin.size()));
   body.rigid = rigid;
+  body.axis = axis;
   return body;
 }
 

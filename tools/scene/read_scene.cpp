@@ -209,6 +209,7 @@ class SceneReader
     JsonReader reader = root_.object_or_empty("output");
     scene_.output.fields_interval = reader.number("fields_interval", above_zero, scene_.time.end / 50);
     scene_.output.history_interval = reader.number("history_interval", above_zero, scene_.time.end / 1000);
+    scene_.output.near_nose = reader.number("near_nose", above_zero, scene_.output.near_nose);
     reader.finish();
   }
 

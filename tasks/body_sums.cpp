@@ -1,0 +1,79 @@
+#include "tasks/body_sums.hpp"
+
+#include <Eigen/Geometry>
+#include <Eigen/LU>
+#include <cmath>
+
+#include "components/kinematics/polar_rotation.hpp"
+
+namespace tamp::tasks
+{
+
+namespace
+{
+
+/// Below this part of what it may be, a determinant says that a body has no extent along some axis.
+constexpr double least_extent = 1e-12;
+
+/// A body in the plane gets an extent across it, which is not turned.
+Eigen::Matrix3d with_thickness(Eigen::Matrix3d moment)
+{
+  const double largest = moment.cwiseAbs().maxCoeff();
+  if (moment.col(2).isZero(0)) moment(2, 2) = largest;
+  return moment;
+}
+
+}  // namespace
+
+void BodySums::add(double particle_mass, const Eigen::Vector3d& x, const Eigen::Vector3d& reference,
+                   const Eigen::Vector3d& v)
+{
+  mass += particle_mass;
+  momentum += particle_mass * v;
+  position += particle_mass * x;
+  reference_position += particle_mass * reference;
+  second_moment += particle_mass * x * x.transpose();
+  carried_moment += particle_mass * x * reference.transpose();
+  angular_momentum += particle_mass * x.cross(v);
+}
+
+void BodySums::combine(const BodySums& other)
+{
+  mass += other.mass;
+  momentum += other.momentum;
+  position += other.position;
+  reference_position += other.reference_position;
+  second_moment += other.second_moment;
+  carried_moment += other.carried_moment;
+  angular_momentum += other.angular_momentum;
+}
+
+Eigen::Matrix3d BodySums::rotation() const
+{
+  const Eigen::Matrix3d moment = with_thickness(carried_moment - position * reference_position.transpose() / mass);
+  const double scale = moment.cwiseAbs().maxCoeff();
+  if (!(moment.determinant() > least_extent * scale * scale * scale)) return Eigen::Matrix3d::Identity();
+  return components::polar_rotation(moment);
+}
+
+double BodySums::tilt(int dimension) const
+{
+  const Eigen::Matrix3d turn = rotation();
+  return dimension == 2 ? std::atan2(turn(1, 0), turn(0, 0)) : Eigen::AngleAxisd(turn).angle();
+}
+
+Eigen::Vector3d BodySums::spin() const
+{
+  const Eigen::Matrix3d moment = with_thickness(second_moment - position * position.transpose() / mass);
+  const Eigen::Matrix3d inertia = moment.trace() * Eigen::Matrix3d::Identity() - moment;
+  const double scale = inertia.cwiseAbs().maxCoeff();
+  if (!(inertia.determinant() > least_extent * scale * scale * scale)) return Eigen::Vector3d::Zero();
+  return inertia.inverse() * (angular_momentum - position.cross(momentum) / mass);
+}
+
+Eigen::Vector3d BodySums::place_of(const Eigen::Vector3d& reference) const
+{
+  return position / mass + rotation() * (reference - reference_position / mass);
+}
+
+}  // namespace tamp::tasks

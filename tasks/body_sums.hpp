@@ -1,0 +1,34 @@
+#pragma once
+
+#include <Eigen/Core>
+
+namespace tamp::tasks
+{
+
+/// Sums over the particles of one body, from which its motion as a whole follows, whether it deforms or not. In plane
+/// strain the third coordinates are 0. SI units; a slab of 1 m.
+struct BodySums {
+  double mass = 0;
+  Eigen::Vector3d momentum = Eigen::Vector3d::Zero();
+  /// sum m x, and sum m X of where they were at the start.
+  Eigen::Vector3d position = Eigen::Vector3d::Zero();
+  Eigen::Vector3d reference_position = Eigen::Vector3d::Zero();
+  /// sum m x x^T, sum m x X^T, sum m x cross v.
+  Eigen::Matrix3d second_moment = Eigen::Matrix3d::Zero();
+  Eigen::Matrix3d carried_moment = Eigen::Matrix3d::Zero();
+  Eigen::Vector3d angular_momentum = Eigen::Vector3d::Zero();
+
+  void add(double particle_mass, const Eigen::Vector3d& x, const Eigen::Vector3d& reference, const Eigen::Vector3d& v);
+  void combine(const BodySums& other);
+
+  /// The rotation from the start that fits the motion best, by least squares of mass; none for a body without extent.
+  Eigen::Matrix3d rotation() const;
+  /// Its angle [rad]: in the plane anticlockwise, in space without a sign.
+  double tilt(int dimension) const;
+  /// Angular velocity of the rigid motion that has the body's angular momentum about its centre [rad/s].
+  Eigen::Vector3d spin() const;
+  /// Where the body carries a point that was at `reference` at the start [m].
+  Eigen::Vector3d place_of(const Eigen::Vector3d& reference) const;
+};
+
+}  // namespace tamp::tasks
