@@ -39,6 +39,11 @@ tamp_uses(nlohmann-json ${nlohmann_json_VERSION} "scenes and reports")
 find_package(CLI11 REQUIRED CONFIG)
 tamp_uses(CLI11 ${CLI11_VERSION} "the command line")
 
+if(TAMP_MESHES)
+  find_package(CGAL 5.5 REQUIRED CONFIG)
+  tamp_uses(CGAL ${CGAL_VERSION} "triangle meshes (GPL)")
+endif()
+
 find_package(Catch2 2.13 REQUIRED CONFIG)
 if(Catch2_VERSION VERSION_GREATER_EQUAL 3)
   message(FATAL_ERROR "the tests are written for Catch2 version 2, this is ${Catch2_VERSION}")

@@ -1,74 +1,74 @@
 #pragma once
 
-#include <type_traits>
+#include <memory>
 #include <utility>
-#include <variant>
 
+#include "components/geometry/box.hpp"
+#include "components/geometry/volume.hpp"
 #include "components/tensors.hpp"
 
-/// The regions that bodies fill at set-up. Lengths in m, angles in radians. A solid answers exactly, without a mesh.
 namespace tamp::components
 {
 
-/// Box with faces along the axes; half open, lower <= x < upper, so that boxes that share a face share no point.
-template <int D>
-struct Box {
-  Vector<D> lower;
-  Vector<D> upper;
-};
-
-/// Disk in the plane, sphere in space; open: a point at the radius is outside.
-template <int D>
-struct Ball {
-  Vector<D> centre;
-  double radius;
-};
-
-/// Box of edge lengths `sides` turned about its centre: its local axes are the columns of `rotation`. Half open in
-/// its local axes.
-template <int D>
-struct RotatedBox {
-  Vector<D> centre;
-  Vector<D> sides;
-  Matrix<D> rotation;
-};
-
-/// Right circular cylinder between the centres of its two ends; it holds its first end and not its second, and no
-/// point at its radius.
-struct Cylinder {
-  Vector<3> first_end;
-  Vector<3> second_end;
-  double radius;
-};
-
-/// Rotation by `angle` from x towards y; z stays.
-template <int D>
-Matrix<D> plane_rotation(double angle);
-
-/// Any of the shapes above, by value. It is evaluated only at set-up: per cell and particle site, never in a step.
+/// A region that a body fills at set-up, by value: a box, a body of revolution, a difference of others ... A shape is
+/// any type with
+///
+///     bool contains(const Vector<D>& x) const;
+///     double reach(const Vector<D>& direction) const;  // the greatest x . direction [m] of its points, or a bound
+///     Volume volume() const;
+///     void check() const;                              // if it has one: throws BadValue for what is no shape
+///
+/// Solids share their shapes, which do not change. They are evaluated at set-up only, never in a step. Lengths in m.
 template <int D>
 class Solid
 {
  public:
-  using Shape = std::conditional_t<D == 3, std::variant<Box<D>, Ball<D>, RotatedBox<D>, Cylinder>,
-                                   std::variant<Box<D>, Ball<D>, RotatedBox<D>>>;
+  /// Throws what the shape's check throws.
+  template <class Shape>
+  explicit Solid(Shape shape)
+  {
+    if constexpr (requires { shape.check(); }) shape.check();
+    shape_ = std::make_shared<const Held<Shape>>(std::move(shape));
+  }
 
-  /// Throws BadValue for an empty shape, a number that is not finite, or a rotation that is none.
-  explicit Solid(Shape shape);
-
-  bool contains(const Vector<D>& x) const;
-
-  /// The smallest axis-aligned box around the solid.
-  Box<D> bounding_box() const;
+  bool contains(const Vector<D>& x) const { return shape_->contains(x); }
+  double reach(const Vector<D>& direction) const { return shape_->reach(direction); }
 
   /// Volume [m^3]; in the plane the area [m^2], the volume of one metre of thickness.
-  double volume() const;
+  Volume volume() const { return shape_->volume(); }
+
+  /// An axis-aligned box around the solid, as small as the shapes' reaches are exact.
+  Box<D> bounding_box() const
+  {
+    Box<D> box;
+    for (int k = 0; k < D; ++k) {
+      box.lower[k] = -reach(-Vector<D>::Unit(k));
+      box.upper[k] = reach(Vector<D>::Unit(k));
+    }
+    return box;
+  }
 
  private:
-  Shape shape_;
-};
+  struct AnyShape {
+    AnyShape() = default;
+    AnyShape(const AnyShape&) = delete;
+    AnyShape& operator=(const AnyShape&) = delete;
+    virtual ~AnyShape() = default;
+    virtual bool contains(const Vector<D>& x) const = 0;
+    virtual double reach(const Vector<D>& direction) const = 0;
+    virtual Volume volume() const = 0;
+  };
 
-extern template class Solid<2>;
-extern template class Solid<3>;
+  template <class Shape>
+  struct Held : AnyShape {
+    explicit Held(Shape s) : shape(std::move(s)) {}
+    bool contains(const Vector<D>& x) const override { return shape.contains(x); }
+    double reach(const Vector<D>& direction) const override { return shape.reach(direction); }
+    Volume volume() const override { return shape.volume(); }
+    Shape shape;
+  };
+
+  std::shared_ptr<const AnyShape> shape_;
+};
 
 }  // namespace tamp::components

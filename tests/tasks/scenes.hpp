@@ -11,6 +11,7 @@
 #include <variant>
 #include <vector>
 
+#include "components/geometry/ball.hpp"
 #include "components/geometry/solid.hpp"
 #include "tasks/scene.hpp"
 #include "tasks/simulation.hpp"

@@ -183,6 +183,22 @@ std::vector<double> JsonReader::numbers(const std::string& key, std::size_t n, R
   return numbers(key, n, range);
 }
 
+std::vector<std::vector<double>> JsonReader::rows(const std::string& key, std::size_t n)
+{
+  const std::string expected = fmt::format("expected a list of lists of {} numbers", n);
+  const Json* value = require(key, expected);
+  const auto is_row = [n](const Json& row) {
+    return row.is_array() && row.size() == n &&
+           std::all_of(row.begin(), row.end(), [](const Json& v) { return v.is_number(); });
+  };
+  if (value == nullptr) return {};
+  if (value->is_array() && std::all_of(value->begin(), value->end(), is_row)) {
+    return value->get<std::vector<std::vector<double>>>();
+  }
+  add_problem(key, shown(*value), expected);
+  return {};
+}
+
 std::vector<int> JsonReader::integers(const std::string& key, std::size_t n, int least, int default_value)
 {
   if (!has(key)) write(key, std::vector<int>(n, default_value));

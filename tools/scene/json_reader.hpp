@@ -49,6 +49,8 @@ class JsonReader
   /// A list of just `n` numbers, such as one for each axis.
   std::vector<double> numbers(const std::string& key, std::size_t n, Range range);
   std::vector<double> numbers(const std::string& key, std::size_t n, Range range, double default_value);
+  /// A list of lists of `n` numbers.
+  std::vector<std::vector<double>> rows(const std::string& key, std::size_t n);
   std::vector<int> integers(const std::string& key, std::size_t n, int least, int default_value);
   bool flag(const std::string& key, bool default_value);
   std::string text(const std::string& key, const std::string& default_value);

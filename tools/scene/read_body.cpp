@@ -4,10 +4,9 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <numbers>
 
-#include "components/errors.hpp"
 #include "components/geometry/fill.hpp"
+#include "tools/scene/read_solid.hpp"
 
 namespace tamp::tools
 {
@@ -16,59 +15,9 @@ namespace
 {
 
 template <int D>
-Vector<D> vector(JsonReader& reader, const std::string& key, Range range = any_number)
-{
-  const std::vector<double> numbers = reader.numbers(key, D, range);
-  return Eigen::Map<const Vector<D>>(numbers.data());
-}
-
-template <int D>
 std::string text(const Vector<D>& v)
 {
   return fmt::format("[{}]", fmt::join(v.data(), v.data() + D, ", "));
-}
-
-/// The shape named by "type", read by `reader`; empty for a problem.
-template <int D>
-std::optional<typename components::Solid<D>::Shape> read_shape(JsonReader& reader)
-{
-  std::vector<std::string> types{"box", "ball", "rotated_box"};
-  if (D == 3) types.emplace_back("cylinder");
-  const std::size_t n_before = reader.document().problems.size();
-  const std::string type = reader.choice("type", types);
-  if (type.empty()) return std::nullopt;
-
-  typename components::Solid<D>::Shape shape;
-  if (type == "box") {
-    shape = components::Box<D>{vector<D>(reader, "lower"), vector<D>(reader, "upper")};
-  } else if (type == "ball") {
-    shape = components::Ball<D>{vector<D>(reader, "centre"), reader.number("radius", above_zero, "m")};
-  } else if (type == "rotated_box") {
-    const Vector<D> centre = vector<D>(reader, "centre");
-    const Vector<D> sides = vector<D>(reader, "sides", above_zero);
-    const double angle = reader.number("angle", any_number, "degrees") * std::numbers::pi / 180;
-    shape = components::RotatedBox<D>{centre, sides, components::plane_rotation<D>(angle)};
-  } else if constexpr (D == 3) {
-    const Vector<3> first = vector<3>(reader, "first_end");
-    shape = components::Cylinder{first, vector<3>(reader, "second_end"), reader.number("radius", above_zero, "m")};
-  }
-  reader.finish();
-  if (reader.document().problems.size() > n_before) return std::nullopt;
-  return shape;
-}
-
-template <int D>
-std::optional<components::Solid<D>> read_solid(JsonReader& body)
-{
-  JsonReader reader = body.object("geometry");
-  const auto shape = read_shape<D>(reader);
-  if (!shape) return std::nullopt;
-  try {
-    return components::Solid<D>(*shape);
-  } catch (const components::BadValue& bad) {
-    body.add_problem("geometry", bad.found, "expected " + bad.expected);
-    return std::nullopt;
-  }
 }
 
 template <int D>
@@ -121,7 +70,7 @@ std::optional<tasks::SceneBody> read(const std::string& name, JsonReader& reader
   const std::vector<double> spin = reader.numbers("angular_velocity", D == 3 ? 3 : 1, any_number, 0);
   const bool rigid = reader.flag("rigid", false);
   const auto axis = read_axis<D>(reader);
-  const auto solid = read_solid<D>(reader);
+  const auto solid = read_solid<D>(reader, "geometry");
   reader.finish();
   const bool materials_are_good = scene.materials.size() == material_names.size();
   if (!solid || material.empty() || !grid_is_good || !materials_are_good) return std::nullopt;
@@ -152,19 +101,25 @@ std::optional<tasks::SceneBody> read(const std::string& name, JsonReader& reader
   return body;
 }
 
-/// The first particle of `body` that lies in one of the bodies before it, as (that body's name, the place).
+/// The first particle of one body that lies in the solid of another.
 template <int D>
-std::optional<std::pair<std::string, std::string>> first_overlap(const tasks::Scene& scene, std::size_t body)
+std::optional<Vector<D>> first_within(const tasks::Scene& scene, const tasks::SceneBody& body,
+                                      const tasks::SceneBody& other)
 {
-  const auto& solid = std::get<components::Solid<D>>(scene.bodies[body].solid);
-  for (const Vector<D>& site : sites(solid, scene, scene.bodies[body].material)) {
-    for (std::size_t other = 0; other < body; ++other) {
-      if (std::get<components::Solid<D>>(scene.bodies[other].solid).contains(site)) {
-        return std::pair(scene.bodies[other].name, text<D>(site));
-      }
-    }
+  const auto& solid = std::get<components::Solid<D>>(other.solid);
+  for (const Vector<D>& site : sites(std::get<components::Solid<D>>(body.solid), scene, body.material)) {
+    if (solid.contains(site)) return site;
   }
   return std::nullopt;
+}
+
+/// A place that both bodies take. Either may have the finer particles.
+template <int D>
+std::string overlap(const tasks::Scene& scene, const tasks::SceneBody& body, const tasks::SceneBody& other)
+{
+  auto place = first_within<D>(scene, body, other);
+  if (!place) place = first_within<D>(scene, other, body);
+  return place ? text<D>(*place) : "";
 }
 
 }  // namespace
@@ -191,11 +146,14 @@ void check_rigid_bodies(const tasks::Scene& scene, const JsonReader& bodies)
 void check_no_overlap(const tasks::Scene& scene, const JsonReader& bodies)
 {
   for (std::size_t i = 1; i < scene.bodies.size(); ++i) {
-    const auto overlap = scene.grid.dimension == 2 ? first_overlap<2>(scene, i) : first_overlap<3>(scene, i);
-    if (!overlap) continue;
-    bodies.add_problem(scene.bodies[i].name,
-                       fmt::format("overlaps body \"{}\", at {}", overlap->first, overlap->second),
-                       "expected bodies that share no particle");
+    for (std::size_t j = 0; j < i; ++j) {
+      const tasks::SceneBody &body = scene.bodies[i], &other = scene.bodies[j];
+      const std::string place =
+          scene.grid.dimension == 2 ? overlap<2>(scene, body, other) : overlap<3>(scene, body, other);
+      if (place.empty()) continue;
+      bodies.add_problem(body.name, fmt::format("overlaps body \"{}\", at {}", other.name, place),
+                         "expected bodies that share no particle");
+    }
   }
 }
 

@@ -18,7 +18,7 @@ std::optional<tasks::SceneBody> read_body(const std::string& name, JsonReader re
 /// Adds a problem for each rigid body whose material is another body's too: contact is between materials.
 void check_rigid_bodies(const tasks::Scene& scene, const JsonReader& bodies);
 
-/// Adds a problem for each body that would have a particle inside of one before it.
+/// Adds a problem for each pair of bodies of which one would have a particle inside of the other.
 void check_no_overlap(const tasks::Scene& scene, const JsonReader& bodies);
 
 }  // namespace tamp::tools

@@ -3,7 +3,9 @@
 #include <vector>
 
 #include "components/errors.hpp"
+#include "components/geometry/ball.hpp"
 #include "components/geometry/fill.hpp"
+#include "components/geometry/rotations.hpp"
 
 using namespace tamp;
 using namespace tamp::components;
@@ -29,7 +31,7 @@ TEST_CASE("a box of whole cells is filled with its whole volume")
   const auto x = fill(box, lattice, CellRange<3>{{0, 0, 0}, {10, 10, 10}});
 
   CHECK(x.size() == 3 * 4 * 5 * 8);
-  CHECK(static_cast<double>(x.size()) * lattice.particle_volume() == Approx(box.volume()));
+  CHECK(static_cast<double>(x.size()) * lattice.particle_volume() == Approx(box.volume().value));
 }
 
 TEST_CASE("patches that share out the cells make the particles of the whole, none twice and none lost")
@@ -43,7 +45,7 @@ TEST_CASE("patches that share out the cells make the particles of the whole, non
   parts.insert(parts.end(), upper.begin(), upper.end());
 
   CHECK(whole == parts);
-  CHECK(static_cast<double>(whole.size()) * lattice.particle_volume() == Approx(ball.volume()).epsilon(0.02));
+  CHECK(static_cast<double>(whole.size()) * lattice.particle_volume() == Approx(ball.volume().value).epsilon(0.02));
 }
 
 TEST_CASE("filling finds every site that the solid contains and no other")

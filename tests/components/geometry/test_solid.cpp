@@ -5,36 +5,15 @@
 #include <numbers>
 
 #include "components/errors.hpp"
+#include "components/geometry/ball.hpp"
+#include "components/geometry/cone.hpp"
+#include "components/geometry/rotations.hpp"
 #include "components/geometry/solid.hpp"
+#include "tests/components/geometry/counted_volume.hpp"
 
 using namespace tamp;
 using namespace tamp::components;
-
-namespace
-{
-
-/// The share of the midpoints of n^D equal parts of the bounding box that the solid holds, times the box.
-template <int D>
-double counted_volume(const Solid<D>& solid, int n)
-{
-  const Box<D> box = solid.bounding_box();
-  const Vector<D> part = (box.upper - box.lower) / n;
-  long held = 0;
-  for (int k = 0; k < (D == 3 ? n : 1); ++k) {
-    for (int j = 0; j < n; ++j) {
-      for (int i = 0; i < n; ++i) {
-        Vector<D> x = box.lower;
-        x[0] += (i + 0.5) * part[0];
-        x[1] += (j + 0.5) * part[1];
-        if constexpr (D == 3) x[2] += (k + 0.5) * part[2];
-        held += solid.contains(x);
-      }
-    }
-  }
-  return static_cast<double>(held) * part.prod();
-}
-
-}  // namespace
+using tamp::test::counted_volume;
 
 TEST_CASE("a box holds its lower faces and not its upper ones")
 {
@@ -45,7 +24,7 @@ TEST_CASE("a box holds its lower faces and not its upper ones")
   CHECK_FALSE(box.contains({3, 4}));
   CHECK_FALSE(box.contains({2, 5}));
   CHECK_FALSE(box.contains({0.999, 4}));
-  CHECK(box.volume() == 6);
+  CHECK(box.volume().value == 6);
 }
 
 TEST_CASE("two boxes that share a face share no point and leave none out")
@@ -106,11 +85,11 @@ TEST_CASE("the volume of a solid is that of the points it contains")
   const Solid<3> sphere(Ball<3>{{0.1, 0.2, 0.3}, 0.7}), brick(RotatedBox<3>{{0, 0, 0}, {2, 1, 0.5}, tilt});
   const Solid<3> cylinder(Cylinder{{0, 0, 0}, {1, 2, 3}, 0.6});
 
-  CHECK(counted_volume(disk, 1000) == Approx(disk.volume()).epsilon(1e-3));
-  CHECK(counted_volume(block, 1000) == Approx(block.volume()).epsilon(1e-3));
-  CHECK(counted_volume(sphere, 120) == Approx(sphere.volume()).epsilon(2e-3));
-  CHECK(counted_volume(brick, 120) == Approx(brick.volume()).epsilon(2e-3));
-  CHECK(counted_volume(cylinder, 120) == Approx(cylinder.volume()).epsilon(2e-3));
+  CHECK(counted_volume(disk, 1000) == Approx(disk.volume().value).epsilon(1e-3));
+  CHECK(counted_volume(block, 1000) == Approx(block.volume().value).epsilon(1e-3));
+  CHECK(counted_volume(sphere, 120) == Approx(sphere.volume().value).epsilon(2e-3));
+  CHECK(counted_volume(brick, 120) == Approx(brick.volume().value).epsilon(2e-3));
+  CHECK(counted_volume(cylinder, 120) == Approx(cylinder.volume().value).epsilon(2e-3));
 }
 
 TEST_CASE("a shape without a volume, or with numbers that are none, is refused")

@@ -147,7 +147,7 @@ TEST_CASE("every kind of geometry is read")
   const auto file = folder.write("small.json", small_scene);
   const auto volume = [&](const std::string& geometry) {
     const auto scene = read_scene(file, {"/dimension=3", "/grid/upper=[2,2,2]", "/bodies/block/geometry=" + geometry});
-    return std::get<components::Solid<3>>(scene.scene.bodies.at(0).solid).volume();
+    return std::get<components::Solid<3>>(scene.scene.bodies.at(0).solid).volume().value;
   };
   const double pi = 3.14159265358979323846;
 

@@ -1,0 +1,21 @@
+#pragma once
+
+#include "components/geometry/volume.hpp"
+#include "components/tensors.hpp"
+
+namespace tamp::components
+{
+
+/// Disk in the plane, sphere in space; open: a point at the radius is outside.
+template <int D>
+struct Ball {
+  Vector<D> centre;
+  double radius;
+
+  bool contains(const Vector<D>& x) const;
+  double reach(const Vector<D>& direction) const;
+  Volume volume() const;
+  void check() const;
+};
+
+}  // namespace tamp::components

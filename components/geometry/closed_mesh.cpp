@@ -1,0 +1,137 @@
+#include "components/geometry/closed_mesh.hpp"
+
+#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+#include <CGAL/IO/STL.h>
+#include <CGAL/Polygon_mesh_processing/measure.h>
+#include <CGAL/Polygon_mesh_processing/orient_polygon_soup.h>
+#include <CGAL/Polygon_mesh_processing/orientation.h>
+#include <CGAL/Polygon_mesh_processing/polygon_soup_to_polygon_mesh.h>
+#include <CGAL/Polygon_mesh_processing/repair_polygon_soup.h>
+#include <CGAL/Polygon_mesh_processing/self_intersections.h>
+#include <CGAL/Side_of_triangle_mesh.h>
+#include <CGAL/Surface_mesh.h>
+
+#include <algorithm>
+#include <array>
+#include <limits>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "components/errors.hpp"
+#include "components/geometry/checks.hpp"
+
+namespace tamp::components
+{
+
+namespace
+{
+
+namespace processing = CGAL::Polygon_mesh_processing;
+using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
+using Point = Kernel::Point_3;
+using Triangles = CGAL::Surface_mesh<Point>;
+using Facet = std::array<std::size_t, 3>;
+
+constexpr const char* expected_surface = "a closed surface that does not cross itself";
+
+Vector<3> vector(const Point& p)
+{
+  return {p.x(), p.y(), p.z()};
+}
+
+std::string middle(const Triangles& mesh, Triangles::Face_index face)
+{
+  Vector<3> sum = Vector<3>::Zero();
+  for (const auto vertex : mesh.vertices_around_face(mesh.halfedge(face))) sum += vector(mesh.point(vertex));
+  return text<3>(sum / 3);
+}
+
+/// The triangles of the file, joined where their points are equal.
+Triangles read(std::istream& stl, double scale)
+{
+  std::vector<Point> points;
+  std::vector<Facet> facets;
+  if (!CGAL::IO::read_STL(stl, points, facets) || facets.empty()) {
+    throw BadValue("no STL, or one that is damaged", "triangles in STL, binary or text");
+  }
+  for (Point& p : points) {
+    p = Point(scale * p.x(), scale * p.y(), scale * p.z());
+    require_finite<3>(vector(p), "corner");
+  }
+  processing::repair_polygon_soup(points, facets);
+  processing::orient_polygon_soup(points, facets);
+  if (!processing::is_polygon_soup_a_polygon_mesh(facets)) {
+    throw BadValue("triangles that do not make a surface", expected_surface);
+  }
+  Triangles mesh;
+  processing::polygon_soup_to_polygon_mesh(points, facets, mesh);
+  return mesh;
+}
+
+void require_closed(const Triangles& mesh)
+{
+  std::size_t n_open = 0;
+  Triangles::Halfedge_index first;
+  for (const auto edge : mesh.halfedges()) {
+    if (!mesh.is_border(edge)) continue;
+    if (n_open++ == 0) first = edge;
+  }
+  if (n_open == 0) return;
+  throw BadValue("an open surface: " + std::to_string(n_open) + " edges have one triangle, such as that from " +
+                     text<3>(vector(mesh.point(mesh.source(first)))) + " to " +
+                     text<3>(vector(mesh.point(mesh.target(first)))),
+                 expected_surface);
+}
+
+void require_no_crossing(const Triangles& mesh)
+{
+  std::vector<std::pair<Triangles::Face_index, Triangles::Face_index>> crossings;
+  processing::self_intersections(mesh, std::back_inserter(crossings));
+  if (crossings.empty()) return;
+  const auto& [a, b] = *std::min_element(crossings.begin(), crossings.end());
+  throw BadValue("a surface that crosses itself: " + std::to_string(crossings.size()) +
+                     " pairs of triangles, such as those about " + middle(mesh, a) + " and " + middle(mesh, b),
+                 expected_surface);
+}
+
+}  // namespace
+
+const bool ClosedMesh::is_available = true;
+
+struct ClosedMesh::Surface {
+  explicit Surface(Triangles triangles) : mesh(std::move(triangles)), side_of(mesh) {}
+
+  const Triangles mesh;
+  /// Refers to the mesh.
+  const CGAL::Side_of_triangle_mesh<Triangles, Kernel> side_of;
+};
+
+ClosedMesh::ClosedMesh(std::istream& stl, double scale)
+{
+  Triangles mesh = read(stl, scale);
+  require_closed(mesh);
+  require_no_crossing(mesh);
+  processing::orient_to_bound_a_volume(mesh);
+  surface_ = std::make_shared<const Surface>(std::move(mesh));
+  require_positive(volume().value, "volume");
+}
+
+bool ClosedMesh::contains(const Vector<3>& x) const
+{
+  return surface_->side_of(Point(x[0], x[1], x[2])) == CGAL::ON_BOUNDED_SIDE;
+}
+
+double ClosedMesh::reach(const Vector<3>& direction) const
+{
+  double furthest = -std::numeric_limits<double>::infinity();
+  for (const Point& p : surface_->mesh.points()) furthest = std::max(furthest, vector(p).dot(direction));
+  return furthest;
+}
+
+Volume ClosedMesh::volume() const
+{
+  return {CGAL::to_double(processing::volume(surface_->mesh))};
+}
+
+}  // namespace tamp::components

@@ -1,0 +1,35 @@
+#pragma once
+
+#include <istream>
+#include <memory>
+
+#include "components/geometry/volume.hpp"
+#include "components/tensors.hpp"
+
+namespace tamp::components
+{
+
+/// What lies within a surface of triangles that is closed and does not cross itself; several such surfaces, also one
+/// in another, are one mesh. Points are told exactly to be inside or not; those of the surface are not.
+/// A build without meshes (TAMP_MESHES) refuses every mesh.
+class ClosedMesh
+{
+ public:
+  /// Was this built with meshes?
+  static const bool is_available;
+
+  /// Reads STL, binary or text, whose coordinates are multiplied by `scale` to be metres. Points that are equal are one
+  /// and the sense of the triangles does not matter. Throws BadValue for text that is no STL, and for a surface that
+  /// is open, crosses itself or holds nothing.
+  ClosedMesh(std::istream& stl, double scale);
+
+  bool contains(const Vector<3>& x) const;
+  double reach(const Vector<3>& direction) const;
+  Volume volume() const;
+
+ private:
+  struct Surface;
+  std::shared_ptr<const Surface> surface_;
+};
+
+}  // namespace tamp::components

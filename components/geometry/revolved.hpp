@@ -1,0 +1,44 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "components/geometry/axis.hpp"
+#include "components/geometry/volume.hpp"
+#include "components/tensors.hpp"
+
+namespace tamp::components
+{
+
+/// Radius of a body of revolution, `along` its axis [m].
+struct ProfilePoint {
+  double along;
+  double radius;
+};
+
+/// The body of revolution through a profile of points. Between them the area of the section, pi r^2, is the cubic that
+/// rises and falls only where its points do, so that the body is smooth, a cone's tip is round, and the volume exact.
+/// It holds its first end and not its last, and no point at its radius.
+class Revolved
+{
+ public:
+  /// `start` is where the profile's `along` is 0, `axis` the direction in which it grows, of any length. Only the ends
+  /// of the profile may have radius 0. `tip_radius` is the radius of curvature of the first end, whose radius is then
+  /// 0: r^2 grows by 2 `tip_radius` per length there. Throws BadValue, with the row of the profile.
+  Revolved(const Vector<3>& start, const Vector<3>& axis, const std::vector<ProfilePoint>& profile,
+           std::optional<double> tip_radius = std::nullopt);
+
+  bool contains(const Vector<3>& x) const;
+  double reach(const Vector<3>& direction) const;
+  Volume volume() const;
+
+  /// Of a place between the ends.
+  double radius_squared(double along) const;
+
+ private:
+  Axis axis_;
+  /// Places along the axis, r^2 there and how it grows.
+  std::vector<double> along_, squared_, slope_;
+};
+
+}  // namespace tamp::components

@@ -1,0 +1,21 @@
+#pragma once
+
+#include "components/geometry/solid.hpp"
+
+namespace tamp::components
+{
+
+/// A solid that is turned about the origin and then moved.
+template <int D>
+struct Transformed {
+  Solid<D> solid;
+  Matrix<D> rotation;
+  Vector<D> translation;
+
+  bool contains(const Vector<D>& x) const;
+  double reach(const Vector<D>& direction) const;
+  Volume volume() const;
+  void check() const;
+};
+
+}  // namespace tamp::components
