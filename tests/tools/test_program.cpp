@@ -47,6 +47,19 @@ TEST_CASE("a command that no ranks share is the first rank's alone")
   CHECK(tamp_on_ranks(2, "--version").exit_code == 0);
 }
 
+TEST_CASE("volume and mass of a solid are printed beside those of its particles")
+{
+  const TemporaryFolder folder;
+  const auto file = folder.write("small.json", small_scene);
+
+  // A disk of radius 1 m holds 12 sites of its 16 squares of 0.5 m: 3 m2 of pi.
+  const Outcome disk = tamp_with("check " + file.string() +
+                                 " --set '/bodies/block/geometry={\"type\":\"ball\",\"centre\":[1,1],\"radius\":1}'");
+
+  CHECK_THAT(disk.err, Catch::Contains("solid      3.14159 m3, 25132.7 kg (exact)"));
+  CHECK_THAT(disk.err, Catch::Contains("particles  3 m3, 24000 kg (-4.51 %)"));
+}
+
 TEST_CASE("a sound scene passes the check, is printed resolved, and its particles are counted")
 {
   const TemporaryFolder folder;

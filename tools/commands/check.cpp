@@ -1,6 +1,8 @@
 #include <fmt/core.h>
 
+#include <cmath>
 #include <memory>
+#include <variant>
 
 #include "tasks/simulation.hpp"
 #include "tools/commands/commands.hpp"
@@ -19,6 +21,26 @@ struct CheckOptions {
   std::vector<std::string> assignments;
 };
 
+/// Of the solid, which may be known within an error only.
+components::Volume solid_volume(const tasks::SceneBody& body)
+{
+  return std::visit([](const auto& solid) { return solid.volume(); }, body.solid);
+}
+
+/// How much the solid and its particles hold, a line each.
+void print_volumes(const tasks::Scene& scene, const tasks::SceneBody& body)
+{
+  const double density = scene.materials[static_cast<std::size_t>(body.material)].density;
+  const components::Volume solid = solid_volume(body);
+  const double spacing = scene.grid.cell_size / scene.particles_per_axis_of(body.material);
+  const double filled = static_cast<double>(body.n_particles) * std::pow(spacing, scene.grid.dimension);
+  const std::string known =
+      solid.is_exact() ? "exact" : fmt::format("within {:.2g} %", 100 * solid.error / solid.value);
+  fmt::print(stderr, "        solid      {:.6g} m3, {:.6g} kg ({})\n", solid.value, density * solid.value, known);
+  fmt::print(stderr, "        particles  {:.6g} m3, {:.6g} kg ({:+.3g} %)\n", filled, density * filled,
+             100 * (filled / solid.value - 1));
+}
+
 void check(const CheckOptions& options)
 {
   const CheckedScene checked = read_scene(options.scene, options.assignments);
@@ -35,6 +57,7 @@ void check(const CheckOptions& options)
     total += body.n_particles;
     const std::string& material = scene.materials[static_cast<std::size_t>(body.material)].name;
     fmt::print(stderr, "  body  {}: {} particles of {}\n", body.name, body.n_particles, material);
+    print_volumes(scene, body);
   }
   for (const std::string& line : compiled_moduli(checked)) fmt::print(stderr, "  {}\n", line);
   const auto simulation = tasks::Simulation::make(scene, 1);
