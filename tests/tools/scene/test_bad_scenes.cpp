@@ -178,6 +178,18 @@ TEST_CASE("bodies that overlap are told with where")
         "--set#/bodies/second: overlaps body \"block\", at [0.75, 0.75]; expected bodies that share no particle");
 }
 
+TEST_CASE("bodies overlap too where only the finer particles of the first show it")
+{
+  const std::string fine =
+      R"({"type":"hypoelastic","density":8000,"bulk_modulus":1e10,"shear_modulus":7e9,"particles_per_axis":4})";
+  const std::string geometry = R"({"type":"box","lower":[0.8,0.8],"upper":[2,2]})";
+
+  // The second body's only particle is at (1.5, 1.5).
+  CHECK(problems_with({"/particles_per_cell=[1,1]", "/materials/fine=" + fine, "/bodies/block/material=fine",
+                       "/bodies/second={\"material\":\"steel\",\"geometry\":" + geometry + "}"}) ==
+        "--set#/bodies/second: overlaps body \"block\", at [0.875, 0.875]; expected bodies that share no particle");
+}
+
 TEST_CASE("a scene without bodies is told")
 {
   CHECK(problems_with({"/bodies={}"}) == "--set#/bodies: an empty object; expected at least one entry");
