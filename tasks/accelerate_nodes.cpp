@@ -7,6 +7,7 @@ namespace tamp::tasks
 using components::NodeMotion;
 using components::NodeSums;
 using runtime::GridView;
+using runtime::Index;
 using runtime::TaskContext;
 
 namespace
@@ -18,11 +19,26 @@ void move_freely(const TaskContext& at, const RigidBody& body, const GridView<co
                  const GridView<NodeMotion<D>>& motion)
 {
   const components::RigidMotion free = components::motion_of(body.properties, body.free);
-  for_each(motion.box(), [&](const runtime::Index& i) {
+  for_each(motion.box(), [&](const Index& i) {
     motion[i] = {};
     if (!(sums[i].mass() > 0)) return;
     motion[i].set(free.at(in_space<D>(place_of<D>(at.layout.grid(), i))).template head<D>(), Vector<D>::Zero());
   });
+}
+
+/// Of a node with this velocity, over a kick, by the acceleration that its force gives it and those of the scene.
+template <class Interpolator, int D = Interpolator::dimension>
+Vector<D> velocity_change(const Method<Interpolator>& method, const TaskContext& at, const Index& node,
+                          const Vector<D>& velocity, const Vector<D>& by_force, double kick)
+{
+  const Vector<D> acceleration = by_force + method.gravity;
+  if constexpr (D == 3) {
+    if (method.centrifuge) {
+      const Vector<3> x = place_of<3>(at.layout.grid(), node);
+      return method.centrifuge->velocity_change(x, velocity, acceleration, at.step.time, kick);
+    }
+  }
+  return kick * acceleration;
 }
 
 }  // namespace
@@ -44,19 +60,21 @@ runtime::TaskDeclaration accelerate_nodes(const Method<Interpolator>& method)
           return;
         }
         const double kick = 0.5 * (at.step.previous_size + at.step.size);
-        const std::int64_t n_nodes = sums.box().size();
-        for (std::int64_t i = 0; i < n_nodes; ++i) {
-          const NodeSums<D>& node = sums.data()[i];
+        for_each(sums.box(), [&](const Index& i) {
+          const NodeSums<D>& node = sums[i];
           const double mass = node.mass();
-          if (mass > 0) {
-            const bool accelerated = mass > method.least_node_mass;
-            const Vector<D> change =
-                accelerated ? Vector<D>(kick * (node.internal_force() / mass + method.gravity)) : Vector<D>::Zero();
-            motion.data()[i].set(node.momentum() / mass + change, change);
-          } else {
-            motion.data()[i] = {};
+          if (!(mass > 0)) {
+            motion[i] = {};
+            return;
           }
-        }
+          const Vector<D> velocity = node.momentum() / mass;
+          const Vector<D> by_force = node.internal_force() / mass;
+          Vector<D> change = Vector<D>::Zero();
+          if (mass > method.least_node_mass) {
+            change = velocity_change<Interpolator>(method, at, i, velocity, by_force, kick);
+          }
+          motion[i].set(velocity + change, change);
+        });
       });
 }
 

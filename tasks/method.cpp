@@ -34,6 +34,7 @@ Method<Interpolator>::Method(const Scene& given)
       cell_size(scene.grid.cell_size),
       least_node_mass(least_weight * least_particle_mass(scene)),
       gravity(vector_of<dimension>(scene.gravity)),
+      centrifuge(scene.centrifuge),
       viscosity(scene.artificial_viscosity),
       time_step_rule(scene.time.rule),
       friction(static_cast<int>(scene.materials.size())),

@@ -64,6 +64,8 @@ struct Method {
   /// as force goes with the slope of the weight but mass with its square, they would turn round-off into finite strain.
   double least_node_mass;
   Vector<dimension> gravity;
+  /// In three dimensions only.
+  std::optional<components::RotatingFrame> centrifuge;
   /// Faces of the domain that mirror, as [axis][side]: side 0 is the lower.
   std::array<std::array<bool, 2>, std::size_t{dimension}> mirrors;
   std::optional<components::ArtificialViscosity> viscosity;

@@ -11,7 +11,7 @@ namespace tamp::tasks
 template <class Interpolator>
 runtime::TaskDeclaration particles_to_grid(const Method<Interpolator>& method);
 
-/// Nodes are accelerated by their forces and gravity.
+/// Nodes are accelerated by their forces, gravity and what the turning of the frame adds.
 template <class Interpolator>
 runtime::TaskDeclaration accelerate_nodes(const Method<Interpolator>& method);
 

@@ -24,6 +24,17 @@ auto report_task(const std::string& material, int group)
              particle::stress<D>.previous());
 }
 
+/// Per mass, of the loads that have one [J/kg].
+template <class Interpolator, int D = Interpolator::dimension>
+double work_function(const Method<Interpolator>& method, const Vector<D>& x)
+{
+  double work = method.gravity.dot(x);
+  if constexpr (D == 3) {
+    if (method.centrifuge && method.centrifuge->is_steady()) work += method.centrifuge->work_function(x);
+  }
+  return work;
+}
+
 template <class Interpolator, int D = Interpolator::dimension>
 void report_motion(const Method<Interpolator>& method, int group, std::span<const std::int64_t> body,
                    std::span<const double> mass, std::span<const Vector<D>> position,
@@ -32,7 +43,7 @@ void report_motion(const Method<Interpolator>& method, int group, std::span<cons
 {
   for (std::size_t p = 0; p < mass.size(); ++p) {
     report.kinetic += 0.5 * mass[p] * velocity[p].squaredNorm();
-    report.gravity_work += mass[p] * method.gravity.dot(position[p]);
+    report.gravity_work += mass[p] * work_function(method, position[p]);
     report.bodies[static_cast<std::size_t>(body[p])].add(mass[p], in_space<D>(position[p]), in_space<D>(reference[p]),
                                                          in_space<D>(velocity[p]));
     report.materials[static_cast<std::size_t>(group)].add(stress[p]);

@@ -38,7 +38,8 @@ struct ParticleReport {
   static constexpr std::size_t max_entries = runtime::PerGroup<int>::max_groups;
 
   double kinetic = 0;
-  /// sum m g . x [J]: what it has gained since the start is the work of gravity.
+  /// sum m (g . x + |w x r|^2 / 2) [J]: what it has gained since the start is the work of gravity and of a steady
+  /// centrifuge. One that speeds up has no such function: its work is left out, and an energy balance does not close.
   double gravity_work = 0;
   std::array<BodySums, max_entries> bodies;
   PeaksOfMaterials materials;

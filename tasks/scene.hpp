@@ -11,6 +11,7 @@
 
 #include "components/geometry/solid.hpp"
 #include "components/loads/artificial_viscosity.hpp"
+#include "components/loads/rotating_frame.hpp"
 #include "components/materials/hypoelastic.hpp"
 #include "components/materials/neo_hookean.hpp"
 #include "components/materials/tabular_cap.hpp"
@@ -104,6 +105,8 @@ struct Scene {
   /// Along each axis of a cell.
   int particles_per_axis = 2;
   Triple gravity{0, 0, 0};
+  /// The frame of the grid, where it turns; in three dimensions only.
+  std::optional<components::RotatingFrame> centrifuge;
   std::optional<components::ArtificialViscosity> artificial_viscosity;
   std::vector<SceneMaterial> materials;
   std::vector<SceneBody> bodies;

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "components/errors.hpp"
+#include "tasks/method.hpp"
 #include "tools/scene/json_reader.hpp"
 #include "tools/scene/read_body.hpp"
 #include "tools/scene/read_material.hpp"
@@ -142,6 +144,35 @@ class SceneReader
   void read_loads()
   {
     scene_.gravity = triple(root_.numbers("gravity", dimension(), any_number, 0));
+    read_centrifuge();
+    read_artificial_viscosity();
+  }
+
+  void read_centrifuge()
+  {
+    if (dimension() != 3) {
+      root_.allow("centrifuge");
+      if (root_.has("centrifuge")) root_.add_problem("centrifuge", "a plane scene", "expected one of dimension 3");
+      return;
+    }
+    auto reader = root_.optional_object("centrifuge");
+    if (!reader) return;
+    const std::size_t n_before = document_.problems.size();
+    const double speed = reader->number("angular_speed", zero_or_above, "rad/s");
+    const tasks::Triple axis = triple(reader->numbers("axis", 3, any_number));
+    const tasks::Triple centre = triple(reader->numbers("centre", 3, any_number));
+    const double acceleration = reader->number("angular_acceleration", any_number, 0);
+    reader->finish();
+    if (document_.problems.size() > n_before) return;
+    try {
+      scene_.centrifuge.emplace(speed, tasks::vector_of<3>(axis), tasks::vector_of<3>(centre), acceleration);
+    } catch (const components::BadValue& bad) {
+      reader->add_problem("axis", bad.found, "expected " + bad.expected);
+    }
+  }
+
+  void read_artificial_viscosity()
+  {
     auto reader = root_.optional_object("artificial_viscosity");
     if (!reader) return;
     components::ArtificialViscosity viscosity;

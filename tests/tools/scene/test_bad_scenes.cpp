@@ -121,6 +121,25 @@ TEST_CASE("a number out of range is told with its range")
         "--set#/particles_per_cell: unequal numbers; expected the same number along every axis");
 }
 
+TEST_CASE("a centrifuge whose numbers make no rotation is told, and one in the plane")
+{
+  CHECK(problems_with({R"(/centrifuge={"angular_speed":6})"}) ==
+        "--set#/centrifuge: a plane scene; expected one of dimension 3");
+
+  const auto in_space = [](const std::string& centrifuge) {
+    return problems_with({"/dimension=3", "/grid/upper=[2,2,2]",
+                          R"(/bodies/block/geometry={"type":"box","lower":[0,0,0],"upper":[1,1,1]})",
+                          "/centrifuge=" + centrifuge});
+  };
+  CHECK(in_space(R"({"angular_speed":6,"axis":[1,0,0],"centre":[0,0,5]})") == "");
+  CHECK(in_space(R"({"angular_speed":6,"axis":[0,0,0],"centre":[0,0,5]})") ==
+        "--set#/centrifuge/axis: an axis of zero length; expected a direction");
+  CHECK(in_space(R"({"angular_speed":-6,"axis":[1,0,0],"centre":[0,0,5]})") ==
+        "--set#/centrifuge/angular_speed: -6; expected a number of 0 or above [rad/s]");
+  CHECK_THAT(in_space(R"({"angular_speed":6,"axis":["NaN",0,0],"centre":[0,0,5]})"),
+             Catch::StartsWith("--set#/centrifuge/axis"));
+}
+
 TEST_CASE("a name that is none of the choices is told with the choices")
 {
   CHECK(problems_with({"/materials/steel/type=hypoelastik"}) ==
