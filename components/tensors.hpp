@@ -53,6 +53,12 @@ Eigen::Matrix<double, Size, 1> isotropic(double value)
   return a;
 }
 
+/// [a]x, so that [a]x b = a x b.
+inline Matrix<3> cross_matrix(const Vector<3>& a)
+{
+  return (Matrix<3>() << 0, -a[2], a[1], a[2], 0, -a[0], -a[1], a[0], 0).finished();
+}
+
 /// The in-plane (D x D) part of a symmetric tensor as a matrix; plane strain leaves zz out.
 template <int D>
 Matrix<D> plane_part(const SymmetricTensor<D>& a)

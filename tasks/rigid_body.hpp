@@ -1,7 +1,9 @@
 #pragma once
 
 #include <array>
+#include <optional>
 
+#include "components/loads/rotating_frame.hpp"
 #include "components/rigid/rigid_body.hpp"
 #include "components/rigid/rigid_contact.hpp"
 #include "runtime/data/views.hpp"
@@ -47,6 +49,11 @@ struct RigidCouplings {
     for (std::size_t g = 0; g < by_group.size(); ++g) by_group[g].combine(other.by_group[g]);
   }
 };
+
+/// The body's state with the momenta that gravity [m/s^2] and the frame's turning give it over a kick [s], which is
+/// centred at `time`. Both act on the whole of the body, so that they turn it too where they differ across it.
+components::RigidState accelerated(const RigidBody& body, const Eigen::Vector3d& gravity,
+                                   const std::optional<components::RotatingFrame>& frame, double time, double kick);
 
 /// The body at the end of a step of length `dt` in which contact gave it `impulse`.
 components::RigidState moved(const RigidBody& body, const ContactImpulses::Impulse& impulse, double dt);

@@ -271,8 +271,7 @@ class SimulationOf : public Simulation
   void accelerate_rigid_bodies(double kick)
   {
     for (RigidBody& body : method_.rigid_bodies) {
-      body.free = body.state;
-      body.free.momentum += kick * body.properties.mass * in_space<D>(method_.gravity);
+      body.free = accelerated(body, in_space<D>(method_.gravity), method_.centrifuge, time_, kick);
     }
   }
 

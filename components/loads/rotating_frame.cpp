@@ -7,17 +7,6 @@
 namespace tamp::components
 {
 
-namespace
-{
-
-/// The matrix of w x.
-Matrix<3> cross_matrix(const Vector<3>& w)
-{
-  return (Matrix<3>() << 0, -w[2], w[1], w[2], 0, -w[0], -w[1], w[0], 0).finished();
-}
-
-}  // namespace
-
 RotatingFrame::RotatingFrame(double angular_speed, const Vector<3>& axis, const Vector<3>& centre,
                              double angular_acceleration)
     : centre_(centre)

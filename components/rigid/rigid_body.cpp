@@ -10,11 +10,6 @@
 namespace tamp::components
 {
 
-Matrix3 cross_matrix(const Vector3& a)
-{
-  return (Matrix3() << 0, -a[2], a[1], a[2], 0, -a[0], -a[1], a[0], 0).finished();
-}
-
 MassProperties mass_properties(std::span<const double> mass, std::span<const Vector3> position, double particle_size,
                                bool plane)
 {

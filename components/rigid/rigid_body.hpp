@@ -4,16 +4,15 @@
 #include <Eigen/Geometry>
 #include <span>
 
+#include "components/tensors.hpp"
+
 /// A body that keeps its shape: six degrees of freedom. SI units, axes of space unless the name says otherwise. Plane
 /// strain is the same with every place and momentum in the x-y plane.
 namespace tamp::components
 {
 
-using Vector3 = Eigen::Vector3d;
-using Matrix3 = Eigen::Matrix3d;
-
-/// [a]x, so that [a]x b = a x b.
-Matrix3 cross_matrix(const Vector3& a);
+using Vector3 = Vector<3>;
+using Matrix3 = Matrix<3>;
 
 /// How the mass of a body is spread, in the orientation of its start.
 struct MassProperties {

@@ -15,6 +15,13 @@ namespace
 {
 
 template <int D>
+Vector<D> point(JsonReader& reader, const std::string& key)
+{
+  const std::vector<double> numbers = reader.numbers(key, D, any_number);
+  return Eigen::Map<const Vector<D>>(numbers.data());
+}
+
+template <int D>
 std::string text(const Vector<D>& v)
 {
   return fmt::format("[{}]", fmt::join(v.data(), v.data() + D, ", "));
@@ -53,7 +60,7 @@ std::optional<tasks::BodyAxis> read_axis(JsonReader& reader)
   reader.allow("nose");
   reader.allow("tail");
   if (!reader.has("nose") && !reader.has("tail")) return std::nullopt;
-  const Vector<D> nose = vector<D>(reader, "nose"), tail = vector<D>(reader, "tail");
+  const Vector<D> nose = point<D>(reader, "nose"), tail = point<D>(reader, "tail");
   if (nose == tail) reader.add_problem("tail", text<D>(tail), "expected another place than the nose's");
   tasks::BodyAxis axis{};
   std::copy(nose.begin(), nose.end(), axis.nose.begin());
