@@ -26,12 +26,6 @@ runtime::Index cell_of(const runtime::Grid& grid, const Vector<D>& x)
 }
 
 template <int D>
-components::ParticleLattice<D> lattice_of(const Scene& scene, int material)
-{
-  return {vector_of<D>(scene.grid.lower), scene.grid.cell_size, scene.particles_per_axis_of(material)};
-}
-
-template <int D>
 Vector<D> mean(const std::vector<Vector<D>>& places)
 {
   Vector<D> sum = Vector<D>::Zero();
@@ -52,6 +46,7 @@ BodyParticles<D>::BodyParticles(const Scene& scene, const runtime::PatchLayout& 
   }
   std::int64_t id = 0;
   for (std::size_t b = 0; b < scene.bodies.size(); ++b) {
+    if (scene.bodies[b].initial_stress) settled_.emplace(b, SettledSand<D>(scene, scene.bodies[b]));
     const auto& solid = std::get<components::Solid<D>>(scene.bodies[b].solid);
     const auto places = components::fill(solid, lattice_of<D>(scene, scene.bodies[b].material), cells);
     centres_.push_back(mean<D>(places));
@@ -140,6 +135,10 @@ void BodyParticles<D>::store(const Particles& particles, int patch, int material
     state(particle::deformation_gradient<D>)[p] = Matrix<D>::Identity();
     state(particle::volume)[p] = volume;
     state(particle::mass)[p] = density * volume;
+    if (!scene_.bodies[number].initial_stress) continue;
+    const auto settled = settled_.at(number).at(particles.position[p]);
+    state(particle::stress<D>)[p] = settled.stress;
+    state(particle::cap_state)[p] = settled.state;
   }
 }
 

@@ -1,18 +1,20 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <vector>
 
 #include "components/tensors.hpp"
 #include "runtime/data/warehouse.hpp"
 #include "tasks/rigid_body.hpp"
 #include "tasks/scene.hpp"
+#include "tasks/settled_sand.hpp"
 
 namespace tamp::tasks
 {
 
-/// The particles of a scene's bodies as they are at its start, at rest in themselves and moving with their body. Ids
-/// count bodies and cells, and so do not depend on the cut into patches.
+/// The particles of a scene's bodies as they are at its start, at rest in themselves, without stress or settled, and
+/// moving with their body. Ids count bodies and cells, and so do not depend on the cut into patches.
 template <int D>
 class BodyParticles
 {
@@ -43,6 +45,8 @@ class BodyParticles
   std::vector<std::vector<Particles>> particles_;
   /// Mean place of each body's particles.
   std::vector<Vector<D>> centres_;
+  /// Those that start settled, by their place in the scene's list.
+  std::map<std::size_t, SettledSand<D>> settled_;
 };
 
 }  // namespace tamp::tasks

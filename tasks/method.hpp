@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "components/contact/friction_table.hpp"
+#include "components/geometry/fill.hpp"
 #include "components/loads/artificial_viscosity.hpp"
 #include "components/shapes/gimp.hpp"
 #include "components/shapes/grid_block.hpp"
@@ -41,6 +42,13 @@ Vector<D> place_of(const runtime::Grid& grid, const runtime::Index& node)
   Vector<D> x;
   for (int k = 0; k < D; ++k) x[k] = grid.coordinate(k, node[static_cast<std::size_t>(k)]);
   return x;
+}
+
+/// The sites where the particles of a material start.
+template <int D>
+components::ParticleLattice<D> lattice_of(const Scene& scene, int material)
+{
+  return {vector_of<D>(scene.grid.lower), scene.grid.cell_size, scene.particles_per_axis_of(material)};
 }
 
 /// What the phases of a step need to know of a scene, typed by its interpolator and so by its dimension.

@@ -74,6 +74,8 @@ struct SceneBody {
   bool rigid = false;
   /// Followed in reports.
   std::optional<BodyAxis> axis{};
+  /// Sand that has settled in its place: see SettledSand.
+  bool initial_stress = false;
   /// For scenes made in code: velocity [m/s] where a particle starts [m]; `velocity` then only bounds the first step.
   std::function<Triple(const Triple&)> velocity_field{};
 };

@@ -18,6 +18,7 @@
 #include "tasks/engine.hpp"
 #include "tasks/field_columns.hpp"
 #include "tasks/fill_bodies.hpp"
+#include "tasks/settled_sand.hpp"
 #include "tasks/simulation_error.hpp"
 #include "tasks/state_digest.hpp"
 
@@ -48,9 +49,16 @@ components::TangentModuli initial_moduli(const components::TabularCap& sand)
   return {sand.initial_bulk_modulus(), sand.initial_shear_modulus()};
 }
 
-double initial_wave_speed(const SceneMaterial& material)
+template <int D>
+double initial_wave_speed(const Scene& scene, const SceneBody& body)
 {
-  const auto moduli = std::visit([](const auto& model) { return initial_moduli(model); }, material.model);
+  const SceneMaterial& material = scene.materials[static_cast<std::size_t>(body.material)];
+  auto moduli = std::visit([](const auto& model) { return initial_moduli(model); }, material.model);
+  if (body.initial_stress) {
+    const double ratio = moduli.shear_modulus / moduli.bulk_modulus;
+    moduli.bulk_modulus = SettledSand<D>(scene, body).greatest_bulk_modulus();
+    moduli.shear_modulus = ratio * moduli.bulk_modulus;
+  }
   return components::wave_speed(moduli.bulk_modulus, moduli.shear_modulus, material.density);
 }
 
@@ -220,7 +228,7 @@ class SimulationOf : public Simulation
     const auto viscosity = method_.viscosity.value_or(components::ArtificialViscosity{0, 0});
     for (const SceneBody& body : scene_.bodies) {
       const auto material = static_cast<std::size_t>(body.material);
-      const double c = body.rigid ? 0 : initial_wave_speed(scene_.materials[material]);
+      const double c = body.rigid ? 0 : initial_wave_speed<D>(scene_, body);
       const Vector<D> v = vector_of<D>(body.velocity);
       bound = std::min(bound, body.rigid || method_.time_step_rule == StepRule::published
                                   ? components::published_time_step<D>(method_.cell_size, c, v)

@@ -5,7 +5,9 @@
 
 #include <algorithm>
 
+#include "components/errors.hpp"
 #include "components/geometry/fill.hpp"
+#include "tasks/settled_sand.hpp"
 #include "tools/scene/read_solid.hpp"
 
 namespace tamp::tools
@@ -68,6 +70,18 @@ std::optional<tasks::BodyAxis> read_axis(JsonReader& reader)
   return axis;
 }
 
+/// Can the body bear the stress that it is to start with?
+template <int D>
+void check_settled(const tasks::Scene& scene, const tasks::SceneBody& body, const JsonReader& reader)
+{
+  try {
+    const tasks::SettledSand<D> settled(scene, body);
+    for (const Vector<D>& x : sites(std::get<components::Solid<D>>(body.solid), scene, body.material)) settled.at(x);
+  } catch (const components::BadValue& bad) {
+    reader.add_problem("initial_stress", bad.found, "expected " + bad.expected);
+  }
+}
+
 template <int D>
 std::optional<tasks::SceneBody> read(const std::string& name, JsonReader& reader, const tasks::Scene& scene,
                                      const std::vector<std::string>& material_names, bool grid_is_good)
@@ -78,6 +92,7 @@ std::optional<tasks::SceneBody> read(const std::string& name, JsonReader& reader
   const bool rigid = reader.flag("rigid", false);
   const auto axis = read_axis<D>(reader);
   const auto solid = read_solid<D>(reader, "geometry");
+  const bool initial_stress = reader.flag("initial_stress", false);
   reader.finish();
   const bool materials_are_good = scene.materials.size() == material_names.size();
   if (!solid || material.empty() || !grid_is_good || !materials_are_good) return std::nullopt;
@@ -105,6 +120,8 @@ std::optional<tasks::SceneBody> read(const std::string& name, JsonReader& reader
   std::copy(spin.begin(), spin.end(), body.angular_velocity.end() - static_cast<std::ptrdiff_t>(spin.size()));
   body.rigid = rigid;
   body.axis = axis;
+  body.initial_stress = initial_stress;
+  if (initial_stress) check_settled<D>(scene, body, reader);
   return body;
 }
 

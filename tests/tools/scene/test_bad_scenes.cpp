@@ -140,6 +140,19 @@ TEST_CASE("a centrifuge whose numbers make no rotation is told, and one in the p
              Catch::StartsWith("--set#/centrifuge/axis"));
 }
 
+TEST_CASE("a body that cannot have settled is told why")
+{
+  CHECK(problems_with({"/bodies/block/initial_stress=true"}) ==
+        "--set#/bodies/block/initial_stress: material \"steel\"; expected a material of type tabular_cap");
+  CHECK(problems_with_sand({"/bodies/block/material=sand", "/bodies/block/initial_stress=true"}) ==
+        "--set#/bodies/block/initial_stress: a body not between walls along xy; expected sides and floor on symmetry "
+        "faces, and one free face");
+  CHECK_THAT(problems_with_sand({"/bodies/block/material=sand", "/bodies/block/initial_stress=true",
+                                 "/bodies/block/geometry/upper=[2,1]", "/gravity=[0,1e7]"}),
+             Catch::StartsWith("--set#/bodies/block/initial_stress: q = ") &&
+                 Catch::Contains("at most the sand's strength there"));
+}
+
 TEST_CASE("a name that is none of the choices is told with the choices")
 {
   CHECK(problems_with({"/materials/steel/type=hypoelastik"}) ==

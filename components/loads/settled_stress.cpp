@@ -1,0 +1,64 @@
+#include "components/loads/settled_stress.hpp"
+
+#include <Eigen/QR>
+#include <cstddef>
+
+#include "components/shapes/gimp.hpp"
+
+namespace tamp::components
+{
+
+Eigen::VectorXd continuum_stress(const LayerColumn& column, double density, const LinearForce& force)
+{
+  const Eigen::Map<const Eigen::VectorXd> x(column.layers.data(), static_cast<Eigen::Index>(column.layers.size()));
+  const Eigen::VectorXd integral = x.unaryExpr([&](double at) { return force.integral(at); });
+  const bool between_walls = column.lower_wall && column.upper_wall;
+  const double at_end = between_walls ? integral.mean() : force.integral(column.free_end());
+  return density * (at_end - integral.array()).matrix();
+}
+
+template <class Interpolator>
+std::vector<double> settled_stress(const Interpolator& interpolator, const LayerColumn& column, double density,
+                                   const LinearForce& force)
+{
+  static_assert(Interpolator::dimension == 1);
+  const auto n_layers = static_cast<Eigen::Index>(column.layers.size());
+  const Eigen::Index n_nodes = column.nodes.n_nodes[0], last = n_nodes - 1;
+  Eigen::MatrixXd weight = Eigen::MatrixXd::Zero(n_nodes, n_layers), slope = weight;
+  for (Eigen::Index l = 0; l < n_layers; ++l) {
+    const auto stencil = interpolator.at(column.nodes, Vector<1>(column.layers[static_cast<std::size_t>(l)]));
+    for (std::size_t k = 0; k < stencil.weight[0].size(); ++k) {
+      weight(stencil.first + static_cast<std::ptrdiff_t>(k), l) = stencil.weight[0][k];
+      slope(stencil.first + static_cast<std::ptrdiff_t>(k), l) = stencil.slope[0][k];
+    }
+  }
+  const auto fold = [&](Eigen::Index ghost, Eigen::Index inside) {
+    weight.row(inside) += weight.row(ghost);
+    slope.row(inside) -= slope.row(ghost);
+  };
+  if (column.lower_wall) fold(0, 2);
+  if (column.upper_wall) fold(last, last - 2);
+
+  // sum sigma dS = rho b sum S at each node that is accelerated; a node that an edge touches to round-off is not.
+  constexpr double least_weight = 1e-24;
+  std::vector<Eigen::Index> free;
+  for (Eigen::Index i = column.lower_wall ? 2 : 0; i <= (column.upper_wall ? last - 2 : last); ++i) {
+    if (weight.row(i).sum() > least_weight) free.push_back(i);
+  }
+  const Eigen::MatrixXd balance = slope(free, Eigen::all);
+  Eigen::VectorXd load(static_cast<Eigen::Index>(free.size()));
+  for (std::size_t i = 0; i < free.size(); ++i) {
+    const double x = column.nodes.origin[0] + static_cast<double>(free[i]) * column.nodes.cell_size;
+    load[static_cast<Eigen::Index>(i)] = density * force.at(x) * weight.row(free[i]).sum();
+  }
+
+  const Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> least_norm(balance);
+  Eigen::VectorXd stress = continuum_stress(column, density, force);
+  // The second pass takes off the round-off of the first.
+  for (int pass = 0; pass < 2; ++pass) stress += least_norm.solve(load - balance * stress);
+  return {stress.begin(), stress.end()};
+}
+
+template std::vector<double> settled_stress(const Gimp<1>&, const LayerColumn&, double, const LinearForce&);
+
+}  // namespace tamp::components

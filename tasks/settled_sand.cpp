@@ -1,0 +1,179 @@
+#include "tasks/settled_sand.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "components/errors.hpp"
+#include "components/geometry/fill.hpp"
+#include "components/shapes/gimp.hpp"
+#include "tasks/method.hpp"
+
+namespace tamp::tasks
+{
+
+namespace
+{
+
+using components::BadValue;
+using components::LayerColumn;
+
+const components::TabularCap& sand_of(const Scene& scene, const SceneBody& body)
+{
+  const SceneMaterial& material = scene.materials[static_cast<std::size_t>(body.material)];
+  const auto* sand = std::get_if<components::TabularCap>(&material.model);
+  if (!sand) throw BadValue("material \"" + material.name + "\"", "a material of type tabular_cap");
+  return *sand;
+}
+
+/// Where particles stand along an axis, and between which walls.
+template <int D>
+LayerColumn column_of(const Scene& scene, int particles_per_axis, const std::vector<Vector<D>>& sites, std::size_t k)
+{
+  const runtime::Grid& grid = scene.grid;
+  const int axis = static_cast<int>(k), n_cells = grid.n_cells[k];
+  LayerColumn column;
+  column.spacing = grid.cell_size / particles_per_axis;
+  column.nodes = {Vector<1>(grid.coordinate(axis, -1)), grid.cell_size, {n_cells + 3}, {1}};
+  std::vector<double>& layers = column.layers;
+  for (const Vector<D>& x : sites) layers.push_back(x[axis]);
+  std::sort(layers.begin(), layers.end());
+  layers.erase(std::unique(layers.begin(), layers.end()), layers.end());
+  const double reach = 0.75 * column.spacing;
+  column.lower_wall = scene.faces[k][0] == Face::symmetry && layers.front() - grid.coordinate(axis, 0) < reach;
+  column.upper_wall = scene.faces[k][1] == Face::symmetry && grid.coordinate(axis, n_cells) - layers.back() < reach;
+  return column;
+}
+
+/// The axis with a floor and a free top; the others must have two walls.
+template <int D>
+std::size_t vertical_axis(const std::array<LayerColumn, std::size_t{D}>& columns)
+{
+  std::vector<std::size_t> open;
+  for (std::size_t k = 0; k < D; ++k) {
+    if (!(columns[k].lower_wall && columns[k].upper_wall)) open.push_back(k);
+  }
+  if (open.size() == 1 && (columns[open[0]].lower_wall || columns[open[0]].upper_wall)) return open[0];
+  std::string axes;
+  for (const std::size_t k : open) axes += "xyz"[k];
+  throw BadValue(open.empty() ? "a body between walls along every axis" : "a body not between walls along " + axes,
+                 "sides and floor on symmetry faces, and one free face");
+}
+
+/// The component along each axis of gravity and what rest in the turning frame feels.
+template <int D>
+std::array<components::LinearForce, std::size_t{D}> body_force(const Scene& scene)
+{
+  std::array<components::LinearForce, std::size_t{D}> force;
+  for (std::size_t k = 0; k < D; ++k) force[k] = {scene.gravity[k], 0};
+  if (!scene.centrifuge) return force;
+  const Matrix<3> gradient = scene.centrifuge->gradient_by_position(0);
+  const Matrix<3> across = gradient - Matrix<3>(gradient.diagonal().asDiagonal());
+  if (across.cwiseAbs().maxCoeff() > 1e-14 * gradient.cwiseAbs().maxCoeff()) {
+    throw BadValue("a centrifugal force of which a component changes across its axis",
+                   "a centrifuge of constant speed about an axis along x, y or z");
+  }
+  for (std::size_t k = 0; k < D; ++k) {
+    const auto axis = static_cast<Eigen::Index>(k);
+    force[k].slope = gradient(axis, axis);
+    force[k].value -= gradient(axis, axis) * scene.centrifuge->centre()[axis];
+  }
+  return force;
+}
+
+template <int D>
+std::vector<Vector<D>> sites_of(const Scene& scene, const SceneBody& body)
+{
+  components::CellRange<D> cells{};
+  std::copy_n(scene.grid.n_cells.begin(), D, cells.upper.begin());
+  return components::fill(std::get<components::Solid<D>>(body.solid), lattice_of<D>(scene, body.material), cells);
+}
+
+}  // namespace
+
+template <int D>
+SettledSand<D>::SettledSand(const Scene& scene, const SceneBody& body) : sand_(&sand_of(scene, body))
+{
+  const std::vector<Vector<D>> sites = sites_of<D>(scene, body);
+  const int particles_per_axis = scene.particles_per_axis_of(body.material);
+  std::size_t n_in_box = 1;
+  for (std::size_t k = 0; k < D; ++k) {
+    columns_[k] = column_of<D>(scene, particles_per_axis, sites, k);
+    n_in_box *= columns_[k].layers.size();
+  }
+  if (sites.empty() || sites.size() != n_in_box) throw BadValue("a region that is no box along the axes", "a box");
+  vertical_ = vertical_axis<D>(columns_);
+  const auto force = body_force<D>(scene);
+  const double density = scene.materials[static_cast<std::size_t>(body.material)].density;
+  const components::Gimp<1> interpolator(particles_per_axis);
+  for (std::size_t k = 0; k < D; ++k) {
+    along_[k] = components::settled_stress(interpolator, columns_[k], density, force[k]);
+  }
+}
+
+template <int D>
+SymmetricTensor<D> SettledSand<D>::stress(const std::array<std::size_t, std::size_t{D}>& layer) const
+{
+  const double nu = sand_->poisson_ratio();
+  const double vertical = along_[vertical_][layer[vertical_]];
+  SymmetricTensor<D> stress = isotropic<n_symmetric<D>>(nu / (1 - nu) * vertical);
+  for (std::size_t k = 0; k < D; ++k) {
+    const auto axis = static_cast<Eigen::Index>(k);
+    stress[axis] = k == vertical_ ? vertical : stress[axis] + along_[k][layer[k]];
+  }
+  return stress;
+}
+
+template <int D>
+typename SettledSand<D>::Particle SettledSand<D>::settled(const SymmetricTensor<D>& stress) const
+{
+  const double pressure = -trace(stress) / 3;
+  const SymmetricTensor<D> s = deviator(stress);
+  const double sqrt_j2 = std::sqrt(0.5 * double_dot(s, s));
+  const double plastic = sand_->plastic_volumetric_at_crush(-stress[static_cast<Eigen::Index>(vertical_)]);
+  const double limit = sand_->parameters().yield.limit(pressure, sand_->crush_pressure(plastic));
+  if (!(sqrt_j2 <= limit)) {
+    throw BadValue(fmt::format("q = {:.4g} Pa at p = {:.4g} Pa", std::sqrt(3.0) * sqrt_j2, pressure),
+                   fmt::format("at most the sand's strength there, q = {:.4g} Pa", std::sqrt(3.0) * limit));
+  }
+  return {stress, sand_->state_at_pressure(pressure, plastic)};
+}
+
+template <int D>
+typename SettledSand<D>::Particle SettledSand<D>::at(const Vector<D>& x) const
+{
+  std::array<std::size_t, std::size_t{D}> layer;
+  for (std::size_t k = 0; k < D; ++k) {
+    const LayerColumn& column = columns_[k];
+    layer[k] = static_cast<std::size_t>(
+        std::lround((x[static_cast<Eigen::Index>(k)] - column.layers.front()) / column.spacing));
+  }
+  try {
+    return settled(stress(layer));
+  } catch (const BadValue& bad) {
+    throw BadValue(fmt::format("{} at [{}]", bad.found, fmt::join(x.data(), x.data() + D, ", ")), bad.expected);
+  }
+}
+
+template <int D>
+double SettledSand<D>::greatest_bulk_modulus() const
+{
+  std::array<std::size_t, std::size_t{D}> layer;
+  for (std::size_t k = 0; k < D; ++k) {
+    layer[k] = static_cast<std::size_t>(std::min_element(along_[k].begin(), along_[k].end()) - along_[k].begin());
+  }
+  double greatest = 0;
+  for (layer[vertical_] = 0; layer[vertical_] < along_[vertical_].size(); ++layer[vertical_]) {
+    const Particle particle = settled(stress(layer));
+    greatest = std::max(greatest, sand_->bulk_modulus(particle.state, -trace(particle.stress) / 3));
+  }
+  return greatest;
+}
+
+template class SettledSand<2>;
+template class SettledSand<3>;
+
+}  // namespace tamp::tasks

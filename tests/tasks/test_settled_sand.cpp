@@ -1,0 +1,118 @@
+#include <catch2/catch.hpp>
+
+#include "components/errors.hpp"
+#include "tests/components/materials/concrete_sand.hpp"
+#include "tests/tasks/scenes.hpp"
+
+using namespace tamp;
+using namespace tamp::test;
+
+namespace
+{
+
+constexpr double density = 1624;
+constexpr double height = 0.107;
+
+/// Sand in a box with 5 mm cells, its surface within a cell and its top open; the last axis is the vertical.
+Scene box_of_sand(int dimension, components::ElasticUpdate form = components::ElasticUpdate::state)
+{
+  Scene scene = empty_scene(dimension, {6, dimension == 2 ? 26 : 4, dimension == 3 ? 26 : 1}, 0.005);
+  const std::size_t vertical = dimension == 2 ? 1 : 2;
+  for (std::size_t axis = 0; axis < vertical; ++axis) add_walls(scene, axis);
+  scene.faces[vertical] = {Face::symmetry, Face::open};
+  scene.artificial_viscosity = components::ArtificialViscosity{};
+  scene.materials.push_back({"sand", density, concrete_sand::sand(form)});
+  Triple upper{0.03, 0.02, height};
+  if (dimension == 2) upper[1] = height;
+  add_box(scene, 0, {0, 0, 0}, upper).initial_stress = true;
+  return scene;
+}
+
+Scene sand_in_centrifuge(const Eigen::Vector3d& axis = {1, 0, 0})
+{
+  Scene scene = box_of_sand(3);
+  scene.n_patches = {1, 1, 2};
+  scene.centrifuge.emplace(6, axis, Eigen::Vector3d(0.015, 0.01, 5.45));
+  return scene;
+}
+
+Scene sand_under_gravity(components::ElasticUpdate form = components::ElasticUpdate::state)
+{
+  Scene scene = box_of_sand(2, form);
+  scene.gravity = {0, -9.81, 0};
+  return scene;
+}
+
+double fastest(Simulation& simulation)
+{
+  double speed = 0;
+  for (const Particle& particle : particles_of(simulation)) speed = std::max(speed, particle.velocity.norm());
+  return speed;
+}
+
+}  // namespace
+
+TEST_CASE("settled sand stays at rest in a centrifuge and under gravity")
+{
+  const bool turns = GENERATE(true, false);
+  const auto simulation = Simulation::make(turns ? sand_in_centrifuge() : sand_under_gravity(), 2);
+
+  for (int i = 0; i < 300; ++i) simulation->advance(1);
+
+  CAPTURE(fastest(*simulation), simulation->time());
+  CHECK(fastest(*simulation) < 1e-9);
+  CHECK(simulation->time() > 1e-4);
+}
+
+TEST_CASE("settled sand stays at rest in rate form too")
+{
+  const auto simulation = Simulation::make(sand_under_gravity(components::ElasticUpdate::rate), 1);
+
+  for (int i = 0; i < 300; ++i) simulation->advance(1);
+
+  CHECK(fastest(*simulation) < 1e-9);
+}
+
+TEST_CASE("settled sand carries the weight above it, and an elastic share of that to its sides")
+{
+  const auto simulation = Simulation::make(sand_in_centrifuge(), 1);
+
+  for (const Particle& particle : particles_of(*simulation)) {
+    // The lattice fills the surface's cell up to half, 0.1075 m.
+    const double z = particle.position[2], top = 0.1075;
+    const double weight = density * 36 * (top - z) * (5.45 - 0.5 * (top + z));
+    REQUIRE(-particle.stress[2] == Approx(weight).epsilon(1e-2).margin(200));
+    REQUIRE(particle.stress[0] == Approx(0.189 / 0.811 * particle.stress[2]).epsilon(1e-9).margin(1e-9));
+    REQUIRE(particle.stress[3] == 0);
+    REQUIRE(particle.volume_ratio == 1);
+  }
+}
+
+TEST_CASE("sand without its initial stress does not stay at rest")
+{
+  Scene scene = sand_under_gravity();
+  scene.bodies[0].initial_stress = false;
+  const auto simulation = Simulation::make(scene, 1);
+
+  for (int i = 0; i < 300; ++i) simulation->advance(1);
+
+  CHECK(fastest(*simulation) > 1e-6);
+}
+
+TEST_CASE("sand that cannot have settled is refused")
+{
+  CHECK_THROWS_AS(Simulation::make(sand_in_centrifuge({1, 1, 0}), 1), components::BadValue);
+
+  Scene upwards = sand_under_gravity();
+  // More than its cohesion holds.
+  upwards.gravity[1] = 1e5;
+  CHECK_THROWS_AS(Simulation::make(upwards, 1), components::BadValue);
+
+  Scene open_side = sand_under_gravity();
+  open_side.faces[0][1] = Face::open;
+  CHECK_THROWS_AS(Simulation::make(open_side, 1), components::BadValue);
+
+  Scene not_sand = sand_under_gravity();
+  not_sand.bodies[0].material = add_elastic(not_sand, 1000, 1e6, 0.3);
+  CHECK_THROWS_AS(Simulation::make(not_sand, 1), components::BadValue);
+}
