@@ -1,3 +1,5 @@
+#include <array>
+
 #include "tasks/labels.hpp"
 #include "tasks/phases.hpp"
 
@@ -26,16 +28,33 @@ void move_freely(const TaskContext& at, const RigidBody& body, const GridView<co
   });
 }
 
+/// What a node on mirroring walls is left with when they take up what presses on them at rest: without it the Coriolis
+/// term would turn a push on the floor into one along it.
+void take_up(const std::array<std::array<bool, 2>, 3>& mirrors, const runtime::Grid& grid, const Index& node,
+             const Vector<3>& frame_acceleration, Vector<3>& velocity, Vector<3>& acceleration)
+{
+  for (std::size_t k = 0; k < 3; ++k) {
+    if (!(mirrors[k][0] && node[k] == 0) && !(mirrors[k][1] && node[k] == grid.n_cells[k])) continue;
+    const auto axis = static_cast<Eigen::Index>(k);
+    velocity[axis] = 0;
+    acceleration[axis] = -frame_acceleration[axis];
+  }
+}
+
 /// Of a node with this velocity, over a kick, by the acceleration that its force gives it and those of the scene.
 template <class Interpolator, int D = Interpolator::dimension>
 Vector<D> velocity_change(const Method<Interpolator>& method, const TaskContext& at, const Index& node,
                           const Vector<D>& velocity, const Vector<D>& by_force, double kick)
 {
-  const Vector<D> acceleration = by_force + method.gravity;
+  Vector<D> acceleration = by_force + method.gravity;
   if constexpr (D == 3) {
     if (method.centrifuge) {
       const Vector<3> x = place_of<3>(at.layout.grid(), node);
-      return method.centrifuge->velocity_change(x, velocity, acceleration, at.step.time, kick);
+      const double time = at.step.time;
+      Vector<3> free_velocity = velocity;
+      take_up(method.mirrors, at.layout.grid(), node, method.centrifuge->acceleration(x, Vector<3>::Zero(), time),
+              free_velocity, acceleration);
+      return method.centrifuge->velocity_change(x, free_velocity, acceleration, time, kick);
     }
   }
   return kick * acceleration;
