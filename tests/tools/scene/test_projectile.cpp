@@ -5,6 +5,7 @@
 #include <random>
 
 #include "components/geometry/closed_mesh.hpp"
+#include "components/geometry/fill.hpp"
 #include "tests/tools/scene/small_scene.hpp"
 
 using namespace tamp;
@@ -43,7 +44,7 @@ Vector<3> place(double along, double radius, double angle)
   return tip + Vector<3>(along, radius * std::cos(angle), radius * std::sin(angle));
 }
 
-/// The volume of the boom's part within a fin's thickness is the fin's root.
+/// Of the body of revolution, and of what of the fins is beyond the boom [m^3].
 double exact_volume()
 {
   const double greatest = 5.8 * 5.8, boom = 2.05 * 2.05;
@@ -105,4 +106,18 @@ TEST_CASE("the projectile's mesh is the projectile, but for the flats of its fac
   CHECK(n_in_solid > 5000);
   CHECK(n_differ < 30);
   CHECK(mesh.volume().value == Approx(exact_volume()).epsilon(2e-3));
+}
+
+TEST_CASE("particles hold the projectile's volume the better the finer they are")
+{
+  const auto solid = drawn();
+  const auto error = [&](double spacing) {
+    const components::ParticleLattice<3> lattice{{0, 0, 0}, spacing, 1};
+    const int n = static_cast<int>(0.06 / spacing);
+    const auto x = components::fill(solid, lattice, components::CellRange<3>{{0, 0, 0}, {n, n, n}});
+    return std::abs(static_cast<double>(x.size()) * lattice.particle_volume() / exact_volume() - 1);
+  };
+
+  CHECK(error(0.97e-3) < 5e-2);
+  CHECK(error(0.243e-3) < 5e-3);
 }
