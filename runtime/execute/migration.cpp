@@ -47,11 +47,14 @@ void clear(ParticleParcel& parcel)
 Migration::Migration(Warehouse& warehouse, const Label& position)
     : warehouse_(warehouse),
       position_(position),
-      outboxes_(static_cast<std::size_t>(warehouse.layout().size() * warehouse.n_groups()))
+      outboxes_(static_cast<std::size_t>(warehouse.layout().size() * warehouse.n_groups())),
+      arrivals_(outboxes_.size())
 {
   for (const Patch& patch : warehouse.layout()) {
     for (int g = 0; g < warehouse.n_groups(); ++g) {
-      for (const int other : patch.neighbours) box(patch.id, g).to_patch[other];
+      auto& parcels = arrivals_[place(patch.id, g)];
+      parcels.resize(patch.neighbours.size());
+      for (std::size_t k = 0; k < parcels.size(); ++k) box(patch.neighbours[k], g).to_patch[patch.id] = &parcels[k];
     }
   }
 }
@@ -84,16 +87,18 @@ void Migration::pack(ParticleParcel& parcel, std::size_t particle, const std::ve
 void Migration::hold(int patch, int group)
 {
   Outbox& out = box(patch, group);
-  for (auto& [destination_patch, parcel] : out.to_patch) clear(parcel);
+  if (out.leavers.empty()) return;
+  for (auto& [destination_patch, parcel] : out.to_patch) clear(*parcel);
   out.leavers.clear();
 }
 
 void Migration::send(int patch, int group)
 {
   hold(patch, group);
+  const std::size_t n = warehouse_.n_particles(patch, group);
+  if (n == 0) return;
   Outbox& out = box(patch, group);
   Field& positions = warehouse_.field(position_, patch, group);
-  const std::size_t n = *positions.n_particles;
   std::vector<Field*> fields;
   for (std::size_t p = 0; p < n; ++p) {
     const int to = destination(value(positions, p));
@@ -103,7 +108,7 @@ void Migration::send(int patch, int group)
     if (to < 0) {
       pack(out.lost, p, fields);
     } else if (const auto parcel = out.to_patch.find(to); parcel != out.to_patch.end()) {
-      pack(parcel->second, p, fields);
+      pack(*parcel->second, p, fields);
     } else {
       throw std::runtime_error("a particle moved past a whole patch in one step");
     }
@@ -115,15 +120,14 @@ void Migration::send(int patch, int group)
 
 void Migration::receive(int patch, int group)
 {
-  std::size_t arrivals = 0;
-  const Patch& self = warehouse_.layout()[patch];
-  for (const int other : self.neighbours) arrivals += box(other, group).to_patch.at(patch).n_particles;
-  if (arrivals == 0) return;
+  const auto& parcels = arrivals_[place(patch, group)];
+  std::size_t n_arrivals = 0;
+  for (const ParticleParcel& parcel : parcels) n_arrivals += parcel.n_particles;
+  if (n_arrivals == 0) return;
   std::size_t n = warehouse_.n_particles(patch, group);
-  warehouse_.set_n_particles(patch, group, n + arrivals);
+  warehouse_.set_n_particles(patch, group, n + n_arrivals);
   const std::vector<Field*> fields = state_fields(warehouse_, patch, group);
-  for (const int other : self.neighbours) {
-    const ParticleParcel& parcel = box(other, group).to_patch.at(patch);
+  for (const ParticleParcel& parcel : parcels) {
     if (parcel.n_particles == 0) continue;
     for (std::size_t k = 0; k < fields.size(); ++k) {
       std::memcpy(value(*fields[k], n), parcel.fields[k].data(), parcel.fields[k].size());
@@ -134,7 +138,7 @@ void Migration::receive(int patch, int group)
 
 void Migration::write_parcel(const MessagePart& part, std::vector<std::byte>& message) const
 {
-  const ParticleParcel& parcel = box(part.from_patch, part.group).to_patch.at(part.to_patch);
+  const ParticleParcel& parcel = *box(part.from_patch, part.group).to_patch.at(part.to_patch);
   const auto* n = reinterpret_cast<const std::byte*>(&parcel.n_particles);
   message.insert(message.end(), n, n + sizeof parcel.n_particles);
   if (parcel.n_particles == 0) return;
@@ -143,7 +147,7 @@ void Migration::write_parcel(const MessagePart& part, std::vector<std::byte>& me
 
 const std::byte* Migration::read_parcel(const MessagePart& part, const std::byte* from)
 {
-  ParticleParcel& parcel = box(part.from_patch, part.group).to_patch.at(part.to_patch);
+  ParticleParcel& parcel = *box(part.from_patch, part.group).to_patch.at(part.to_patch);
   std::memcpy(&parcel.n_particles, from, sizeof parcel.n_particles);
   from += sizeof parcel.n_particles;
   if (parcel.n_particles == 0) return from;

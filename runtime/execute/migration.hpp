@@ -49,7 +49,7 @@ class Migration
 
  private:
   struct Outbox {
-    std::map<int, ParticleParcel> to_patch;
+    std::map<int, ParticleParcel*> to_patch;
     ParticleParcel lost;
     std::vector<std::size_t> leavers;
   };
@@ -57,18 +57,18 @@ class Migration
   int destination(const std::byte* position) const;
   void pack(ParticleParcel& parcel, std::size_t particle, const std::vector<Field*>& fields) const;
   const std::byte* field_bytes(const ParticleParcel& parcel, const Label& label, int patch, int group) const;
-  Outbox& box(int patch, int group)
+  std::size_t place(int patch, int group) const
   {
-    return outboxes_[static_cast<std::size_t>(patch * warehouse_.n_groups() + group)];
+    return static_cast<std::size_t>(patch * warehouse_.n_groups() + group);
   }
-  const Outbox& box(int patch, int group) const
-  {
-    return outboxes_[static_cast<std::size_t>(patch * warehouse_.n_groups() + group)];
-  }
+  Outbox& box(int patch, int group) { return outboxes_[place(patch, group)]; }
+  const Outbox& box(int patch, int group) const { return outboxes_[place(patch, group)]; }
 
   Warehouse& warehouse_;
   const Label& position_;
   std::vector<Outbox> outboxes_;
+  /// What comes to each patch and group from each of its neighbours, together in memory: most often there is nothing.
+  std::vector<std::vector<ParticleParcel>> arrivals_;
 };
 
 }  // namespace tamp::runtime
