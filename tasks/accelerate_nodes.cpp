@@ -71,6 +71,7 @@ runtime::TaskDeclaration accelerate_nodes(const Method<Interpolator>& method)
   constexpr int D = Interpolator::dimension;
   return runtime::task("accelerate nodes")
       .over_patches_and_groups()
+      .sparse()
       .reads(node::sums<D>.halo(1))
       .computes(node::motion<D>.halo(1))
       .body([&method](const TaskContext& at, GridView<const NodeSums<D>> sums, GridView<NodeMotion<D>> motion) {

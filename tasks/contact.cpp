@@ -82,12 +82,12 @@ runtime::TaskDeclaration contact(const Method<Interpolator>& method)
   constexpr int D = Interpolator::dimension;
   return runtime::task("contact")
       .over_patches()
+      .sparse()
       .reads(node::sums<D>.halo(1).every_group())
       .updates(node::motion<D>.halo(1).every_group())
       .reduces(step_totals, contact_impulses)
       .body([&method](const TaskContext& at, const PerGroup<GridView<const NodeSums<D>>>& sums,
                       const PerGroup<GridView<NodeMotion<D>>>& motions, StepTotals& totals, ContactImpulses& impulses) {
-        totals.host_requests = at.step.host_requests;
         const std::size_t n_groups = sums.size();
         const components::ContactThresholds thresholds = contact_thresholds(method);
         const runtime::IndexBox owned = at.layout.owned_nodes(at.patch);

@@ -20,6 +20,7 @@ runtime::TaskDeclaration grid_to_particles(const Method<Interpolator>& method)
   constexpr int D = Interpolator::dimension;
   return runtime::task("grid to particles")
       .over_patches_and_groups(method.deformable_groups)
+      .sparse()
       .reads(node::motion<D>.halo(1), particle::id.previous(), particle::position<D>.previous(),
              particle::velocity<D>.previous(), particle::deformation_gradient<D>.previous(),
              particle::volume.previous(), particle::stress<D>.previous())

@@ -17,6 +17,7 @@ runtime::TaskDeclaration particles_to_grid(const Method<Interpolator>& method)
   constexpr int D = Interpolator::dimension;
   return runtime::task("particles to grid")
       .over_patches_and_groups()
+      .sparse()
       .reads(particle::position<D>.previous(), particle::velocity<D>.previous(), particle::mass.previous(),
              particle::volume.previous(), particle::stress<D>.previous(), particle::viscous_pressure.previous())
       .accumulates(node::sums<D>.halo(1))

@@ -49,6 +49,7 @@ runtime::TaskDeclaration symmetry_walls(const Method<Interpolator>& method)
   constexpr int D = Interpolator::dimension;
   return runtime::task("symmetry walls")
       .over_patches()
+      .sparse()
       .reads(node::sums<D>.halo(1).every_group())
       .updates(node::motion<D>.halo(1).every_group())
       .reduces(grid_impulse)

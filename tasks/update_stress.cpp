@@ -82,6 +82,8 @@ template <class Interpolator, int D, class Update>
 void in_batches(const Method<Interpolator>& method, const TaskContext& at, const StressArguments<D>& s,
                 StepTotals& totals, const Update& update)
 {
+  // Here, as this task runs on every patch, with or without particles.
+  totals.host_requests = at.step.host_requests;
   std::array<SymmetricTensor<D>, batch_size> old_stress;
   BatchAnswer answer;
   for (std::size_t first = 0; first < s.id.size(); first += batch_size) {

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
+#include <cstring>
 
 #include "runtime/data/buffer.hpp"
 #include "runtime/data/label.hpp"
@@ -45,12 +47,31 @@ struct Field {
   }
   Buffer& buffer(FieldBuffer which) { return const_cast<Buffer&>(std::as_const(*this).buffer(which)); }
 
+  /// Whether all values of a buffer are known to be zero, but for what was filled in from neighbours. So it is at
+  /// first; of state, which the host may set, of particles and of reductions it is never known.
+  bool is_zero(FieldBuffer which) const
+  {
+    const bool on_grid = label->centring() == Centring::node || label->centring() == Centring::cell;
+    return on_grid && !state && !written_[static_cast<std::size_t>(which)];
+  }
+  void make_zero(FieldBuffer which)
+  {
+    if (is_zero(which)) return;
+    std::memset(buffer(which).data(), 0, n_bytes());
+    written_[static_cast<std::size_t>(which)] = false;
+  }
+  /// To be called by whoever writes into a buffer.
+  void note_written(FieldBuffer which) { written_[static_cast<std::size_t>(which)] = true; }
+
   std::size_t n_values() const
   {
     if (n_particles != nullptr) return *n_particles;
     return label->centring() == Centring::reduction ? 1 : static_cast<std::size_t>(box.size());
   }
   std::size_t n_bytes() const { return n_values() * label->value_bytes(); }
+
+ private:
+  std::array<bool, 3> written_{};
 };
 
 }  // namespace tamp::runtime

@@ -15,6 +15,11 @@ FieldBuffer buffer_of(const Access& access)
   return access.mode == Mode::accumulate ? FieldBuffer::part : FieldBuffer::current;
 }
 
+std::span<Field* const> fields_of(const BoundArgument& argument)
+{
+  return {argument.fields, argument.n_fields};
+}
+
 }  // namespace
 
 BoundGraph::BoundGraph(const TaskGraph& graph, Warehouse& warehouse, const Communicator& communicator)
@@ -83,7 +88,30 @@ BoundGraph::Bound BoundGraph::bind_body(const Instance& instance)
     bound.uses_particles |= access.label->centring() == Centring::particle;
     bound.arguments.push_back(argument);
   }
+  if (graph_.declaration(instance).sparse) bind_sparse(instance, bound);
   return bound;
+}
+
+/// Lists what must be there for a sparse body to have anything to do.
+void BoundGraph::bind_sparse(const Instance& instance, Bound& bound)
+{
+  // Of a layer that is filled from neighbours it is not known whether it is zero.
+  const auto is_filler = [&](int p) { return at(p).kind == InstanceKind::fill_halo; };
+  bound.is_sparse = std::none_of(instance.predecessors.begin(), instance.predecessors.end(), is_filler);
+  const auto& accesses = graph_.declaration(instance).accesses;
+  for (std::size_t a = 0; a < accesses.size(); ++a) {
+    const bool is_taken = accesses[a].mode == Mode::read || accesses[a].mode == Mode::update;
+    const bool is_reduction = accesses[a].label->centring() == Centring::reduction;
+    for (const Field* field : fields_of(bound.arguments[a])) {
+      if (field->n_particles != nullptr) {
+        bound.counts.push_back(field->n_particles);
+      } else if (is_taken && !is_reduction) {
+        bound.taken.push_back({field, bound.arguments[a].buffer});
+      }
+    }
+  }
+  std::sort(bound.counts.begin(), bound.counts.end());
+  bound.counts.erase(std::unique(bound.counts.begin(), bound.counts.end()), bound.counts.end());
 }
 
 std::span<const int> BoundGraph::predecessors(int instance) const
@@ -115,16 +143,19 @@ void BoundGraph::fail(const std::string& what)
 void BoundGraph::run(int i, const Step& step)
 {
   const Instance& instance = at(i);
-  const Bound& bound = bound_[static_cast<std::size_t>(i)];
+  Bound& bound = bound_[static_cast<std::size_t>(i)];
   switch (instance.kind) {
     case InstanceKind::body: {
+      bound.was_skipped = bound.is_sparse && takes_nothing(bound);
+      if (bound.was_skipped) return make_nothing(instance, bound);
       prepare(instance, bound);
       const PatchLayout& layout = graph_.layout();
       graph_.declaration(instance).body({layout, layout[instance.patch], instance.group, step}, bound.arguments.data());
       break;
     }
     case InstanceKind::sum_halo:
-      for (const BoundHalo& halo : bound.halos) sum_halo(halo);
+      bound.was_skipped = true;
+      for (const BoundHalo& halo : bound.halos) bound.was_skipped &= !sum_halo(halo);
       break;
     case InstanceKind::fill_halo:
       fill_halo(bound.halos.front(), instance.of_previous_step ? FieldBuffer::previous : FieldBuffer::current);
@@ -158,15 +189,38 @@ void BoundGraph::prepare(const Instance& instance, const Bound& bound)
   const auto& accesses = graph_.declaration(instance).accesses;
   for (std::size_t a = 0; a < accesses.size(); ++a) {
     const Access& access = accesses[a];
-    Field& field = *bound.arguments[a].fields[0];
-    if (access.mode == Mode::accumulate) {
-      std::memset(field.part_buffer.data(), 0, field.n_bytes());
-    } else if (access.mode == Mode::reduce) {
-      access.label->reduction()->reset(field.current_buffer.data());
-    } else if (checked_build && access.mode == Mode::compute) {
-      for (std::size_t g = 0; g < bound.arguments[a].n_fields; ++g) {
-        Field& f = *bound.arguments[a].fields[g];
-        if (f.n_bytes() > 0) std::memset(f.buffer(FieldBuffer::current).data(), 0xff, f.n_bytes());
+    for (Field* field : fields_of(bound.arguments[a])) {
+      if (access.mode == Mode::read) continue;
+      if (access.mode == Mode::accumulate) field->make_zero(FieldBuffer::part);
+      if (access.mode == Mode::reduce) access.label->reduction()->reset(field->current_buffer.data());
+      if (checked_build && access.mode == Mode::compute && field->n_bytes() > 0) {
+        std::memset(field->buffer(FieldBuffer::current).data(), 0xff, field->n_bytes());
+      }
+      field->note_written(bound.arguments[a].buffer);
+    }
+  }
+}
+
+/// Whether a body would find no particle, and nothing but zeros in the fields of this step.
+bool BoundGraph::takes_nothing(const Bound& bound)
+{
+  const auto is_zero = [](const Taken& taken) { return taken.field->is_zero(taken.buffer); };
+  return std::all_of(bound.counts.begin(), bound.counts.end(), [](const std::size_t* n) { return *n == 0; }) &&
+         std::all_of(bound.taken.begin(), bound.taken.end(), is_zero);
+}
+
+/// Leaves behind what a body makes of nothing, which is there already if it was so in the step before.
+void BoundGraph::make_nothing(const Instance& instance, const Bound& bound)
+{
+  const auto& accesses = graph_.declaration(instance).accesses;
+  for (std::size_t a = 0; a < accesses.size(); ++a) {
+    const Access& access = accesses[a];
+    if (access.mode == Mode::read || access.label->centring() == Centring::particle) continue;
+    for (Field* field : fields_of(bound.arguments[a])) {
+      if (access.mode == Mode::reduce) {
+        access.label->reduction()->reset(field->current_buffer.data());
+      } else {
+        field->make_zero(bound.arguments[a].buffer);
       }
     }
   }
@@ -203,6 +257,7 @@ void BoundGraph::combine(const Bound& bound)
 
 std::size_t BoundGraph::bytes(int instance) const
 {
+  if (was_skipped(instance)) return 0;
   std::size_t sum = 0;
   for (const Field* f : bound_[static_cast<std::size_t>(instance)].fields) sum += f->n_bytes();
   return sum;

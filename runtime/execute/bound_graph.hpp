@@ -39,25 +39,39 @@ class BoundGraph final : public Work
   void poll(std::vector<int>& arrived, std::uint64_t idle_since) override { exchange_->poll(arrived, idle_since); }
   void fail(const std::string& what) override;
 
-  /// Bytes of the fields that an instance declares, as large as they are now.
+  /// Whether in the last step an instance found nothing to work on, see TaskBuilder::sparse.
+  bool was_skipped(int instance) const { return bound_[static_cast<std::size_t>(instance)].was_skipped; }
+  /// Bytes of the fields that an instance declares, as large as they are now; 0 if it was skipped.
   std::size_t bytes(int instance) const;
   /// Particles of the instance's patch and group that it declares to use; 0 for others.
   std::size_t n_particles(int instance) const;
 
  private:
+  struct Taken {
+    const Field* field;
+    FieldBuffer buffer;
+  };
   struct Bound {
     std::vector<Field*> fields;
     std::vector<BoundArgument> arguments;
     /// One for each label.
     std::vector<BoundHalo> halos;
     bool uses_particles = false;
+    /// Whether it may be skipped: where these particles are none and these fields are zero.
+    bool is_sparse = false;
+    std::vector<const std::size_t*> counts;
+    std::vector<Taken> taken;
+    bool was_skipped = false;
   };
 
   const Instance& at(int instance) const { return graph_.instances()[static_cast<std::size_t>(instance)]; }
   Bound bind(const Instance& instance);
   Bound bind_body(const Instance& instance);
   Bound bind_halos(const Instance& instance);
+  void bind_sparse(const Instance& instance, Bound& bound);
   void prepare(const Instance& instance, const Bound& bound);
+  static bool takes_nothing(const Bound& bound);
+  void make_nothing(const Instance& instance, const Bound& bound);
   bool may_move(const Instance& instance);
   Bound bind_reduction(const Label& label);
   static void combine(const Bound& bound);

@@ -62,7 +62,8 @@ void Exchange::open_line(Line& line, int message)
     if (incoming) particle_messages_.push_back(message);
     return;
   }
-  line.bytes.resize(header_bytes + m.bytes);
+  // Before each part, whether all of it is zero and left out.
+  line.bytes.resize(header_bytes + m.parts.size() + m.bytes);
   const int n = static_cast<int>(line.bytes.size());
   if (incoming) {
     line.incoming_request = requests_.size();
@@ -131,7 +132,9 @@ void Exchange::pack(Line& line)
   }
   std::byte* at = line.bytes.data() + header_bytes;
   for (std::size_t k = 0; k < m.parts.size(); ++k) {
-    at = copy_out(*line.fields[k], m.parts[k].buffer, m.parts[k].box, at);
+    const bool is_zero = line.fields[k]->is_zero(m.parts[k].buffer);
+    *at++ = std::byte{is_zero};
+    if (!is_zero) at = copy_out(*line.fields[k], m.parts[k].buffer, m.parts[k].box, at);
   }
 }
 
@@ -144,7 +147,14 @@ void Exchange::unpack(const Line& line)
     return;
   }
   for (std::size_t k = 0; k < m.parts.size(); ++k) {
-    at = copy_in(*line.fields[k], m.parts[k].buffer, m.parts[k].box, at);
+    Field& field = *line.fields[k];
+    const FieldBuffer buffer = m.parts[k].buffer;
+    if (*at++ != std::byte{0}) {
+      field.make_zero(buffer);
+    } else {
+      field.note_written(buffer);
+      at = copy_in(field, buffer, m.parts[k].box, at);
+    }
   }
 }
 

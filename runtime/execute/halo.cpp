@@ -80,11 +80,14 @@ BoundHalo bind_halo_sum(Warehouse& warehouse, const Label& label, int patch, int
   return bound;
 }
 
-void sum_halo(const BoundHalo& halo)
+bool sum_halo(const BoundHalo& halo)
 {
+  halo.to->make_zero(FieldBuffer::current);
   std::byte* const sums = halo.to->current_buffer.data();
-  std::memset(sums, 0, halo.to->n_bytes());
+  bool any = false;
   for (const auto& [from, box] : halo.parts) {
+    if (from->is_zero(FieldBuffer::part)) continue;
+    any = true;
     const std::byte* const values = from->part_buffer.data();
     for_each_row(box, *halo.to, *from, [&](std::size_t to_offset, std::size_t from_offset, std::size_t bytes) {
       auto* into = reinterpret_cast<double*>(sums + to_offset);
@@ -92,6 +95,8 @@ void sum_halo(const BoundHalo& halo)
       for (std::size_t i = 0; i < bytes / sizeof(double); ++i) into[i] += add[i];
     });
   }
+  if (any) halo.to->note_written(FieldBuffer::current);
+  return any;
 }
 
 BoundHalo bind_halo_fill(Warehouse& warehouse, const Label& label, int patch, int group, int halo)

@@ -21,8 +21,9 @@ struct BoundHalo {
 /// For the values of a patch with `halo` layers: the parts of the patch and its neighbours, in the order of their ids.
 BoundHalo bind_halo_sum(Warehouse& warehouse, const Label& label, int patch, int group, int halo);
 
-/// Adds all parts into the current values: the same sums on both sides of every seam, bit for bit.
-void sum_halo(const BoundHalo& halo);
+/// Adds all parts into the current values: the same sums on both sides of every seam, bit for bit. Parts known to be
+/// zero are left out, which changes no bit of a sum that starts at zero; false if that was all of them.
+bool sum_halo(const BoundHalo& halo);
 
 /// For the `halo` layers around a patch: the neighbours' values.
 BoundHalo bind_halo_fill(Warehouse& warehouse, const Label& label, int patch, int group, int halo);

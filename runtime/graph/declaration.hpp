@@ -59,6 +59,8 @@ struct TaskDeclaration {
   /// Groups it runs for; empty means all.
   std::vector<int> groups;
   std::vector<Access> accesses;
+  /// See TaskBuilder::sparse.
+  bool sparse = false;
   std::function<void(const TaskContext&, const BoundArgument*)> body;
   /// Of a migration that waits for a reduction: whether particles may move, given its value.
   std::function<bool(const void*)> may_move;
@@ -83,6 +85,14 @@ class TaskBuilder
   TaskBuilder over_patches_and_groups(std::vector<int> groups = {}) &&
   {
     return std::move(*this).over(Domain::patches_and_groups, std::move(groups));
+  }
+
+  /// Promises that of nothing the body makes nothing: where there is no particle and the node and cell fields of this
+  /// step that it reads or updates are zero, it makes zeros and neutral parts. There it is skipped.
+  TaskBuilder sparse() &&
+  {
+    declaration_.sparse = true;
+    return std::move(*this);
   }
 
   /// Data of this step, or of the one before (`label.previous()`), that others wrote ("requires" in the field).

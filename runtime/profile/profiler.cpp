@@ -100,7 +100,11 @@ void Profiler::add_step()
 
     const Instance& instance = instances[i];
     Row& row = rows_[row_of_instance_[i]];
-    row.totals.durations.add(duration);
+    if (graph_->was_skipped(static_cast<int>(i))) {
+      ++row.totals.skipped;
+    } else {
+      row.totals.durations.add(duration);
+    }
     // Time stamps of two cores may differ by a little; a wait is never negative.
     if (ready != 0 && record.start > ready) row.totals.wait += record.start - ready;
     row.totals.bytes += static_cast<double>(graph_->bytes(static_cast<int>(i)));
@@ -150,6 +154,7 @@ std::vector<Profiler::Row> Profiler::rows_of_all(const Communicator& communicato
       std::memcpy(per_patch.data(), from + sizeof totals, per_patch.size() * sizeof(std::uint64_t));
       from += sizeof totals + per_patch.size() * sizeof(std::uint64_t);
       row.totals.durations.merge(totals.durations);
+      row.totals.skipped += totals.skipped;
       row.totals.wait += totals.wait;
       row.totals.bytes += totals.bytes;
       row.totals.particles += totals.particles;
@@ -165,6 +170,7 @@ TaskStatistics Profiler::statistics(const Row& row, std::uint64_t all_ticks, dou
   TaskStatistics t;
   t.name = row.name;
   t.count = durations.count();
+  t.skipped = row.totals.skipped;
   t.total_s = static_cast<double>(durations.total()) * second;
   t.mean_s = t.total_s / static_cast<double>(t.count);
   t.min_s = static_cast<double>(durations.least()) * second;

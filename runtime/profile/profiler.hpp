@@ -41,6 +41,8 @@ class DurationHistogram
 struct TaskStatistics {
   std::string name;
   std::uint64_t count = 0;
+  /// Instances that found nothing to work on; they are in none of the other numbers but the wait.
+  std::uint64_t skipped = 0;
   double total_s = 0;
   double mean_s = 0;
   double min_s = 0;
@@ -104,6 +106,7 @@ class Profiler
   /// Numbers of one task, which may be sent as bytes.
   struct Totals {
     DurationHistogram durations;
+    std::uint64_t skipped = 0;
     std::uint64_t wait = 0;
     double bytes = 0;
     double particles = 0;

@@ -23,6 +23,7 @@ nlohmann::json to_json(const Profile& profile, const MemoryLedger& ledger, const
   for (const TaskStatistics& t : profile.tasks) {
     tasks.push_back({{"name", t.name},
                      {"count", t.count},
+                     {"skipped", t.skipped},
                      {"total_s", t.total_s},
                      {"mean_s", t.mean_s},
                      {"min_s", t.min_s},
