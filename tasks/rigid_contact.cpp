@@ -64,6 +64,7 @@ runtime::TaskDeclaration gather_rigid_contact(const Method<Interpolator>& method
   constexpr int D = Interpolator::dimension;
   return runtime::task("gather rigid contact")
       .over_patches()
+      .sparse()
       .reads(node::sums<D>.halo(1).every_group(), node::motion<D>.halo(1).every_group())
       .reduces(rigid_couplings)
       .body([&method](const TaskContext& at, const PerGroup<GridView<const NodeSums<D>>>& sums,
@@ -85,6 +86,7 @@ runtime::TaskDeclaration move_rigid_nodes(const Method<Interpolator>& method)
   constexpr int D = Interpolator::dimension;
   return runtime::task("move rigid nodes")
       .over_patches()
+      .sparse()
       .reads(rigid_couplings, node::sums<D>.halo(1).every_group())
       .updates(node::motion<D>.halo(1).every_group())
       .body([&method](const TaskContext& at, const RigidCouplings& couplings,
@@ -120,6 +122,7 @@ runtime::TaskDeclaration move_rigid_body(const Method<Interpolator>& method, int
                       std::span<Vector<D>> position, std::span<Vector<D>> velocity, std::span<Matrix<D>> deformation,
                       std::span<double> volume, std::span<SymmetricTensor<D>> stress,
                       std::span<double> viscous_pressure, StepTotals& totals) {
+        totals.host_requests = at.step.host_requests;
         const RigidBody& body = *method.rigid_body(at.group);
         const auto state = moved(body, impulses.by_group[static_cast<std::size_t>(at.group)], at.step.size);
         const components::RigidMotion motion = components::motion_of(body.properties, state);

@@ -82,7 +82,7 @@ template <class Interpolator, int D, class Update>
 void in_batches(const Method<Interpolator>& method, const TaskContext& at, const StressArguments<D>& s,
                 StepTotals& totals, const Update& update)
 {
-  // Here, as this task runs on every patch, with or without particles.
+  // Here, as this task runs on every patch, with particles or without.
   totals.host_requests = at.step.host_requests;
   std::array<SymmetricTensor<D>, batch_size> old_stress;
   BatchAnswer answer;
