@@ -99,7 +99,7 @@ runtime::TaskDeclaration contact(const Method<Interpolator>& method)
             node.mass[static_cast<std::size_t>(rigid->group)] = std::numeric_limits<double>::infinity();
           }
           const auto outcome = components::resolve_contact<D>(
-              std::span(node.mass.data(), n_groups), std::span(node.surface_gradient.data(), n_groups), method.friction,
+              std::span(node.mass.data(), n_groups), std::span(node.surface_gradient.data(), n_groups), method.contacts,
               thresholds, std::span(node.velocity.data(), n_groups));
           if (outcome.approach_speed == 0) return;
           const NodeImpulses<D> done = give_back(method, node, rigid, sums, motions, i);

@@ -37,7 +37,7 @@ Method<Interpolator>::Method(const Scene& given)
       centrifuge(scene.centrifuge),
       viscosity(scene.artificial_viscosity),
       time_step_rule(scene.time.rule),
-      friction(static_cast<int>(scene.materials.size())),
+      contacts(static_cast<int>(scene.materials.size())),
       materials(scene.materials)
 {
   for (int m = 0; m < static_cast<int>(scene.materials.size()); ++m) {
@@ -54,7 +54,8 @@ Method<Interpolator>::Method(const Scene& given)
   for (std::size_t k = 0; k < std::size_t{dimension}; ++k) {
     for (std::size_t side = 0; side < 2; ++side) mirrors[k][side] = scene.faces[k][side] == Face::symmetry;
   }
-  for (const SceneContact& pair : scene.contacts) friction.set(pair.material_a, pair.material_b, pair.friction);
+  for (const SceneContact& pair : scene.contacts)
+    contacts.set(pair.material_a, pair.material_b, pair.friction, pair.normal_of);
 }
 
 template <class Interpolator>

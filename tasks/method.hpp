@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "components/contact/friction_table.hpp"
+#include "components/contact/contact_table.hpp"
 #include "components/geometry/fill.hpp"
 #include "components/loads/artificial_viscosity.hpp"
 #include "components/shapes/gimp.hpp"
@@ -80,7 +80,7 @@ struct Method {
   StepRule time_step_rule;
   /// On the bounds of the viscous rule, by material; the published rule has none.
   std::vector<double> step_factors;
-  components::FrictionTable friction;
+  components::ContactTable contacts;
   std::span<const SceneMaterial> materials;
   /// The simulation moves them from step to step.
   std::vector<RigidBody> rigid_bodies;

@@ -32,12 +32,13 @@ void add_node(const Method<Interpolator>& method, const RigidBody& body, const N
   for (const int g : method.deformable_groups) {
     const auto other = static_cast<std::size_t>(g);
     if (!(node.mass[other] > method.least_node_mass)) continue;
-    const Vector<D> outward = components::facing<D>(node.surface_gradient[self], node.surface_gradient[other]);
+    const Vector<D> outward = components::outward_of<D>(method.contacts, body.group, g, node.surface_gradient[self],
+                                                        node.surface_gradient[other]);
     const double length = outward.norm();
     if (!(length > contact_thresholds(method).surface_gradient)) continue;
-    const NodeContact contact =
-        components::node_contact(node.mass[other], in_space<D>(outward / length), method.friction(body.group, g),
-                                 in_space<D>(node.velocity[self]), in_space<D>(node.velocity[other]));
+    const NodeContact contact = components::node_contact(
+        node.mass[other], in_space<D>(outward / length), method.contacts.friction(body.group, g),
+        in_space<D>(node.velocity[self]), in_space<D>(node.velocity[other]));
     couplings.by_group[self].add(contact, in_space<D>(x) - body.state.centre);
   }
 }

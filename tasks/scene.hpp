@@ -9,6 +9,7 @@
 #include <variant>
 #include <vector>
 
+#include "components/contact/contact_table.hpp"
 #include "components/geometry/solid.hpp"
 #include "components/loads/artificial_viscosity.hpp"
 #include "components/loads/rotating_frame.hpp"
@@ -80,11 +81,13 @@ struct SceneBody {
   std::function<Triple(const Triple&)> velocity_field{};
 };
 
-/// Friction between two different materials; pairs that are not listed slide freely.
+/// Between two different materials; pairs that are not listed slide freely.
 struct SceneContact {
   int material_a;
   int material_b;
   double friction;
+  /// The material whose surface gives the normal, or the flatter one at each node.
+  int normal_of = components::ContactTable::flatter;
 };
 
 struct SceneOutput {

@@ -234,6 +234,11 @@ class SimulationOf : public Simulation
                                   ? components::published_time_step<D>(method_.cell_size, c, v)
                                   : method_.step_factors[material] *
                                         components::viscous_time_step<D>(method_.cell_size, c, v, 0, viscosity));
+      if (method_.time_step_rule == StepRule::published) continue;
+      for (const SceneBody& other : scene_.bodies) {
+        const double approach = (vector_of<D>(other.velocity) - v).norm();
+        bound = std::min(bound, components::contact_time_step(method_.cell_size, approach));
+      }
     }
     return bound;
   }

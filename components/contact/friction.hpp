@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <span>
 
-#include "components/contact/friction_table.hpp"
+#include "components/contact/contact_table.hpp"
 #include "components/tensors.hpp"
 
 /// Frictional contact at one grid node between materials that each carry their own velocity there. In the plane,
@@ -82,16 +82,26 @@ Vector<D> facing(const Vector<D>& gradient_a, const Vector<D>& gradient_b)
   return length_a > length_b ? Vector<D>(gradient_a - share * gradient_b) : Vector<D>(share * gradient_a - gradient_b);
 }
 
+/// The direction from a to b in which the two meet, as the table has it; not of unit length.
+template <int D>
+Vector<D> outward_of(const ContactTable& table, int a, int b, const Vector<D>& gradient_a, const Vector<D>& gradient_b)
+{
+  const int owner = table.normal_of(a, b);
+  if (owner == a) return gradient_a;
+  if (owner == b) return -gradient_b;
+  return facing<D>(gradient_a, gradient_b);
+}
+
 /// Contact between all materials at one node; one entry of each span a material (contact group), in the order of the
-/// friction table. `surface_gradient` of a material is G_a = sum_p V_p grad S_ip, which points out of the material.
-/// Two materials share one normal, see `facing`, so that the impulse on one is exactly minus that on the other.
+/// table. `surface_gradient` of a material is G_a = sum_p V_p grad S_ip, which points out of the material.
+/// Two materials share one normal, so that the impulse on one is exactly minus that on the other.
 /// Pairs a < b are resolved one after another, in that order, each with the velocities that the pairs before it left:
 /// with three or more materials a later pair may leave an earlier one with some approach, which the next step ends. A
 /// pair is left alone, sliding and all, where one of its masses is not above the threshold or where that normal is too
 /// short to have a direction.
 template <int D>
 ContactOutcome resolve_contact(std::span<const double> mass, std::span<const Vector<D>> surface_gradient,
-                               const FrictionTable& friction, const ContactThresholds& thresholds,
+                               const ContactTable& table, const ContactThresholds& thresholds,
                                std::span<Vector<D>> velocity)
 {
   ContactOutcome outcome;
@@ -99,10 +109,11 @@ ContactOutcome resolve_contact(std::span<const double> mass, std::span<const Vec
     if (!(mass[a] > thresholds.mass)) continue;
     for (std::size_t b = a + 1; b < mass.size(); ++b) {
       if (!(mass[b] > thresholds.mass)) continue;
-      const Vector<D> outward = facing<D>(surface_gradient[a], surface_gradient[b]);
+      const int first = static_cast<int>(a), second = static_cast<int>(b);
+      const Vector<D> outward = outward_of<D>(table, first, second, surface_gradient[a], surface_gradient[b]);
       const double length = outward.norm();
       if (!(length > thresholds.surface_gradient)) continue;
-      const double coefficient = friction(static_cast<int>(a), static_cast<int>(b));
+      const double coefficient = table.friction(first, second);
       const ContactImpulse<D> impulse =
           collide<D>(mass[a], mass[b], outward / length, coefficient, velocity[a], velocity[b]);
       outcome.dissipated_energy += impulse.dissipated_energy;

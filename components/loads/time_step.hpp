@@ -41,10 +41,11 @@ inline double transfer_step_factor(int n_per_axis)
   return std::sqrt(3 / (5 + 1 / (n * n)));
 }
 
-/// Bodies that meet at `approach_speed` close no more than half a cell in a step; no bound if they do not approach.
+/// Bodies that meet at `approach_speed` close no more than a tenth of a cell in a step, so that what they meet is
+/// strained by no more than that at once; no bound if they do not approach.
 inline double contact_time_step(double cell_size, double approach_speed)
 {
-  return approach_speed > 0 ? 0.5 * cell_size / approach_speed : std::numeric_limits<double>::infinity();
+  return approach_speed > 0 ? 0.1 * cell_size / approach_speed : std::numeric_limits<double>::infinity();
 }
 
 }  // namespace tamp::components

@@ -220,6 +220,7 @@ class SceneReader
     for (JsonReader& reader : root_.items("contact")) {
       const std::vector<std::string> names = reader.choices("materials", 2, material_names_);
       const double friction = reader.number("friction", zero_or_above);
+      const std::string normal = read_normal(reader, names);
       reader.finish();
       if (names.empty()) continue;
       const int a = material_number(names[0]), b = material_number(names[1]);
@@ -231,8 +232,17 @@ class SceneReader
       } else if (std::any_of(scene_.contacts.begin(), scene_.contacts.end(), same_pair)) {
         reader.add_problem("materials", "a pair that is listed before", "expected every pair once");
       }
-      scene_.contacts.push_back({a, b, friction});
+      const int normal_of = normal == flatter ? components::ContactTable::flatter : material_number(normal);
+      scene_.contacts.push_back({a, b, friction, normal_of});
     }
+  }
+
+  /// The word for the flatter surface, or one of the two materials.
+  static std::string read_normal(JsonReader& reader, const std::vector<std::string>& materials)
+  {
+    std::vector<std::string> choices{flatter};
+    choices.insert(choices.end(), materials.begin(), materials.end());
+    return reader.choice("normal", choices, true);
   }
 
   void read_output()
@@ -243,6 +253,8 @@ class SceneReader
     scene_.output.near_nose = reader.number("near_nose", above_zero, scene_.output.near_nose);
     reader.finish();
   }
+
+  static constexpr const char* flatter = "flatter";
 
   Document& document_;
   JsonReader root_;

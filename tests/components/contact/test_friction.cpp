@@ -21,7 +21,7 @@ struct Node {
   std::vector<Vector<D>> velocity;
   std::vector<Vector<D>> surface_gradient;
 
-  ContactOutcome resolve(const FrictionTable& friction, const ContactThresholds& thresholds = {})
+  ContactOutcome resolve(const ContactTable& friction, const ContactThresholds& thresholds = {})
   {
     return resolve_contact<D>(mass, surface_gradient, friction, thresholds, velocity);
   }
@@ -79,7 +79,7 @@ TEST_CASE("bodies that meet without friction lose their approach and keep their 
 {
   Node<2> node = body_on_body(4, 10);
 
-  const auto outcome = node.resolve(FrictionTable(2, 0));
+  const auto outcome = node.resolve(ContactTable(2, 0));
 
   // Momentum down is 2 * 10; together 5 kg go down at 4 m/s.
   CHECK(node.velocity[0].isApprox(Vector<2>(4, -4), 1e-15));
@@ -92,7 +92,7 @@ TEST_CASE("sliding above the Coulomb limit loses friction times the normal impul
 {
   Node<2> node = body_on_body(4, 10);
 
-  const auto outcome = node.resolve(FrictionTable(2, 0.25));
+  const auto outcome = node.resolve(ContactTable(2, 0.25));
 
   // Reduced mass 1.2 kg: normal impulse 12 N s, tangential 3 N s.
   CHECK(node.velocity[0].isApprox(Vector<2>(4 - 3 / 2.0, -10 + 12 / 2.0), 1e-14));
@@ -105,7 +105,7 @@ TEST_CASE("below the Coulomb limit the bodies stick")
 {
   Node<2> node = body_on_body(4, 10);
 
-  node.resolve(FrictionTable(2, 0.5));
+  node.resolve(ContactTable(2, 0.5));
 
   CHECK((node.velocity[0] - node.velocity[1]).norm() < 1e-14);
   CHECK(node.velocity[0].isApprox(Vector<2>(1.6, -4), 1e-14));
@@ -115,19 +115,19 @@ TEST_CASE("without slip bodies that approach ever so slowly do not slide")
 {
   Node<2> node = body_on_body(1000, 1e-6);
 
-  node.resolve(FrictionTable(2, FrictionTable::no_slip));
+  node.resolve(ContactTable(2, ContactTable::no_slip));
 
   CHECK((node.velocity[0] - node.velocity[1]).norm() < 1e-12);
 }
 
 TEST_CASE("bodies that part or rest on each other feel nothing, not even friction")
 {
-  const double friction = GENERATE(0.0, 0.5, FrictionTable::no_slip);
+  const double friction = GENERATE(0.0, 0.5, ContactTable::no_slip);
   for (const double down : {-1e-9, -10.0, 0.0}) {
     Node<2> node = body_on_body(4, down);
     const auto before = node.velocity;
 
-    const auto outcome = node.resolve(FrictionTable(2, friction));
+    const auto outcome = node.resolve(ContactTable(2, friction));
 
     CHECK(node.velocity == before);
     CHECK(outcome.dissipated_energy == 0);
@@ -152,8 +152,8 @@ TEST_CASE("contact keeps momentum to round-off and accounts for all the energy i
   std::mt19937 random(3);
   for (const std::size_t n_groups : {2u, 3u, 5u}) {
     const int n = static_cast<int>(n_groups);
-    FrictionTable friction(n, 0.3);
-    friction.set(0, 1, FrictionTable::no_slip);
+    ContactTable friction(n, 0.3);
+    friction.set(0, 1, ContactTable::no_slip);
     if (n > 2) friction.set(1, 2, 0);
     int n_met = 0;
     for (int sample = 0; sample < 300; ++sample) {
@@ -181,8 +181,8 @@ TEST_CASE("swapping two materials swaps what happens to them")
     std::swap(swapped.velocity[0], swapped.velocity[1]);
     std::swap(swapped.surface_gradient[0], swapped.surface_gradient[1]);
 
-    node.resolve(FrictionTable(2, 0.3));
-    swapped.resolve(FrictionTable(2, 0.3));
+    node.resolve(ContactTable(2, 0.3));
+    swapped.resolve(ContactTable(2, 0.3));
 
     CHECK((node.velocity[0] - swapped.velocity[1]).norm() < 1e-13);
     CHECK((node.velocity[1] - swapped.velocity[0]).norm() < 1e-13);
@@ -191,8 +191,8 @@ TEST_CASE("swapping two materials swaps what happens to them")
 
 TEST_CASE("of three materials each pair has its own friction and an absent one takes no part")
 {
-  FrictionTable friction(3, 0);
-  friction.set(0, 2, FrictionTable::no_slip);
+  ContactTable friction(3, 0);
+  friction.set(0, 2, ContactTable::no_slip);
   Node<2> node = body_on_body(4, 10);
   // The lower body becomes the third material; the second has no mass here, and values that must not be used.
   node.mass = {2, 0, 3};
@@ -212,7 +212,7 @@ TEST_CASE("pairs are resolved in the order of the materials, each after the pair
                {Vector<2>(6, 0), Vector<2>(0, 0), Vector<2>(0, 0)},
                {Vector<2>(1, 0), Vector<2>(0, 0), Vector<2>(-1, 0)}};
 
-  const auto outcome = node.resolve(FrictionTable(3, 0));
+  const auto outcome = node.resolve(ContactTable(3, 0));
 
   // (0, 1): 3, 3, 0. (0, 2): 1.5, 3, 1.5. (1, 2): 1.5, 2.25, 2.25.
   CHECK(node.velocity[0].isApprox(Vector<2>(1.5, 0), 1e-15));
@@ -227,18 +227,28 @@ TEST_CASE("without a normal, or with a mass at the threshold, nothing happens")
   no_normal.surface_gradient[0] = no_normal.surface_gradient[1] + Vector<2>(0, -1e-12);
   const auto before = light.velocity;
 
-  no_normal.resolve(FrictionTable(2, 0.3), {0, 1e-9});
-  light.resolve(FrictionTable(2, 0.3), {2, 1e-9});
+  no_normal.resolve(ContactTable(2, 0.3), {0, 1e-9});
+  light.resolve(ContactTable(2, 0.3), {2, 1e-9});
   Node<2> other_light = body_on_body(4, 10);
   other_light.mass = {3, 2};
-  other_light.resolve(FrictionTable(2, 0.3), {2, 1e-9});
+  other_light.resolve(ContactTable(2, 0.3), {2, 1e-9});
 
   CHECK(no_normal.velocity == before);
   CHECK(light.velocity == before);
   CHECK(other_light.velocity == before);
 
   no_normal.surface_gradient[0] = no_normal.surface_gradient[1];
-  no_normal.resolve(FrictionTable(2, 0.3));
+  no_normal.resolve(ContactTable(2, 0.3));
 
   CHECK(no_normal.velocity == before);
+}
+
+TEST_CASE("a pair's normal may be that of either surface alone")
+{
+  const Vector<2> of_a(1, 0), of_b(-0.5, -1);
+  ContactTable table(2);
+  table.set(0, 1, 0.3, 0);
+  CHECK(outward_of<2>(table, 0, 1, of_a, of_b) == of_a);
+  table.set(0, 1, 0.3, 1);
+  CHECK(outward_of<2>(table, 0, 1, of_a, of_b) == -of_b);
 }

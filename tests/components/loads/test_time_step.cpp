@@ -61,9 +61,9 @@ TEST_CASE("the viscous factor is the limit of stability of damped central differ
   }
 }
 
-TEST_CASE("bodies approach by no more than half a cell in the contact time step")
+TEST_CASE("bodies approach by no more than a tenth of a cell in the contact time step")
 {
-  CHECK(contact_time_step(0.01, 300) * 300 == Approx(0.005));
+  CHECK(contact_time_step(0.01, 300) * 300 == Approx(0.001));
   CHECK(std::isinf(contact_time_step(0.01, 0)));
 }
 

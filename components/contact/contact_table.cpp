@@ -1,4 +1,4 @@
-#include "components/contact/friction_table.hpp"
+#include "components/contact/contact_table.hpp"
 
 #include <string>
 
@@ -23,18 +23,21 @@ std::size_t n_pairs(int n_groups)
 
 }  // namespace
 
-FrictionTable::FrictionTable(int n_groups, double friction)
-    : n_groups_(n_groups), friction_(n_pairs(n_groups), checked(friction))
+ContactTable::ContactTable(int n_groups, double friction)
+    : n_groups_(n_groups), pairs_(n_pairs(n_groups), Pair{checked(friction), flatter})
 {
 }
 
-void FrictionTable::set(int a, int b, double friction)
+void ContactTable::set(int a, int b, double friction, int normal_of)
 {
   if (a < 0 || b < 0 || a >= n_groups_ || b >= n_groups_ || a == b) {
     throw BadValue("contact groups " + std::to_string(a) + " and " + std::to_string(b),
                    "two different groups from 0 to " + std::to_string(n_groups_ - 1));
   }
-  friction_[place(a, b)] = friction_[place(b, a)] = checked(friction);
+  if (normal_of != flatter && normal_of != a && normal_of != b) {
+    throw BadValue("the normal of group " + std::to_string(normal_of), "that of one of the two");
+  }
+  pairs_[place(a, b)] = pairs_[place(b, a)] = {checked(friction), normal_of};
 }
 
 }  // namespace tamp::components

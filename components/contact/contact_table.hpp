@@ -1,0 +1,45 @@
+#pragma once
+
+#include <cstddef>
+#include <limits>
+#include <vector>
+
+namespace tamp::components
+{
+
+/// How any two of `n_groups` contact groups meet: their coefficient of friction, and whose surface gives the normal.
+/// Every pair starts with one coefficient and the normal of the flatter surface.
+class ContactTable
+{
+ public:
+  /// Touching bodies never slide on each other; they may still part.
+  static constexpr double no_slip = std::numeric_limits<double>::infinity();
+  /// In place of a group: the normal is that of the flatter surface at each node, see `facing`.
+  static constexpr int flatter = -1;
+
+  /// Throws BadValue for a coefficient below 0 or not a number, or fewer than one group.
+  explicit ContactTable(int n_groups, double friction = 0);
+
+  int n_groups() const { return n_groups_; }
+
+  double friction(int a, int b) const { return pairs_[place(a, b)].friction; }
+  /// The group whose surface gives the normal, or `flatter`.
+  int normal_of(int a, int b) const { return pairs_[place(a, b)].normal_of; }
+
+  /// Of a with b and of b with a. Throws BadValue for a coefficient below 0 or not a number, for groups that are not
+  /// two different ones of the table, and for the normal of a third.
+  void set(int a, int b, double friction, int normal_of = flatter);
+
+ private:
+  struct Pair {
+    double friction;
+    int normal_of;
+  };
+
+  std::size_t place(int a, int b) const { return static_cast<std::size_t>(a * n_groups_ + b); }
+
+  int n_groups_;
+  std::vector<Pair> pairs_;
+};
+
+}  // namespace tamp::components

@@ -1,0 +1,46 @@
+#include <catch2/catch.hpp>
+
+#include <cmath>
+
+#include "components/contact/contact_table.hpp"
+#include "components/errors.hpp"
+
+using namespace tamp::components;
+
+TEST_CASE("every pair has the coefficient it was given last, in either order")
+{
+  ContactTable table(3, 0.4);
+
+  table.set(0, 2, 0.1);
+  table.set(2, 1, ContactTable::no_slip);
+
+  CHECK(table.friction(0, 1) == 0.4);
+  CHECK(table.friction(1, 0) == 0.4);
+  CHECK(table.friction(0, 2) == 0.1);
+  CHECK(table.friction(2, 0) == 0.1);
+  CHECK(std::isinf(table.friction(1, 2)));
+}
+
+TEST_CASE("coefficients below 0 and pairs that are none are refused")
+{
+  ContactTable table(2);
+
+  CHECK_THROWS_AS(table.set(0, 1, -0.1), BadValue);
+  CHECK_THROWS_AS(table.set(0, 1, std::nan("")), BadValue);
+  CHECK_THROWS_AS(table.set(0, 2, 0.1), BadValue);
+  CHECK_THROWS_AS(table.set(-1, 0, 0.1), BadValue);
+  CHECK_THROWS_AS(table.set(1, 1, 0.1), BadValue);
+  CHECK_THROWS_AS(ContactTable(0), BadValue);
+  CHECK_THROWS_AS(ContactTable(2, -1), BadValue);
+}
+
+TEST_CASE("the normal of a pair is that of the flatter surface or of one of the two")
+{
+  ContactTable table(3);
+  table.set(0, 2, 0.1, 2);
+
+  CHECK(table.normal_of(0, 1) == ContactTable::flatter);
+  CHECK(table.normal_of(0, 2) == 2);
+  CHECK(table.normal_of(2, 0) == 2);
+  CHECK_THROWS_AS(table.set(0, 1, 0.1, 2), BadValue);
+}
