@@ -2,7 +2,6 @@
 
 #include <array>
 #include <cmath>
-#include <limits>
 
 #include "components/contact/friction.hpp"
 #include "components/shapes/node_sums.hpp"
@@ -19,7 +18,7 @@ components::ContactThresholds contact_thresholds(const Method<Interpolator>& met
   return {method.least_node_mass, 1e-9 * std::pow(method.cell_size, Interpolator::dimension - 1)};
 }
 
-/// The materials at one node, side by side. A rigid body has infinite mass here: impulses at one node do not stop it.
+/// The materials at one node, side by side.
 template <int D>
 struct NodeOfGroups {
   static constexpr int max_groups = runtime::PerGroup<int>::max_groups;
