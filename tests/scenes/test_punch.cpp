@@ -2,9 +2,9 @@
 #include <cmath>
 #include <fstream>
 #include <nlohmann/json.hpp>
-#include <sstream>
 
 #include "tasks/simulation.hpp"
+#include "tests/scenes/history.hpp"
 #include "tests/tools/temporary_folder.hpp"
 #include "tools/run.hpp"
 #include "tools/scene/read_scene.hpp"
@@ -30,23 +30,6 @@ std::string digest_after(const std::string& name, int n_steps, int n_threads)
 nlohmann::json json_of(const std::filesystem::path& file)
 {
   return nlohmann::json::parse(std::ifstream(file));
-}
-
-/// The first row of `history.csv`, and its last as numbers by column.
-std::map<std::string, double> last_row(const std::filesystem::path& file)
-{
-  std::ifstream stream(file);
-  std::string line;
-  std::getline(stream, line);
-  std::istringstream names(line);
-  std::string last;
-  while (std::getline(stream, line)) last = line;
-  std::istringstream values(last);
-  std::map<std::string, double> row;
-  for (std::string name, value; std::getline(names, name, ',') && std::getline(values, value, ',');) {
-    row[name] = std::stod(value);
-  }
-  return row;
 }
 
 }  // namespace
@@ -114,7 +97,7 @@ TEST_CASE("the quick punch keeps energy, momentum and particles while it is driv
   run(shipped("quick.json"), options);
 
   const nlohmann::json summary = json_of(options.folder / "summary.json");
-  const auto row = last_row(options.folder / "history.csv");
+  const auto row = test::history_of(options.folder / "history.csv").back();
   CHECK(summary["status"] == "completed");
   CHECK(summary["simulated_time_s"] == 4e-4);
   CHECK(summary["energy_error"].get<double>() < 0.02);
@@ -192,7 +175,7 @@ TEST_CASE("a run whose step becomes too small stops and keeps its last good stat
   const nlohmann::json summary = json_of(options.folder / "summary.json");
   CHECK(summary["status"] == "unstable");
   CHECK(summary["reason"].get<std::string>().find("below the minimum") != std::string::npos);
-  CHECK(last_row(options.folder / "history.csv").at("step") == summary["steps"].get<double>());
+  CHECK(test::history_of(options.folder / "history.csv").back().at("step") == summary["steps"].get<double>());
 }
 
 }  // namespace tamp::tools

@@ -153,6 +153,55 @@ TEST_CASE("a body that cannot have settled is told why")
                  Catch::Contains("at most the sand's strength there"));
 }
 
+TEST_CASE("a rigid body of one particle, or one that shares its material, is told")
+{
+  const std::vector<std::string> rigid{"/bodies/block/rigid=true"};
+  CHECK(problems_with(rigid) == "");
+  CHECK(problems_with({"/bodies/block/rigid=true", "/particles_per_cell=[1,1]"}) ==
+        "--set#/bodies/block/rigid: a rigid body of one particle; expected two or more, so that it has an orientation");
+
+  const std::string other = R"({"material":"steel","geometry":{"type":"box","lower":[1,1],"upper":[2,2]}})";
+  CHECK_THAT(problems_with({"/bodies/block/rigid=true", "/bodies/other=" + other}),
+             Catch::Contains("#/bodies/block: rigid, but of one material with body \"other\"; expected a material of "
+                             "its own"));
+}
+
+TEST_CASE("what a rigid body is given of a wrong type is told with what was found")
+{
+  CHECK(problems_with({"/bodies/block/rigid=1"}) == "--set#/bodies/block/rigid: 1; expected true or false");
+  CHECK(problems_with({"/bodies/block/angular_velocity=[1,2,3]"}) ==
+        "--set#/bodies/block/angular_velocity: [1,2,3]; expected 1 numbers");
+  CHECK(problems_with({"/bodies/block/nose=[1]", "/bodies/block/tail=[0,0]"}) ==
+        "--set#/bodies/block/nose: [1]; expected 2 numbers");
+  CHECK(problems_with({"/bodies/block/nose=[0,0]"}) == "scene.json#/bodies/block/tail: missing; expected 2 numbers");
+  CHECK(problems_with({"/bodies/block/nose=[1,1]", "/bodies/block/tail=[1,1]"}) ==
+        "--set#/bodies/block/tail: [1, 1]; expected another place than the nose's");
+  CHECK(problems_with({"/materials/steel/particles_per_axis=2.5"}) ==
+        "--set#/materials/steel/particles_per_axis: 2.5; expected a whole number from 1 to 16");
+  CHECK(problems_with({"/materials/steel/particles_per_axis=0"}) ==
+        "--set#/materials/steel/particles_per_axis: 0; expected a whole number from 1 to 16");
+  const auto normal = [](const std::string& of) {
+    return problems_with_sand({R"(/contact=[{"materials":["steel","sand"],"friction":0,"normal":)" + of + "}]"});
+  };
+  CHECK(normal("\"sand\"") == "");
+  CHECK(normal("\"snd\"") ==
+        "--set#/contact/0/normal: \"snd\"; expected one of flatter, steel, sand, did you mean \"sand\"?");
+  CHECK(normal("1") == "--set#/contact/0/normal: 1; expected one of flatter, steel, sand");
+}
+
+TEST_CASE("a projectile that starts inside the sand is told with where")
+{
+  const auto problems = [](const std::string& translation) {
+    const TemporaryFolder folder;
+    return problems_of(folder, TAMP_SOURCE_DIR "/inputs/uxo/quick.json",
+                       {"/bodies/projectile/geometry/translation=" + translation});
+  };
+
+  CHECK(problems("[0.045,0.05,0.1085]") == "");
+  CHECK_THAT(problems("[0.045,0.05,0.106]"), Catch::Contains("#/bodies/sand: overlaps body \"projectile\", at [0.04") &&
+                                                 Catch::Contains("; expected bodies that share no particle"));
+}
+
 TEST_CASE("a name that is none of the choices is told with the choices")
 {
   CHECK(problems_with({"/materials/steel/type=hypoelastik"}) ==
