@@ -1,4 +1,5 @@
 #include <array>
+#include <limits>
 
 #include "components/contact/friction.hpp"
 #include "components/loads/time_step.hpp"
@@ -55,7 +56,7 @@ NodeImpulses<D> give_back(const Method<Interpolator>& method, const NodeOfGroups
   }
   if (rigid == nullptr) return done;
   const auto g = static_cast<std::size_t>(rigid->group);
-  done.add(g, -given, at_start(g), motions[g][i].velocity());
+  done.add(g, -given, at_start(g), node.velocity[g]);
   return done;
 }
 
@@ -95,6 +96,9 @@ runtime::TaskDeclaration contact(const Method<Interpolator>& method)
         for_each(sums[0].box(), [&](const Index& i) {
           if (node.gather(method, sums, motions, i) < 2) return;
           const RigidBody* rigid = node.rigid_body(method);
+          if (rigid != nullptr) {
+            node.mass[static_cast<std::size_t>(rigid->group)] = std::numeric_limits<double>::infinity();
+          }
           const auto outcome = components::resolve_contact<D>(
               std::span(node.mass.data(), n_groups), std::span(node.surface_gradient.data(), n_groups), method.contacts,
               thresholds, std::span(node.velocity.data(), n_groups));

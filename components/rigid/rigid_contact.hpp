@@ -7,9 +7,9 @@
 /// Contact of a rigid body with matter on a grid: all nodes together, because they share the body's six degrees of
 /// freedom. At each node the impulse on the matter is J = C (u - v), v being its velocity before contact and u the
 /// body's velocity there when the step is done: C is m I where they stick, m (n + mu t) n^T where they slide along the
-/// unit tangent t with friction mu, n the unit normal from the body to the matter. As between two deformable bodies, m
-/// is the mass of the two at the node together, m_a m_b / (m_a + m_b): a node that the body only just reaches is then
-/// not pushed all at once, and a rigid body does what a very stiff one does.
+/// unit tangent t with friction mu, n the unit normal from the body to the matter and m the mass of the matter at the
+/// node. (With the mass of the two together there, as between deformable bodies, the body would sink into what it rests
+/// on: it cannot give way at one node, so every step would leave some of the approach.)
 namespace tamp::components
 {
 
@@ -19,7 +19,7 @@ struct NodeContact {
   Vector3 velocity;
 };
 
-/// `mass` is m above, `free` the velocity that the body would have at the node without contact. It tells whether they approach, and
+/// `free` is the velocity that the body would have at the node without contact. It tells whether they approach, and
 /// whether friction can hold them together; C is zero if they part.
 NodeContact node_contact(double mass, const Vector3& normal, double friction, const Vector3& free,
                          const Vector3& velocity);

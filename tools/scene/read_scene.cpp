@@ -267,8 +267,8 @@ class SceneReader
 CheckedScene read_scene(const std::filesystem::path& file, const std::vector<std::string>& assignments)
 {
   Document document(file);
-  for (const std::string& assignment : assignments) document.set(assignment);
   document.merge_file_named_at(JsonPointer());
+  for (const std::string& assignment : assignments) document.set(assignment);
   tasks::Scene scene = SceneReader(document).read();
   if (!document.problems.empty()) throw InputError(std::move(document.problems));
   return {std::move(scene), std::move(document.root)};
