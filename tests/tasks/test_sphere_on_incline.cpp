@@ -1,0 +1,63 @@
+#include <catch2/catch.hpp>
+
+#include <cmath>
+
+#include "tests/tasks/scenes.hpp"
+
+using namespace tamp;
+using namespace tamp::test;
+
+namespace
+{
+
+/// Gravity is tilted by this against a level surface; cells are of 1 m, and waves cross 60 in a second.
+constexpr double slope = 0.3, wave_speed = 60;
+const double cosine = 1 / std::sqrt(1 + slope * slope), sine = slope * cosine;
+
+/// A rigid sphere, or a cylinder in the plane, rests on deep elastic ground, whose surface gives the normal.
+Scene sphere_on_incline(int dimension, double friction)
+{
+  constexpr double radius = 4, depth = 3;
+  Scene scene = empty_scene(dimension, {14, 14, dimension == 3 ? 12 : 1}, 1);
+  add_walls(scene, 0);
+  scene.faces[1] = {Face::symmetry, Face::open};
+  if (dimension == 3) add_walls(scene, 2);
+  scene.gravity = {sine, -cosine, 0};
+  scene.artificial_viscosity = components::ArtificialViscosity{};
+  scene.time.maximum_step = 0.05;
+  const double E = wave_speed * wave_speed / uniaxial_modulus(1, 0.2);
+  const int ground = add_elastic(scene, 1, E, 0.2), stone = add_elastic(scene, 0.25, E, 0.2);
+  add_box(scene, ground, {0, 0, 0}, {14, depth, 12});
+  if (dimension == 2) {
+    add_disk(scene, stone, 6, depth + radius, radius, {0, 0, 0});
+  } else {
+    const components::Ball<3> ball{{6, depth + radius, 6}, radius};
+    add_body(scene, stone, components::Solid<3>(ball), {0, 0, 0});
+  }
+  scene.bodies.back().rigid = true;
+  scene.contacts.push_back({ground, stone, friction, ground});
+  return scene;
+}
+
+}  // namespace
+
+TEST_CASE("a rigid sphere slides down an incline as gravity and Coulomb's friction have it")
+{
+  const int dimension = GENERATE(2, 3);
+  // Below 2/7 of the slope, with which a sphere would roll; 1/3 for a cylinder.
+  const double friction = GENERATE(0.0, 0.05);
+  const double acceleration = sine - friction * cosine, way = 1.5;
+  const double end = std::sqrt(2 * way / acceleration);
+  const auto simulation = Simulation::make(sphere_on_incline(dimension, friction), 2);
+
+  advance_to(*simulation, end);
+
+  const BodySums body = simulation->report().bodies[1];
+  const Eigen::Vector3d moved = (body.position - body.reference_position) / body.mass;
+  const double middle_of_step = end - 0.5 * simulation->last_step_size();
+  CAPTURE(dimension, friction, moved[0], body.momentum[0] / body.mass, simulation->n_steps());
+  CHECK(moved[0] == Approx(way).epsilon(0.01));
+  CHECK(body.momentum[0] / body.mass == Approx(acceleration * middle_of_step).epsilon(0.01));
+  // It stays on the ground.
+  CHECK(std::abs(moved[1]) < 0.02);
+}
