@@ -1,7 +1,9 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 
+#include "components/contact/logistic_plane.hpp"
 #include "components/materials/tabular_cap.hpp"
 #include "components/shapes/node_sums.hpp"
 #include "components/tensors.hpp"
@@ -53,6 +55,16 @@ template <int D>
 inline const runtime::NodeLabel<components::NodeSums<D>> sums{"node sums"};
 template <int D>
 inline const runtime::NodeLabel<components::NodeMotion<D>> motion{"node motion"};
+template <int D>
+inline const runtime::NodeLabel<components::ContactPlane<D>> contact_plane{"contact plane"};
+/// One for each pass over the particles that turns the planes.
+template <int D>
+inline const std::array<runtime::NodeLabel<components::RegressionSums<D>>, 3> regression_sums{
+    runtime::NodeLabel<components::RegressionSums<D>>{"regression sums 1"},
+    runtime::NodeLabel<components::RegressionSums<D>>{"regression sums 2"},
+    runtime::NodeLabel<components::RegressionSums<D>>{"regression sums 3"}};
+template <int D>
+inline const runtime::NodeLabel<components::EdgeSums<D>> edge_sums{"edge sums"};
 
 }  // namespace node
 

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <vector>
+
 #include "runtime/graph/declaration.hpp"
 #include "tasks/method.hpp"
 
@@ -14,6 +16,11 @@ runtime::TaskDeclaration particles_to_grid(const Method<Interpolator>& method);
 /// Nodes are accelerated by their forces, gravity and what the turning of the frame adds.
 template <class Interpolator>
 runtime::TaskDeclaration accelerate_nodes(const Method<Interpolator>& method);
+
+/// Of pairs whose normal comes by regression: planes are laid between their particles, and the materials face each other
+/// along the planes' normals where they touch, and nowhere else.
+template <class Interpolator>
+std::vector<runtime::TaskDeclaration> part_materials(const Method<Interpolator>& method);
 
 /// What the contact of rigid bodies asks of their motion.
 template <class Interpolator>

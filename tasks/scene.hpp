@@ -86,7 +86,7 @@ struct SceneContact {
   int material_a;
   int material_b;
   double friction;
-  /// The material whose surface gives the normal, or the flatter one at each node.
+  /// The material whose surface gives the normal, or one of the ways of ContactTable.
   int normal_of = components::ContactTable::flatter;
 };
 

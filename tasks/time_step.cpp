@@ -13,6 +13,9 @@ std::vector<runtime::TaskDeclaration> time_step(const Method<Interpolator>& meth
   std::vector<runtime::TaskDeclaration> step;
   step.push_back(particles_to_grid(method));
   step.push_back(accelerate_nodes(method));
+  if (method.contacts.has_regression()) {
+    for (runtime::TaskDeclaration& phase : part_materials(method)) step.push_back(std::move(phase));
+  }
   if (!method.rigid_bodies.empty()) {
     step.push_back(gather_rigid_contact(method));
     step.push_back(move_rigid_nodes(method));

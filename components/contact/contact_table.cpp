@@ -1,5 +1,6 @@
 #include "components/contact/contact_table.hpp"
 
+#include <algorithm>
 #include <string>
 
 #include "components/errors.hpp"
@@ -34,10 +35,15 @@ void ContactTable::set(int a, int b, double friction, int normal_of)
     throw BadValue("contact groups " + std::to_string(a) + " and " + std::to_string(b),
                    "two different groups from 0 to " + std::to_string(n_groups_ - 1));
   }
-  if (normal_of != flatter && normal_of != a && normal_of != b) {
+  if (normal_of != flatter && normal_of != regression && normal_of != a && normal_of != b) {
     throw BadValue("the normal of group " + std::to_string(normal_of), "that of one of the two");
   }
   pairs_[place(a, b)] = pairs_[place(b, a)] = {checked(friction), normal_of};
+}
+
+bool ContactTable::has_regression() const
+{
+  return std::any_of(pairs_.begin(), pairs_.end(), [](const Pair& pair) { return pair.normal_of == regression; });
 }
 
 }  // namespace tamp::components

@@ -16,6 +16,8 @@ class ContactTable
   static constexpr double no_slip = std::numeric_limits<double>::infinity();
   /// In place of a group: the normal is that of the flatter surface at each node, see `facing`.
   static constexpr int flatter = -1;
+  /// The normal is that of the plane that parts the materials' particles, see logistic_plane.hpp.
+  static constexpr int regression = -2;
 
   /// Throws BadValue for a coefficient below 0 or not a number, or fewer than one group.
   explicit ContactTable(int n_groups, double friction = 0);
@@ -23,8 +25,9 @@ class ContactTable
   int n_groups() const { return n_groups_; }
 
   double friction(int a, int b) const { return pairs_[place(a, b)].friction; }
-  /// The group whose surface gives the normal, or `flatter`.
+  /// The group whose surface gives the normal, or `flatter`, or `regression`.
   int normal_of(int a, int b) const { return pairs_[place(a, b)].normal_of; }
+  bool has_regression() const;
 
   /// Of a with b and of b with a. Throws BadValue for a coefficient below 0 or not a number, for groups that are not
   /// two different ones of the table, and for the normal of a third.

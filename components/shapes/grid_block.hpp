@@ -20,6 +20,17 @@ struct GridBlock {
 
   /// Position in cells from the first node.
   Vector<D> in_cells(const Vector<D>& x) const { return (x - origin) * (1 / cell_size); }
+  /// Cells from the first node to the one that lies `node` values after it.
+  Vector<D> cells_to(std::ptrdiff_t node) const
+  {
+    Vector<D> cells;
+    for (int k = D - 1; k >= 0; --k) {
+      const std::ptrdiff_t stride = strides[static_cast<std::size_t>(k)];
+      cells[k] = static_cast<double>(node / stride);
+      node %= stride;
+    }
+    return cells;
+  }
 };
 
 }  // namespace tamp::components

@@ -24,6 +24,7 @@ struct NodeSums {
   Vector<D> internal_force() const { return values.template segment<D>(1 + D).matrix(); }
   /// sum V_p grad S_ip [m^(D-1)]: points out of the material at its surface, vanishes within.
   Vector<D> surface_gradient() const { return values.template segment<D>(1 + 2 * D).matrix(); }
+  void set_surface_gradient(const Vector<D>& gradient) { values.template segment<D>(1 + 2 * D) = gradient.array(); }
 
   NodeSums& operator+=(const NodeSums& other)
   {

@@ -232,15 +232,17 @@ class SceneReader
       } else if (std::any_of(scene_.contacts.begin(), scene_.contacts.end(), same_pair)) {
         reader.add_problem("materials", "a pair that is listed before", "expected every pair once");
       }
-      const int normal_of = normal == flatter ? components::ContactTable::flatter : material_number(normal);
+      const int normal_of = normal == flatter      ? components::ContactTable::flatter
+                            : normal == regression ? components::ContactTable::regression
+                                                   : material_number(normal);
       scene_.contacts.push_back({a, b, friction, normal_of});
     }
   }
 
-  /// The word for the flatter surface, or one of the two materials.
+  /// The word for the flatter surface or for regression, or one of the two materials.
   static std::string read_normal(JsonReader& reader, const std::vector<std::string>& materials)
   {
-    std::vector<std::string> choices{flatter};
+    std::vector<std::string> choices{flatter, regression};
     choices.insert(choices.end(), materials.begin(), materials.end());
     return reader.choice("normal", choices, true);
   }
@@ -255,6 +257,7 @@ class SceneReader
   }
 
   static constexpr const char* flatter = "flatter";
+  static constexpr const char* regression = "regression";
 
   Document& document_;
   JsonReader root_;

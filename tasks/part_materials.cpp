@@ -1,0 +1,223 @@
+#include <algorithm>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include "components/contact/logistic_plane.hpp"
+#include "tasks/labels.hpp"
+#include "tasks/phases.hpp"
+#include "tasks/walls.hpp"
+
+namespace tamp::tasks
+{
+
+using components::ContactPlane;
+using components::EdgeSums;
+using components::NodeMotion;
+using components::NodeSums;
+using components::RegressionSums;
+using components::SymmetryWall;
+using runtime::GridView;
+using runtime::Index;
+using runtime::PerGroup;
+using runtime::TaskContext;
+
+namespace
+{
+
+struct Pair {
+  std::size_t first;
+  std::size_t second;
+};
+
+/// The pair that gets a plane at a node: the first in the order of materials.
+template <class Interpolator, int D = Interpolator::dimension>
+std::optional<Pair> pair_at(const Method<Interpolator>& method, const PerGroup<GridView<const NodeSums<D>>>& sums,
+                            const Index& i)
+{
+  const auto is_here = [&](std::size_t g) { return sums[g][i].mass() > method.least_node_mass; };
+  for (std::size_t a = 0; a < sums.size(); ++a) {
+    if (!is_here(a)) continue;
+    for (std::size_t b = a + 1; b < sums.size(); ++b) {
+      const int owner = method.contacts.normal_of(static_cast<int>(a), static_cast<int>(b));
+      if (owner == components::ContactTable::regression && is_here(b)) return Pair{a, b};
+    }
+  }
+  return {};
+}
+
+/// The two materials that see a plane at a node.
+template <int D, class Planes>
+std::optional<Pair> parted_at(const Planes& planes, const Index& i)
+{
+  Pair pair{planes.size(), planes.size()};
+  for (std::size_t g = 0; g < planes.size(); ++g) {
+    if (planes[g][i].side < 0) pair.first = g;
+    if (planes[g][i].side > 0) pair.second = g;
+  }
+  if (pair.first == planes.size()) return {};
+  return pair;
+}
+
+template <class Interpolator, int D = Interpolator::dimension>
+void mirror(const Method<Interpolator>& method, const TaskContext& at,
+            const PerGroup<GridView<ContactPlane<D>>>& planes)
+{
+  for (const GridView<ContactPlane<D>>& plane : planes) {
+    for_each_wall(method, at, plane.box(),
+                  [&](const SymmetryWall<D>& wall) { wall.constrain_and_mirror(plane.data()); });
+  }
+}
+
+/// Marks where the stencils of particles start that reach a node with a plane.
+template <int D>
+void mark_starts(const GridView<ContactPlane<D>>& planes, int support)
+{
+  for_each(planes.box(), [&](const Index& i) {
+    if (planes[i].side == 0) return;
+    runtime::IndexBox starts = {i, {i[0] + 1, i[1] + 1, i[2] + 1}};
+    for (std::size_t k = 0; k < D; ++k) starts.lower[k] -= support - 1;
+    for_each(intersection(starts, planes.box()), [&](const Index& start) { planes[start].starts_near = true; });
+  });
+}
+
+template <int D>
+bool any_starts(const GridView<const ContactPlane<D>>& planes)
+{
+  bool any = false;
+  for_each(planes.box(), [&](const Index& i) { any |= planes[i].starts_near; });
+  return any;
+}
+
+template <class Interpolator>
+runtime::TaskDeclaration lay_planes(const Method<Interpolator>& method)
+{
+  constexpr int D = Interpolator::dimension;
+  return runtime::task("lay contact planes")
+      .over_patches()
+      .sparse()
+      .reads(node::sums<D>.halo(1).every_group())
+      .computes(node::contact_plane<D>.halo(1).every_group())
+      .body([&method](const TaskContext& at, const PerGroup<GridView<const NodeSums<D>>>& sums,
+                      const PerGroup<GridView<ContactPlane<D>>>& planes) {
+        for_each(sums[0].box(), [&](const Index& i) {
+          for (const GridView<ContactPlane<D>>& plane : planes) plane[i] = {};
+          if (const auto pair = pair_at(method, sums, i)) {
+            planes[pair->first][i].side = -1;
+            planes[pair->second][i].side = 1;
+          }
+        });
+        mirror(method, at, planes);
+        for (const GridView<ContactPlane<D>>& plane : planes) mark_starts<D>(plane, Interpolator::support);
+      });
+}
+
+/// A pass over the particles that adds to `sums`, as `add(plane, weight, x, size, sum)` says, at nodes with a plane.
+template <class Interpolator, class Sums, class Add>
+runtime::TaskDeclaration sum_at_planes(const Method<Interpolator>& method, std::string name,
+                                       const runtime::NodeLabel<Sums>& label, Add add)
+{
+  constexpr int D = Interpolator::dimension;
+  return runtime::task(std::move(name))
+      .over_patches_and_groups()
+      .sparse()
+      .reads(node::contact_plane<D>.halo(1), particle::position<D>.previous())
+      .accumulates(label.halo(1))
+      .body([&method, add](const TaskContext& at, GridView<const ContactPlane<D>> planes,
+                           std::span<const Vector<D>> position, GridView<Sums> sums) {
+        if (!any_starts(planes)) return;
+        const Interpolator& interpolator = method.interpolator(at.group);
+        const double size = 2 * interpolator.half_size();
+        components::for_each_parted(interpolator, block_of<D>(at.layout, planes), planes.data(), position,
+                                    [&](std::ptrdiff_t node, double weight, const Vector<D>& x) {
+                                      add(planes.data()[node], weight, x, size, sums.data()[node]);
+                                    });
+        for_each_wall(method, at, sums.box(), [&](const SymmetryWall<D>& wall) { wall.fold(sums.data()); });
+      });
+}
+
+template <class Interpolator, int D = Interpolator::dimension>
+runtime::TaskDeclaration turn_planes(const Method<Interpolator>& method, std::string name,
+                                     const runtime::NodeLabel<RegressionSums<D>>& label)
+{
+  return runtime::task(std::move(name))
+      .over_patches()
+      .sparse()
+      .reads(label.halo(1).every_group())
+      .updates(node::contact_plane<D>.halo(1).every_group())
+      .body([&method](const TaskContext& at, const PerGroup<GridView<const RegressionSums<D>>>& sums,
+                      const PerGroup<GridView<ContactPlane<D>>>& planes) {
+        for_each(planes[0].box(), [&](const Index& i) {
+          const auto pair = parted_at<D>(planes, i);
+          if (!pair) return;
+          const auto& [first, second] = *pair;
+          // Beyond a mirror nothing may have come; such nodes take the plane of their mirror node.
+          if (!(sums[first][i].weight > 0 && sums[second][i].weight > 0)) return;
+          planes[first][i].coefficients = planes[second][i].coefficients =
+              components::newton_step<D>(planes[first][i].coefficients, sums[first][i], sums[second][i]);
+        });
+        mirror(method, at, planes);
+      });
+}
+
+/// Materials touch that would close their gap within the step. They face each other along the plane's normal; others
+/// have no surface here, which leaves them alone.
+template <class Interpolator>
+runtime::TaskDeclaration face_materials(const Method<Interpolator>& method)
+{
+  constexpr int D = Interpolator::dimension;
+  return runtime::task("face materials")
+      .over_patches()
+      .sparse()
+      .reads(node::contact_plane<D>.halo(1).every_group(), node::edge_sums<D>.halo(1).every_group(),
+             node::motion<D>.halo(1).every_group())
+      .updates(node::sums<D>.halo(1).every_group())
+      .body([&method](const TaskContext& at, const PerGroup<GridView<const ContactPlane<D>>>& planes,
+                      const PerGroup<GridView<const EdgeSums<D>>>& edges,
+                      const PerGroup<GridView<const NodeMotion<D>>>& motions,
+                      const PerGroup<GridView<NodeSums<D>>>& sums) {
+        const auto edge = [&](std::size_t g, const Index& i) {
+          return method.cell_size * edges[g][i].edge(2 * method.interpolator(static_cast<int>(g)).half_size());
+        };
+        for_each(planes[0].box(), [&](const Index& i) {
+          const auto pair = parted_at<D>(planes, i);
+          if (!pair) return;
+          const auto& [a, b] = *pair;
+          if (!(edges[a][i].weight > 0 && edges[b][i].weight > 0)) return;
+          const Vector<D> normal = planes[a][i].normal();
+          const double approach = (motions[a][i].velocity() - motions[b][i].velocity()).dot(normal);
+          const bool touch = -(edge(a, i) + edge(b, i)) <= at.step.size * approach;
+          const double length =
+              touch ? std::max(sums[a][i].surface_gradient().norm(), sums[b][i].surface_gradient().norm()) : 0;
+          sums[a][i].set_surface_gradient(length * normal);
+          sums[b][i].set_surface_gradient(-length * normal);
+        });
+      });
+}
+
+}  // namespace
+
+template <class Interpolator>
+std::vector<runtime::TaskDeclaration> part_materials(const Method<Interpolator>& method)
+{
+  constexpr int D = Interpolator::dimension;
+  std::vector<runtime::TaskDeclaration> phases{lay_planes(method)};
+  for (std::size_t pass = 0; pass < node::regression_sums<D>.size(); ++pass) {
+    const auto& label = node::regression_sums<D>[pass];
+    const std::string number = " " + std::to_string(pass + 1);
+    phases.push_back(sum_at_planes(method, "regress contact" + number, label,
+                                   [](const ContactPlane<D>& plane, double weight, const Vector<D>& x, double,
+                                      RegressionSums<D>& sums) { sums.add(plane, weight, x); }));
+    phases.push_back(turn_planes(method, "turn contact planes" + number, label));
+  }
+  phases.push_back(sum_at_planes(method, "find edges", node::edge_sums<D>,
+                                 [](const ContactPlane<D>& plane, double weight, const Vector<D>& x, double size,
+                                    EdgeSums<D>& sums) { sums.add(plane, weight, x, size); }));
+  phases.push_back(face_materials(method));
+  return phases;
+}
+
+template std::vector<runtime::TaskDeclaration> part_materials(const Method<components::Gimp<2>>&);
+template std::vector<runtime::TaskDeclaration> part_materials(const Method<components::Gimp<3>>&);
+
+}  // namespace tamp::tasks
