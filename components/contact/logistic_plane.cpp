@@ -9,7 +9,7 @@ template <int D>
 Vector<D + 1> newton_step(const Vector<D + 1>& plane, const RegressionSums<D>& first, const RegressionSums<D>& second)
 {
   // On n; d is all but free.
-  Vector<D + 1> ridge = Vector<D + 1>::Constant(1e-2);
+  Vector<D + 1> ridge = Vector<D + 1>::Constant(1e-3);
   ridge[D] = 1e-8;
   Matrix<D + 1> hessian = first.hessian / first.weight + second.hessian / second.weight;
   hessian.diagonal() += ridge;

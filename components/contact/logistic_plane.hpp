@@ -50,7 +50,8 @@ struct RegressionSums {
 
   void add(const ContactPlane<D>& plane, double particle_weight, const Vector<D>& x)
   {
-    const Vector<D + 1> z = x.homogeneous();
+    Vector<D + 1> z;
+    z << x, 1;
     const double doubt = 1 / (1 + std::exp(plane.side * z.dot(plane.coefficients)));
     weight += particle_weight;
     gradient -= particle_weight * plane.side * doubt * z;
