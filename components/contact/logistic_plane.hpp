@@ -102,7 +102,8 @@ struct EdgeSums {
     weight += say;
     moment += say * place;
   }
-  /// Exact for layers of particles up to the edge. Where an edge cuts through the layers it is 0.05 sizes too far out.
+  /// Exact for layers of particles up to the edge. An edge that cuts through the layers seems to be 0.22 sizes further
+  /// out, as the particles along it reach out by up to half their size.
   double edge(double size) const { return moment / weight + 0.5 * size / std::tanh(0.5 * sharpness); }
 
   EdgeSums& operator+=(const EdgeSums& other)
