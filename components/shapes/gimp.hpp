@@ -68,30 +68,31 @@ class Gimp
   double half_size_;
 };
 
-/// Calls `visit(place in the block, weight, gradient)` for every node of a stencil, x fastest.
+/// A row of a stencil's nodes along x: the first one's place in the block, and what the other axes give to all of its
+/// weights and of their gradients. Node i has the weight w[0][i] `across`; its gradient has s[0][i] `across` along x
+/// and w[0][i] `slope_across` along the others.
+template <int D>
+struct StencilRow {
+  std::ptrdiff_t first;
+  double across;
+  Vector<D - 1> slope_across;
+};
+
+/// Calls `visit(row)` for every row of a stencil, y faster than z.
 template <int D, int Support, class Visit>
-inline void for_each_node(const GridBlock<D>& block, const Stencil<D, Support>& s, Visit&& visit)
+inline void for_each_row(const GridBlock<D>& block, const Stencil<D, Support>& s, Visit&& visit)
 {
   if constexpr (D == 2) {
     for (std::size_t j = 0; j < Support; ++j) {
-      const std::ptrdiff_t row = s.first + static_cast<std::ptrdiff_t>(j) * block.strides[1];
-      for (std::size_t i = 0; i < Support; ++i) {
-        visit(row + static_cast<std::ptrdiff_t>(i), s.weight[0][i] * s.weight[1][j],
-              Vector<2>(s.slope[0][i] * s.weight[1][j], s.weight[0][i] * s.slope[1][j]));
-      }
+      visit(StencilRow<2>{s.first + static_cast<std::ptrdiff_t>(j) * block.strides[1], s.weight[1][j],
+                          Vector<1>(s.slope[1][j])});
     }
   } else {
     for (std::size_t k = 0; k < Support; ++k) {
+      const std::ptrdiff_t plane = s.first + static_cast<std::ptrdiff_t>(k) * block.strides[2];
       for (std::size_t j = 0; j < Support; ++j) {
-        const std::ptrdiff_t row = s.first + static_cast<std::ptrdiff_t>(j) * block.strides[1] +
-                                   static_cast<std::ptrdiff_t>(k) * block.strides[2];
-        const double w = s.weight[1][j] * s.weight[2][k];
-        const double wy = s.slope[1][j] * s.weight[2][k];
-        const double wz = s.weight[1][j] * s.slope[2][k];
-        for (std::size_t i = 0; i < Support; ++i) {
-          visit(row + static_cast<std::ptrdiff_t>(i), s.weight[0][i] * w,
-                Vector<3>(s.slope[0][i] * w, s.weight[0][i] * wy, s.weight[0][i] * wz));
-        }
+        visit(StencilRow<3>{plane + static_cast<std::ptrdiff_t>(j) * block.strides[1], s.weight[1][j] * s.weight[2][k],
+                            Vector<2>(s.slope[1][j] * s.weight[2][k], s.weight[1][j] * s.slope[2][k])});
       }
     }
   }

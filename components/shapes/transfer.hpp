@@ -47,10 +47,15 @@ void particles_to_grid(const Interpolator& interpolator, const GridBlock<D>& blo
       column[1 + 2 * D + k] = volume;
     }
     const auto stencil = interpolator.at(block, from.position[p]);
-    for_each_node<D>(block, stencil, [&](std::ptrdiff_t node, double weight, const Vector<D>& gradient) {
-      Values add = weight * with_weight;
-      for (int k = 0; k < D; ++k) add += gradient[k] * with_slope[static_cast<std::size_t>(k)];
-      sums[node].values += add;
+    for_each_row<D>(block, stencil, [&](const StencilRow<D>& row) {
+      // What the nodes of the row have in common: what goes with their weights along x, and with the slopes of those.
+      Values by_weight = row.across * with_weight;
+      for (int k = 1; k < D; ++k) by_weight += row.slope_across[k - 1] * with_slope[static_cast<std::size_t>(k)];
+      const Values by_slope = row.across * with_slope[0];
+      for (std::size_t i = 0; i < Interpolator::support; ++i) {
+        sums[row.first + static_cast<std::ptrdiff_t>(i)].values +=
+            stencil.weight[0][i] * by_weight + stencil.slope[0][i] * by_slope;
+      }
     });
   }
 }
@@ -75,10 +80,16 @@ ParticleMotion<D> grid_to_particle(const Interpolator& interpolator, const GridB
   std::array<Values, D> slopes;
   for (Values& slope : slopes) slope.setZero();
   const auto stencil = interpolator.at(block, x);
-  for_each_node<D>(block, stencil, [&](std::ptrdiff_t node, double weight, const Vector<D>& gradient) {
-    const Values& values = nodes[node].values;
-    moved += weight * values;
-    for (int k = 0; k < D; ++k) slopes[static_cast<std::size_t>(k)] += gradient[k] * values;
+  for_each_row<D>(block, stencil, [&](const StencilRow<D>& row) {
+    Values by_weight = Values::Zero(), by_slope = Values::Zero();
+    for (std::size_t i = 0; i < Interpolator::support; ++i) {
+      const Values& values = nodes[row.first + static_cast<std::ptrdiff_t>(i)].values;
+      by_weight += stencil.weight[0][i] * values;
+      by_slope += stencil.slope[0][i] * values;
+    }
+    moved += row.across * by_weight;
+    slopes[0] += row.across * by_slope;
+    for (int k = 1; k < D; ++k) slopes[static_cast<std::size_t>(k)] += row.slope_across[k - 1] * by_weight;
   });
   ParticleMotion<D> motion;
   motion.velocity = moved.template segment<D>(0).matrix();

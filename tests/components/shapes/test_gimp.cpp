@@ -21,8 +21,13 @@ std::map<std::ptrdiff_t, std::pair<double, Vector<D>>> shape_at(const Gimp<D>& g
                                                                 const Vector<D>& x)
 {
   std::map<std::ptrdiff_t, std::pair<double, Vector<D>>> shape;
-  for_each_node<D>(block, gimp.at(block, x), [&](std::ptrdiff_t place, double weight, const Vector<D>& gradient) {
-    shape[place] = {weight, gradient};
+  const auto stencil = gimp.at(block, x);
+  for_each_row<D>(block, stencil, [&](const StencilRow<D>& row) {
+    for (std::size_t i = 0; i < Gimp<D>::support; ++i) {
+      Vector<D> gradient;
+      gradient << stencil.slope[0][i] * row.across, stencil.weight[0][i] * row.slope_across;
+      shape[row.first + static_cast<std::ptrdiff_t>(i)] = {stencil.weight[0][i] * row.across, gradient};
+    }
   });
   return shape;
 }
