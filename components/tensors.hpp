@@ -10,8 +10,8 @@ namespace tamp
 template <int D>
 using Vector = Eigen::Matrix<double, D, 1>;
 
-template <int D>
-using Matrix = Eigen::Matrix<double, D, D>;
+template <int D, class Number = double>
+using Matrix = Eigen::Matrix<Number, D, D>;
 
 /// Components of a symmetric 3x3 tensor that a D-dimensional scene can hold: the plane-strain one keeps its zz.
 template <int D>

@@ -1,3 +1,6 @@
+#include <algorithm>
+#include <array>
+
 #include "components/kinematics/strain_increment.hpp"
 #include "components/shapes/transfer.hpp"
 #include "tasks/labels.hpp"
@@ -8,8 +11,13 @@ namespace tamp::tasks
 {
 
 using components::NodeMotion;
+using components::ParticleMotion;
+using components::StrainIncrement;
 using runtime::GridView;
 using runtime::TaskContext;
+
+/// Particles worked on together: their numbers between two kernels stay in the first-level cache.
+constexpr std::size_t batch = 32;
 
 /// Particles keep their velocity and take the nodes' changes of it (FLIP). What deforms them is the gradient of the
 /// velocity at the middle of the step, over the shape at its middle (eqs 54-58); the old stress turns with them, and
@@ -34,21 +42,33 @@ runtime::TaskDeclaration grid_to_particles(const Method<Interpolator>& method)
                       std::span<SymmetricTensor<D>> stress, std::span<SymmetricTensor<D>> strain) {
         const auto block = block_of<D>(at.layout, nodes);
         const double dt = at.step.size;
-        for (std::size_t p = 0; p < position.size(); ++p) {
-          const auto motion =
-              components::grid_to_particle(method.interpolator(at.group), block, old_position[p], nodes.data());
-          const auto step = components::strain_increment<D>(old_deformation[p], dt * motion.velocity_gradient);
-          if (!step.admissible()) {
-            const auto& material = method.materials[static_cast<std::size_t>(at.group)];
-            throw SimulationError("a particle is turned inside out", material.name, id[p],
-                                  {old_position[p].begin(), old_position[p].end()});
+        std::array<ParticleMotion<D>, batch> motion;
+        std::array<Matrix<D>, batch> g;
+        std::array<StrainIncrement<D>, batch> steps;
+        for (std::size_t first = 0; first < position.size(); first += batch) {
+          const std::size_t size = std::min(batch, position.size() - first);
+          for (std::size_t i = 0; i < size; ++i) {
+            motion[i] = components::grid_to_particle(method.interpolator(at.group), block, old_position[first + i],
+                                                     nodes.data());
+            g[i] = dt * motion[i].velocity_gradient;
           }
-          position[p] = old_position[p] + dt * motion.velocity;
-          velocity[p] = old_velocity[p] + motion.velocity_change;
-          deformation[p] = step.deformation_gradient;
-          volume[p] = old_volume[p] * step.volume_ratio;
-          stress[p] = rotated<D>(old_stress[p], step.rotation_increment);
-          strain[p] = step.strain_increment;
+          components::strain_increments<D>(old_deformation.subspan(first, size), std::span(g).first(size),
+                                           std::span(steps).first(size));
+          for (std::size_t i = 0; i < size; ++i) {
+            const std::size_t p = first + i;
+            const StrainIncrement<D>& step = steps[i];
+            if (!step.admissible()) {
+              const auto& material = method.materials[static_cast<std::size_t>(at.group)];
+              throw SimulationError("a particle is turned inside out", material.name, id[p],
+                                    {old_position[p].begin(), old_position[p].end()});
+            }
+            position[p] = old_position[p] + dt * motion[i].velocity;
+            velocity[p] = old_velocity[p] + motion[i].velocity_change;
+            deformation[p] = step.deformation_gradient;
+            volume[p] = old_volume[p] * step.volume_ratio;
+            stress[p] = rotated<D>(old_stress[p], step.rotation_increment);
+            strain[p] = step.strain_increment;
+          }
         }
       });
 }

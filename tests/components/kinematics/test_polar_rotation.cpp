@@ -1,5 +1,6 @@
 #include <catch2/catch.hpp>
 
+#include <Eigen/Geometry>
 #include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
@@ -57,7 +58,7 @@ double largest_error(double spread)
 
 TEST_CASE("the polar rotation is that of the singular value decomposition")
 {
-  for (const double spread : {1.0, 3.0, 1e3}) {
+  for (const double spread : {1.0, 1.01, 3.0, 1e3}) {
     CHECK(largest_error<2>(spread) < 1e-14);
     CHECK(largest_error<3>(spread) < 1e-14);
   }
@@ -66,13 +67,39 @@ TEST_CASE("the polar rotation is that of the singular value decomposition")
 TEST_CASE("the polar rotation is orthogonal and the stretch it leaves is symmetric")
 {
   std::mt19937 random(11);
-  for (int sample = 0; sample < 100; ++sample) {
-    const Matrix<3> f = random_deformation<3>(random, 5);
-    const Matrix<3> r = polar_rotation(f);
-    const Matrix<3> stretch = r.transpose() * f;
+  for (const double spread : {1.0, 1.1, 5.0}) {
+    for (int sample = 0; sample < 1000; ++sample) {
+      const Matrix<3> f = random_deformation<3>(random, spread);
+      const Matrix<3> r = polar_rotation(f);
+      const Matrix<3> stretch = r.transpose() * f;
 
-    CHECK((r.transpose() * r - Matrix<3>::Identity()).norm() < 3e-15);
-    CHECK((stretch - stretch.transpose()).norm() < 1e-14 * f.norm());
+      REQUIRE((r.transpose() * r - Matrix<3>::Identity()).norm() < 3e-15);
+      REQUIRE((stretch - stretch.transpose()).norm() < 1e-14 * f.norm());
+    }
+  }
+}
+
+TEST_CASE("the polar rotation of a particle that is almost flat is still to round-off")
+{
+  const Matrix<3> turn = Eigen::AngleAxisd(2.5, Vector<3>(1, -2, 2) / 3).toRotationMatrix();
+  const Matrix<3> flat = turn * Vector<3>(2, 1, 1e-12).asDiagonal();
+
+  CHECK((polar_rotation(flat) - turn).norm() < 1e-14);
+}
+
+TEST_CASE("without a branch the polar rotation is the iterated one up to stretches a thousand times apart")
+{
+  std::mt19937 random(13);
+  for (const double spread : {1.0, 1.1, 5.0, 30.0}) {
+    for (int sample = 0; sample < 1000; ++sample) {
+      const Matrix<3> f = random_deformation<3>(random, spread);
+      const Matrix<3, Lanes> in_lanes =
+          polar_rotation(Matrix<3, Lanes>(f.unaryExpr([](double x) { return Lanes(x); })));
+      const Matrix<3> r = in_lanes.unaryExpr([](const Lanes& x) -> double { return x[0]; });
+
+      REQUIRE((r.transpose() * r - Matrix<3>::Identity()).norm() < 3e-15);
+      REQUIRE((r - polar_rotation(f)).norm() < 1e-14 * spread * spread);
+    }
   }
 }
 
