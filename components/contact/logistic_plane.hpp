@@ -130,9 +130,13 @@ void for_each_parted(const Interpolator& interpolator, const GridBlock<D>& block
     const auto stencil = interpolator.at(block, x);
     if (!planes[stencil.first].starts_near) continue;
     const Vector<D> place = block.in_cells(x);
-    for_each_node<D>(block, stencil, [&](std::ptrdiff_t node, double weight, const Vector<D>&) {
-      if (planes[node].side == 0 || !(weight > 0)) return;
-      visit(node, std::sqrt(weight), Vector<D>(place - block.cells_to(node)));
+    for_each_row<D>(block, stencil, [&](const StencilRow<D>& row) {
+      for (std::size_t i = 0; i < Interpolator::support; ++i) {
+        const std::ptrdiff_t node = row.first + static_cast<std::ptrdiff_t>(i);
+        const double weight = stencil.weight[0][i] * row.across;
+        if (planes[node].side == 0 || !(weight > 0)) continue;
+        visit(node, std::sqrt(weight), Vector<D>(place - block.cells_to(node)));
+      }
     });
   }
 }

@@ -106,10 +106,15 @@ struct Around {
   {
     Vector<D> sum = Vector<D>::Zero();
     for (const Vector<D>& x : position) {
-      for_each_node<D>(unit_block<D>(), Gimp<D>(2).at(unit_block<D>(), x),
-                       [&](std::ptrdiff_t place, double, const Vector<D>& slope) {
-                         if (place == node()) sum += slope;
-                       });
+      const auto stencil = Gimp<D>(2).at(unit_block<D>(), x);
+      for_each_row<D>(unit_block<D>(), stencil, [&](const StencilRow<D>& row) {
+        const std::ptrdiff_t i = node() - row.first;
+        if (i < 0 || i >= Gimp<D>::support) return;
+        const auto k = static_cast<std::size_t>(i);
+        Vector<D> slope;
+        slope << stencil.slope[0][k] * row.across, stencil.weight[0][k] * row.slope_across;
+        sum += slope;
+      });
     }
     return sum;
   }
