@@ -185,8 +185,8 @@ TEST_CASE("what a rigid body is given of a wrong type is told with what was foun
   };
   CHECK(normal("\"sand\"") == "");
   CHECK(normal("\"snd\"") ==
-        "--set#/contact/0/normal: \"snd\"; expected one of flatter, steel, sand, did you mean \"sand\"?");
-  CHECK(normal("1") == "--set#/contact/0/normal: 1; expected one of flatter, steel, sand");
+        "--set#/contact/0/normal: \"snd\"; expected one of flatter, regression, steel, sand, did you mean \"sand\"?");
+  CHECK(normal("1") == "--set#/contact/0/normal: 1; expected one of flatter, regression, steel, sand");
 }
 
 TEST_CASE("a projectile that starts inside the sand is told with where")
