@@ -106,7 +106,7 @@ def main():
         colours.UseLogScale = 1
     for name in options.beside:
         other = shown_points(view, cut(blocks[name], options.slab), options.point_size)
-        simple.ColorBy(other, None)
+        simple.ColorBy(other, ("POINTS", ""))
         other.DiffuseColor = other.AmbientColor = [0.75, 0.2, 0.1]
     bar = simple.GetScalarBar(colours, view)
     bar.TitleColor = bar.LabelColor = [0, 0, 0]
