@@ -64,8 +64,9 @@ RigidMotion motion_of(const MassProperties& body, const RigidState& state);
 /// The rotation is the implicit midpoint rule in the frame of the body. With Pi the angular momentum seen there and W
 /// the mean of I^-1 Pi before and after, the orientation turns by the Cayley map of W dt. That map carries Pi along as
 /// Euler's equations at midpoint do, so the spatial angular momentum is kept as it is stored, and the energy Pi.I^-1 Pi
-/// / 2, a quadratic invariant, to round-off for any step (M. Austin, P. S. Krishnaprasad & L.-S. Wang, J. Comput. Phys.
-/// 107, 1993). Second order in the orientation.
+/// / 2, a quadratic invariant, to round-off (M. Austin, P. S. Krishnaprasad & L.-S. Wang, J. Comput. Phys. 107, 1993).
+/// Second order in the orientation. The midpoint is found by iteration, which converges while |w| dt is below about
+/// 1/2.
 RigidState drift(const MassProperties& body, const RigidState& state, double dt);
 
 }  // namespace tamp::components
