@@ -7,6 +7,7 @@
 
 #include "components/errors.hpp"
 #include "tasks/method.hpp"
+#include "tasks/report.hpp"
 #include "tools/scene/json_reader.hpp"
 #include "tools/scene/read_body.hpp"
 #include "tools/scene/read_material.hpp"
@@ -182,8 +183,20 @@ class SceneReader
     scene_.artificial_viscosity = viscosity;
   }
 
+  /// Do the entries of an object fit into the fields of a step? Each material has its own there, and each body its
+  /// sums.
+  bool has_room_for(const std::string& key)
+  {
+    constexpr std::size_t most = tasks::ParticleReport::max_entries;
+    root_.allow(key);
+    const std::size_t n = root_.names(key).size();
+    if (n > most) root_.add_problem(key, fmt::format("{} entries", n), fmt::format("expected at most {}", most));
+    return n <= most;
+  }
+
   void read_materials()
   {
+    if (!has_room_for("materials")) return;
     for (const std::string& name : root_.names("materials")) {
       document_.merge_file_named_at(root_.pointer("materials") / name);
     }
@@ -197,6 +210,7 @@ class SceneReader
   void read_bodies(bool dimension_is_good, bool grid_is_good)
   {
     const std::size_t n_before = document_.problems.size();
+    if (!has_room_for("bodies")) return;
     auto members = root_.members("bodies");
     // Every place would have the wrong number of coordinates, and every material a wrong name.
     if (!dimension_is_good || material_names_.empty()) return;

@@ -372,3 +372,13 @@ TEST_CASE("a table whose numbers make no curve is told with file and line")
                                  "0.05,0,0\n0.05,0.005,5e6\n0.05,0.01,1e7\n0.04,0,0\n"),
              Catch::StartsWith("tables/unloading.csv:5: "));
 }
+
+TEST_CASE("more materials or bodies than a step has room for are refused")
+{
+  std::vector<std::string> bodies;
+  for (int i = 0; i < 17; ++i) {
+    bodies.push_back("/bodies/b" + std::to_string(i) +
+                     R"(={"material": "steel", "geometry": {"type": "box", "lower": [0, 1], "upper": [1, 2]}})");
+  }
+  CHECK(problems_with(bodies) == "scene.json#/bodies: 18 entries; expected at most 16");
+}
