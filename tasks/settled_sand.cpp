@@ -48,6 +48,14 @@ LayerColumn column_of(const Scene& scene, int particles_per_axis, const std::vec
   return column;
 }
 
+void check_has_no_gap(const LayerColumn& column, std::size_t k)
+{
+  const std::vector<double>& layers = column.layers;
+  const double extent = static_cast<double>(layers.size() - 1) * column.spacing;
+  if (std::abs(layers.back() - layers.front() - extent) < 0.5 * column.spacing) return;
+  throw BadValue(fmt::format("a region with a gap along {}", "xyz"[k]), "a box");
+}
+
 /// The axis with a floor and a free top; the others must have two walls.
 template <int D>
 std::size_t vertical_axis(const std::array<LayerColumn, std::size_t{D}>& columns)
@@ -98,13 +106,15 @@ template <int D>
 SettledSand<D>::SettledSand(const Scene& scene, const SceneBody& body) : sand_(&sand_of(scene, body))
 {
   const std::vector<Vector<D>> sites = sites_of<D>(scene, body);
+  if (sites.empty()) throw BadValue("a region without particles", "a box");
   const int particles_per_axis = scene.particles_per_axis_of(body.material);
   std::size_t n_in_box = 1;
   for (std::size_t k = 0; k < D; ++k) {
     columns_[k] = column_of<D>(scene, particles_per_axis, sites, k);
+    check_has_no_gap(columns_[k], k);
     n_in_box *= columns_[k].layers.size();
   }
-  if (sites.empty() || sites.size() != n_in_box) throw BadValue("a region that is no box along the axes", "a box");
+  if (sites.size() != n_in_box) throw BadValue("a region that is no box along the axes", "a box");
   vertical_ = vertical_axis<D>(columns_);
   const auto force = body_force<D>(scene);
   const double density = scene.materials[static_cast<std::size_t>(body.material)].density;

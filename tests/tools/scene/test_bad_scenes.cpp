@@ -153,6 +153,16 @@ TEST_CASE("a body that cannot have settled is told why")
                  Catch::Contains("at most the sand's strength there"));
 }
 
+TEST_CASE("sand that cannot have settled as it has a gap is told")
+{
+  const std::string two_layers = R"({"type":"difference","of":[{"type":"box","lower":[0,0],"upper":[2,1.5]},)"
+                                 R"({"type":"box","lower":[0,0.5],"upper":[2,1]}]})";
+
+  CHECK(problems_with_sand({"/bodies/block/material=sand", "/bodies/block/initial_stress=true",
+                            "/bodies/block/geometry=" + two_layers, "/gravity=[0,-10]"}) ==
+        "--set#/bodies/block/initial_stress: a region with a gap along y; expected a box");
+}
+
 TEST_CASE("a rigid body of one particle, or one that shares its material, is told")
 {
   const std::vector<std::string> rigid{"/bodies/block/rigid=true"};
