@@ -97,6 +97,10 @@ struct SceneOutput {
   double near_nose = 0.01;
 };
 
+/// Cells that a patch needs along an axis that is cut. Its particles reach a layer of nodes beyond each end; where
+/// those of both ends met, some nodes would lack a part of their sums.
+constexpr int least_patch_width = 3;
+
 struct Scene {
   /// The file's name without its ending; what a run's folder is called by default.
   std::string name;

@@ -76,10 +76,19 @@ class SceneReader
     for (std::size_t axis = 0; axis < dimension(); ++axis) {
       grid.n_cells[axis] = count_cells(reader, grid.lower[axis], upper[axis], axis);
       scene_.n_patches[axis] = patches[axis];
-      if (grid.n_cells[axis] % patches[axis] != 0) {
-        reader.add_problem("patches", fmt::format("{} patches along {}", patches[axis], "xyz"[axis]),
-                           fmt::format("expected a number that divides the {} cells there", grid.n_cells[axis]));
-      }
+      check_patches(reader, patches[axis], grid.n_cells[axis], axis);
+    }
+  }
+
+  static void check_patches(const JsonReader& reader, int n_patches, int n_cells, std::size_t axis)
+  {
+    const std::string found = fmt::format("{} patches along {}", n_patches, "xyz"[axis]);
+    if (n_cells % n_patches != 0) {
+      reader.add_problem("patches", found, fmt::format("expected a number that divides the {} cells there", n_cells));
+    } else if (n_patches > 1 && n_cells / n_patches < tasks::least_patch_width) {
+      reader.add_problem(
+          "patches", fmt::format("{}, {} cells wide", found, n_cells / n_patches),
+          fmt::format("expected patches at least {} cells wide along an axis that is cut", tasks::least_patch_width));
     }
   }
 

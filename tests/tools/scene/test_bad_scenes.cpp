@@ -230,6 +230,16 @@ TEST_CASE("patches that do not divide the grid are told with its cells")
         "--set#/grid/patches: 3 patches along y; expected a number that divides the 2 cells there");
 }
 
+TEST_CASE("patches too narrow for what their particles reach are told with their width")
+{
+  const std::string fine = "/grid/cell_size=0.25";
+
+  CHECK(problems_with({fine, "/grid/patches=[2,1]"}) == "");
+  CHECK(problems_with({fine, "/grid/patches=[2,4]"}) ==
+        "--set#/grid/patches: 4 patches along y, 2 cells wide; expected patches at least 3 cells wide along an axis "
+        "that is cut");
+}
+
 TEST_CASE("a domain that is no whole number of cells is told")
 {
   CHECK(problems_with({"/grid/cell_size=0.3"}) ==

@@ -1,0 +1,27 @@
+#include <catch2/catch.hpp>
+
+#include "runtime/graph/graph_error.hpp"
+#include "tests/tasks/scenes.hpp"
+
+using namespace tamp;
+using namespace tamp::test;
+
+namespace
+{
+
+/// A block on four patches in a row.
+Scene block_on_patches(int patch_width)
+{
+  Scene scene = empty_scene(2, {4 * patch_width, 4, 1}, 0.1);
+  scene.n_patches = {4, 1, 1};
+  add_box(scene, add_elastic(scene, 1000, 1e6, 0.3), {0.1, 0.1, 0}, {0.3, 0.3, 1});
+  return scene;
+}
+
+}  // namespace
+
+TEST_CASE("a step needs patches of the least width, and no more")
+{
+  CHECK_NOTHROW(Simulation::make(block_on_patches(least_patch_width), 1));
+  CHECK_THROWS_AS(Simulation::make(block_on_patches(least_patch_width - 1), 1), runtime::GraphError);
+}
