@@ -207,6 +207,10 @@ class SceneReader
   {
     if (!has_room_for("materials")) return;
     for (const std::string& name : root_.names("materials")) {
+      if (name == flatter || name == regression) {
+        document_.add_problem(root_.pointer("materials") / name, "a word of the contact key normal",
+                              "expected another name");
+      }
       document_.merge_file_named_at(root_.pointer("materials") / name);
     }
     for (auto& [name, reader] : root_.members("materials")) {

@@ -302,6 +302,17 @@ TEST_CASE("a name that cannot be part of a file's columns is told")
              Catch::Contains("#/bodies/a.b: a name with other characters; expected letters, digits, - and _ only"));
 }
 
+TEST_CASE("a material named as a word of the key normal is told")
+{
+  const std::string steel = R"({"type":"hypoelastic","density":8000,"bulk_modulus":1e10,"shear_modulus":7e9})";
+
+  for (const std::string name : {"flatter", "regression"}) {
+    CHECK(problems_with({"/materials/" + name + "=" + steel}) ==
+          "--set#/materials/" + name + ": a word of the contact key normal; expected another name");
+  }
+  CHECK(problems_with({"/materials/flattest=" + steel}) == "");
+}
+
 TEST_CASE("contact of a material with itself, with an unknown one, or given twice is told")
 {
   CHECK(problems_with({R"(/contact=[{"materials":["steel","steel"],"friction":0}])"}) ==
