@@ -7,6 +7,7 @@
 
 #include "components/errors.hpp"
 #include "components/geometry/fill.hpp"
+#include "tasks/method.hpp"
 #include "tasks/settled_sand.hpp"
 #include "tools/scene/read_solid.hpp"
 
@@ -62,18 +63,44 @@ std::optional<tasks::BodyAxis> read_axis(JsonReader& reader)
   reader.allow("nose");
   reader.allow("tail");
   if (!reader.has("nose") && !reader.has("tail")) return std::nullopt;
+  const std::size_t n_before = reader.document().problems.size();
   const Vector<D> nose = point<D>(reader, "nose"), tail = point<D>(reader, "tail");
   if (nose == tail) reader.add_problem("tail", text<D>(tail), "expected another place than the nose's");
+  if (reader.document().problems.size() > n_before) return std::nullopt;
   tasks::BodyAxis axis{};
   std::copy(nose.begin(), nose.end(), axis.nose.begin());
   std::copy(tail.begin(), tail.end(), axis.tail.begin());
   return axis;
 }
 
-/// Can the body bear the stress that it is to start with?
+/// Are nose and tail places of the solid? One on its surface may count as outside: what lies a particle's spacing
+/// towards the other counts too.
+template <int D>
+void check_axis(const tasks::BodyAxis& axis, const components::Solid<D>& solid, double spacing,
+                const JsonReader& reader)
+{
+  const Vector<D> nose = tasks::vector_of<D>(axis.nose), tail = tasks::vector_of<D>(axis.tail);
+  const auto check = [&](const std::string& key, const Vector<D>& end, const Vector<D>& other) {
+    const double length = (other - end).norm();
+    const Vector<D> inside = end + std::min(spacing / length, 0.5) * (other - end);
+    if (solid.contains(end) || solid.contains(inside)) return;
+    reader.add_problem(key, text<D>(end), "expected a place within the body or on its surface");
+  };
+  check("nose", nose, tail);
+  check("tail", tail, nose);
+}
+
+/// Is the body at rest, and can it bear the stress that it is to start with?
 template <int D>
 void check_settled(const tasks::Scene& scene, const tasks::SceneBody& body, const JsonReader& reader)
 {
+  constexpr tasks::Triple zero{0, 0, 0};
+  if (body.velocity != zero || body.angular_velocity != zero) {
+    reader.add_problem("initial_stress", "a body with a velocity", "expected one at rest");
+  }
+  if (body.rigid) {
+    reader.add_problem("initial_stress", "a rigid body, which has no stress", "expected one that is not rigid");
+  }
   try {
     const tasks::SettledSand<D> settled(scene, body);
     for (const Vector<D>& x : sites(std::get<components::Solid<D>>(body.solid), scene, body.material)) settled.at(x);
@@ -121,6 +148,7 @@ std::optional<tasks::SceneBody> read(const std::string& name, JsonReader& reader
   body.rigid = rigid;
   body.axis = axis;
   body.initial_stress = initial_stress;
+  if (axis) check_axis<D>(*axis, *solid, scene.grid.cell_size / scene.particles_per_axis_of(number), reader);
   if (initial_stress) check_settled<D>(scene, body, reader);
   return body;
 }

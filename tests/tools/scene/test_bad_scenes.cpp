@@ -163,6 +163,22 @@ TEST_CASE("sand that cannot have settled as it has a gap is told")
         "--set#/bodies/block/initial_stress: a region with a gap along y; expected a box");
 }
 
+TEST_CASE("settled sand that moves or is rigid is told")
+{
+  const auto problems = [](const std::string& assignment) {
+    return problems_with_sand({"/bodies/block/material=sand", "/bodies/block/initial_stress=true",
+                               "/bodies/block/geometry/upper=[2,1]", "/gravity=[0,-10]", assignment});
+  };
+
+  CHECK(problems("/bodies/block/velocity=[0,0]") == "");
+  CHECK(problems("/bodies/block/velocity=[0,1]") ==
+        "--set#/bodies/block/initial_stress: a body with a velocity; expected one at rest");
+  CHECK(problems("/bodies/block/angular_velocity=[1]") ==
+        "--set#/bodies/block/initial_stress: a body with a velocity; expected one at rest");
+  CHECK(problems("/bodies/block/rigid=true") ==
+        "--set#/bodies/block/initial_stress: a rigid body, which has no stress; expected one that is not rigid");
+}
+
 TEST_CASE("a rigid body of one particle, or one that shares its material, is told")
 {
   const std::vector<std::string> rigid{"/bodies/block/rigid=true"};
@@ -199,12 +215,27 @@ TEST_CASE("what a rigid body is given of a wrong type is told with what was foun
   CHECK(normal("1") == "--set#/contact/0/normal: 1; expected one of flatter, regression, steel, sand");
 }
 
+TEST_CASE("a nose or a tail that is not of its body is told")
+{
+  const auto problems = [](const std::string& nose, const std::string& tail) {
+    return problems_with({"/bodies/block/nose=" + nose, "/bodies/block/tail=" + tail});
+  };
+
+  CHECK(problems("[0.5,0]", "[0.5,1]") == "");
+  CHECK(problems("[0,0]", "[1,1]") == "");
+  CHECK(problems("[0.5,-0.6]", "[0.5,1]") ==
+        "--set#/bodies/block/nose: [0.5, -0.6]; expected a place within the body or on its surface");
+  CHECK(problems("[0.5,0]", "[1.6,1]") ==
+        "--set#/bodies/block/tail: [1.6, 1]; expected a place within the body or on its surface");
+}
+
 TEST_CASE("a projectile that starts inside the sand is told with where")
 {
   const auto problems = [](const std::string& translation) {
     const TemporaryFolder folder;
     return problems_of(folder, TAMP_SOURCE_DIR "/inputs/uxo/quick.json",
-                       {"/bodies/projectile/geometry/translation=" + translation});
+                       {"/bodies/projectile/geometry/translation=" + translation, "/bodies/projectile/nose=null",
+                        "/bodies/projectile/tail=null"});
   };
 
   CHECK(problems("[0.045,0.05,0.1085]") == "");
