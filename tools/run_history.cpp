@@ -138,7 +138,8 @@ double RunHistory::depth(std::size_t body) const
 {
   const tasks::BodySums& sums = report_.bodies[body];
   const Eigen::Vector3d moved = (sums.position - sums.reference_position) / sums.mass;
-  return moved.dot(velocity_of(simulation_.scene().bodies[body]).normalized());
+  const Eigen::Vector3d velocity = velocity_of(simulation_.scene().bodies[body]);
+  return velocity.norm() > 0 ? moved.dot(velocity.normalized()) : moved.norm();
 }
 
 double RunHistory::axis_angle(std::size_t body) const

@@ -48,7 +48,8 @@ class RunHistory
 
   /// Bodies that move at the start; the others are what they move into.
   const std::vector<std::size_t>& tracked_bodies() const { return tracked_; }
-  /// How far a body's centre of mass has moved along its initial velocity [m].
+  /// How far a body's centre of mass has moved along its initial velocity; of one that starts at rest, how far it is
+  /// from where it started [m].
   double depth(std::size_t body) const;
   /// Of a body with a nose: the angle of its axis below the horizontal [degrees], the last axis of the scene being
   /// vertical; 90 points straight down.

@@ -1,0 +1,51 @@
+#include "tools/run_history.hpp"
+
+#include <catch2/catch.hpp>
+
+#include "tests/tools/temporary_folder.hpp"
+#include "tools/scene/read_scene.hpp"
+
+using namespace tamp;
+
+namespace
+{
+
+/// A rigid block that nothing holds, on a grid open all round.
+const char* falling_block = R"({
+  "dimension": 2,
+  "grid": { "upper": [2, 2], "cell_size": 0.25 },
+  "boundaries": { "x-": "open", "x+": "open", "y-": "open", "y+": "open" },
+  "time": { "end": 0.2, "maximum_step": 0.01 },
+  "gravity": [0, -10],
+  "materials": { "steel": { "type": "hypoelastic", "density": 8000, "bulk_modulus": 1e5, "shear_modulus": 1e5 } },
+  "bodies": {
+    "block": {
+      "material": "steel", "rigid": true, "geometry": { "type": "box", "lower": [0.5, 1], "upper": [1, 1.5] }
+    }
+  }
+})";
+
+double depth_at_end(const std::string& velocity)
+{
+  const test::TemporaryFolder folder;
+  const auto file = folder.write("scene.json", falling_block);
+  const auto checked = tools::read_scene(file, {"/bodies/block/velocity=" + velocity});
+  const auto simulation = tasks::Simulation::make(checked.scene, 1);
+  tools::RunHistory history(*simulation);
+  while (simulation->time() < 0.2) simulation->advance(0.2);
+  history.measure();
+  return history.depth(history.tracked_bodies().at(0));
+}
+
+}  // namespace
+
+TEST_CASE("the depth of a body is taken along its initial velocity")
+{
+  CHECK(depth_at_end("[1,0]") == Approx(0.2));
+  CHECK(depth_at_end("[0,-1]") == Approx(0.4));
+}
+
+TEST_CASE("the depth of a body that starts at rest is the way it has moved")
+{
+  CHECK(depth_at_end("[0,0]") == Approx(0.2));
+}
