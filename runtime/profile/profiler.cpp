@@ -172,7 +172,7 @@ TaskStatistics Profiler::statistics(const Row& row, std::uint64_t all_ticks, dou
   t.count = durations.count();
   t.skipped = row.totals.skipped;
   t.total_s = static_cast<double>(durations.total()) * second;
-  t.mean_s = t.total_s / static_cast<double>(t.count);
+  t.mean_s = t.count > 0 ? t.total_s / static_cast<double>(t.count) : 0;
   t.min_s = static_cast<double>(durations.least()) * second;
   t.max_s = static_cast<double>(durations.most()) * second;
   t.p95_s = durations.quantile(0.95) * second;
@@ -211,7 +211,7 @@ Profile Profiler::profile(const Communicator& communicator) const
   std::uint64_t all = 0;
   for (const Row& row : rows) all += row.totals.durations.total();
   for (const Row& row : rows) {
-    if (row.totals.durations.count() > 0) profile.tasks.push_back(statistics(row, all, second));
+    if (row.totals.durations.count() + row.totals.skipped > 0) profile.tasks.push_back(statistics(row, all, second));
   }
   std::sort(profile.tasks.begin(), profile.tasks.end(),
             [](const TaskStatistics& a, const TaskStatistics& b) { return a.total_s > b.total_s; });

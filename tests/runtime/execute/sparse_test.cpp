@@ -255,4 +255,25 @@ TEST_CASE("the profile counts skipped instances apart")
   CHECK(statistics("drift").skipped == 0);
 }
 
+TEST_CASE("a task that was always skipped is in the profile with zeros")
+{
+  Row row(true, 1);
+  for (const Patch& patch : row.layout) {
+    for (int group = 0; group < 2; ++group) row.warehouse.set_n_particles(patch.id, group, 0);
+  }
+  Profiler profiler(row.schedule, row.bound, 1, 0);
+
+  row.step(0);
+  profiler.add_step();
+
+  const Profile profile = profiler.profile();
+  const auto give = std::find_if(profile.tasks.begin(), profile.tasks.end(),
+                                 [](const TaskStatistics& t) { return t.name == "give"; });
+  REQUIRE(give != profile.tasks.end());
+  CHECK(give->skipped == 2 * n_patches);
+  for (const double zero : {give->total_s, give->mean_s, give->min_s, give->max_s, give->p95_s, give->share}) {
+    CHECK(zero == 0);
+  }
+}
+
 }  // namespace tamp::runtime
