@@ -24,6 +24,9 @@ def main():
 
     names, rows = read_history(options.run)
     plain = [name.split("[")[0] for name in names]
+    unknown = set(options.columns or []) - set(plain)
+    if unknown:
+        parser.error(f"no such columns: {', '.join(sorted(unknown))}; there are {', '.join(plain)}")
     columns = [plain.index(column) for column in options.columns or plain[1:]]
     time = plain.index("time")
 

@@ -3,8 +3,9 @@
     pvpython tools/picture.py runs/table --material sand --field p --time 1e-3 --out p.png
     pvpython tools/picture.py runs/table --field velocity --slab 0.0475 0.0525 --beside projectile --out v.png
 
-In space --slab draws the particles between two places along y, seen along it. A vector is drawn by its length. The output nearest to --time is drawn; its time and what 5 %, 1 % and 0.1 % of the particles drawn pass are printed, and the largest
-value. Needs Debian's paraview and python3-paraview, and a display (or xvfb-run).
+In space --slab draws the particles between two places along y, seen along it. A vector is drawn by its length. The
+output nearest to --time is drawn; its time and what 5 %, 1 % and 0.1 % of the particles drawn pass are printed, and the
+largest value. Needs Debian's paraview and python3-paraview, and a display (or xvfb-run).
 """
 
 import argparse

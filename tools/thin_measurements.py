@@ -8,9 +8,9 @@ RAW_FOLDER holds measured/ (DrySand_LoadUnload_*.csv: strains in %, pressures in
 few points as hold each curve within 0.1 %. Only the standard library is used.
 """
 
+import argparse
 import json
 import pathlib
-import sys
 
 import unloading_from_tests as tests
 
@@ -29,14 +29,20 @@ def vaango_table(path, x, y):
 
 
 def main():
-    raw = pathlib.Path(sys.argv[1])
-    out = pathlib.Path(sys.argv[2] if len(sys.argv) > 2 else "inputs/materials/concrete-sand")
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("raw", type=pathlib.Path, metavar="RAW_FOLDER")
+    parser.add_argument("out", type=pathlib.Path, metavar="OUTPUT_FOLDER", nargs="?",
+                        default="inputs/materials/concrete-sand")
+    options = parser.parse_args()
+    raw, out = options.raw, options.out
     out.mkdir(parents=True, exist_ok=True)
 
     def write(name, title, header, rows):
         tests.write(out / name, [title, *SOURCE], header, rows)
 
     paths = sorted((raw / "measured").glob("DrySand_LoadUnload_*.csv"))
+    if not paths:
+        parser.error(f"no measured/DrySand_LoadUnload_*.csv in {raw}")
     measured = [tests.measured(path, 100, 1e6) for path in paths]
 
     # The loading branch of the test to 45.20 %: the published hydrostat before its strains were cut to 0.01 %.

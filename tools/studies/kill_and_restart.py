@@ -1,11 +1,11 @@
 #!/usr/bin/env python3
-"""Kills a run that checkpoints often with SIGKILL at random moments, restarts it each time, and compares its end with
-that of a straight run.
+"""Kills a run at random moments, restarts it each time, and compares its end with that of a straight run.
 
-    tools/studies/kill_and_restart.py [--tamp build/release/tamp] [--kills 10] [--ranks 2] [--seed 1]
+    tools/studies/kill_and_restart.py [--tamp build/release/tamp] [--kills 10] [--ranks 1] [--steps 1200] [--seed 1]
 
-Every restart runs to the end in a copy of the killed run's folder; the killed run itself goes on to the next kill. The
-exit code is 1 if any digest or history differs."""
+The run writes a checkpoint every few steps and is killed with SIGKILL. Every restart runs to the end in a copy of the
+killed run's folder; the killed run itself goes on to the next kill. The exit code is 1 if any digest or history
+differs."""
 
 import argparse
 import pathlib

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""The state digest of every shipped scene over ranks and threads, and of runs that go on with other ranks.
+"""The state digest of every scene of the punch over ranks and threads, and of runs that go on with other ranks.
 
     tools/studies/same_bits.py [--tamp build/release/tamp] [--steps 100]
 
