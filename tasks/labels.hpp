@@ -59,10 +59,9 @@ template <int D>
 inline const runtime::NodeLabel<components::ContactPlane<D>> contact_plane{"contact plane"};
 /// One for each pass over the particles that turns the planes.
 template <int D>
-inline const std::array<runtime::NodeLabel<components::RegressionSums<D>>, 3> regression_sums{
+inline const std::array<runtime::NodeLabel<components::RegressionSums<D>>, 2> regression_sums{
     runtime::NodeLabel<components::RegressionSums<D>>{"regression sums 1"},
-    runtime::NodeLabel<components::RegressionSums<D>>{"regression sums 2"},
-    runtime::NodeLabel<components::RegressionSums<D>>{"regression sums 3"}};
+    runtime::NodeLabel<components::RegressionSums<D>>{"regression sums 2"}};
 template <int D>
 inline const runtime::NodeLabel<components::EdgeSums<D>> edge_sums{"edge sums"};
 

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <array>
 #include <optional>
 #include <string>
 #include <utility>
@@ -30,20 +31,23 @@ struct Pair {
   std::size_t second;
 };
 
-/// The pair that gets a plane at a node: the first in the order of materials.
+/// The pair that gets a plane at a node, where no third material is: its own contact with either would take their
+/// plane's normal for theirs. Where three meet, all pairs take the normal of the flatter surface.
 template <class Interpolator, int D = Interpolator::dimension>
 std::optional<Pair> pair_at(const Method<Interpolator>& method, const PerGroup<GridView<const NodeSums<D>>>& sums,
                             const Index& i)
 {
-  const auto is_here = [&](std::size_t g) { return sums[g][i].mass() > method.least_node_mass; };
-  for (std::size_t a = 0; a < sums.size(); ++a) {
-    if (!is_here(a)) continue;
-    for (std::size_t b = a + 1; b < sums.size(); ++b) {
-      const int owner = method.contacts.normal_of(static_cast<int>(a), static_cast<int>(b));
-      if (owner == components::ContactTable::regression && is_here(b)) return Pair{a, b};
-    }
+  std::array<std::size_t, 2> here;
+  std::size_t n_here = 0;
+  for (std::size_t g = 0; g < sums.size(); ++g) {
+    if (!(sums[g][i].mass() > method.least_node_mass)) continue;
+    if (n_here == here.size()) return {};
+    here[n_here++] = g;
   }
-  return {};
+  if (n_here < here.size()) return {};
+  const int owner = method.contacts.normal_of(static_cast<int>(here[0]), static_cast<int>(here[1]));
+  if (owner != components::ContactTable::regression) return {};
+  return Pair{here[0], here[1]};
 }
 
 /// The two materials that see a plane at a node.
@@ -112,7 +116,7 @@ runtime::TaskDeclaration lay_planes(const Method<Interpolator>& method)
       });
 }
 
-/// A pass over the particles that adds to `sums`, as `add(plane, weight, x, size, sum)` says, at nodes with a plane.
+/// A pass over the particles that adds to `sums`, as `add(plane, S_ip, x, size, sum)` says, at nodes with a plane.
 template <class Interpolator, class Sums, class Add>
 runtime::TaskDeclaration sum_at_planes(const Method<Interpolator>& method, std::string name,
                                        const runtime::NodeLabel<Sums>& label, Add add)
@@ -129,8 +133,8 @@ runtime::TaskDeclaration sum_at_planes(const Method<Interpolator>& method, std::
         const Interpolator& interpolator = method.interpolator(at.group);
         const double size = 2 * interpolator.half_size();
         components::for_each_parted(interpolator, block_of<D>(at.layout, planes), planes.data(), position,
-                                    [&](std::ptrdiff_t node, double weight, const Vector<D>& x) {
-                                      add(planes.data()[node], weight, x, size, sums.data()[node]);
+                                    [&](std::ptrdiff_t node, double shape, const Vector<D>& x) {
+                                      add(planes.data()[node], shape, x, size, sums.data()[node]);
                                     });
         for_each_wall(method, at, sums.box(), [&](const SymmetryWall<D>& wall) { wall.fold(sums.data()); });
       });
@@ -206,13 +210,13 @@ std::vector<runtime::TaskDeclaration> part_materials(const Method<Interpolator>&
     const auto& label = node::regression_sums<D>[pass];
     const std::string number = " " + std::to_string(pass + 1);
     phases.push_back(sum_at_planes(method, "regress contact" + number, label,
-                                   [](const ContactPlane<D>& plane, double weight, const Vector<D>& x, double,
-                                      RegressionSums<D>& sums) { sums.add(plane, weight, x); }));
+                                   [](const ContactPlane<D>& plane, double shape, const Vector<D>& x, double,
+                                      RegressionSums<D>& sums) { sums.add(plane, shape, x); }));
     phases.push_back(turn_planes(method, "turn contact planes" + number, label));
   }
   phases.push_back(sum_at_planes(method, "find edges", node::edge_sums<D>,
-                                 [](const ContactPlane<D>& plane, double weight, const Vector<D>& x, double size,
-                                    EdgeSums<D>& sums) { sums.add(plane, weight, x, size); }));
+                                 [](const ContactPlane<D>& plane, double shape, const Vector<D>& x, double size,
+                                    EdgeSums<D>& sums) { sums.add(plane, shape, x, size); }));
   phases.push_back(face_materials(method));
   return phases;
 }

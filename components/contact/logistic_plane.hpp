@@ -39,7 +39,8 @@ struct ContactPlane {
 };
 
 /// What the particles of one material add to gradient and Hessian of the cost sum_p w_p log(1 + exp(-y_p z_p . phi))
-/// with z = (x, 1), y = -1 in the first material and +1 in the second.
+/// with z = (x, 1), y = -1 in the first material and +1 in the second. Weights w are the roots of S_ip: more even, they
+/// see more of the surface than S_ip itself, and still fade in and out as particles move.
 template <int D>
 struct RegressionSums {
   Vector<D + 1> gradient = Vector<D + 1>::Zero();
@@ -48,14 +49,16 @@ struct RegressionSums {
   /// sum w_p
   double weight = 0;
 
-  void add(const ContactPlane<D>& plane, double particle_weight, const Vector<D>& x)
+  /// `shape` is S_ip of the particle.
+  void add(const ContactPlane<D>& plane, double shape, const Vector<D>& x)
   {
     Vector<D + 1> z;
     z << x, 1;
+    const double w = std::sqrt(shape);
     const double doubt = 1 / (1 + std::exp(plane.side * z.dot(plane.coefficients)));
-    weight += particle_weight;
-    gradient -= particle_weight * plane.side * doubt * z;
-    hessian += particle_weight * doubt * (1 - doubt) * z * z.transpose();
+    weight += w;
+    gradient -= w * plane.side * doubt * z;
+    hessian += w * doubt * (1 - doubt) * z * z.transpose();
   }
 
   RegressionSums& operator+=(const RegressionSums& other)
@@ -88,17 +91,19 @@ struct RegressionSums {
 template <int D>
 Vector<D + 1> newton_step(const Vector<D + 1>& plane, const RegressionSums<D>& first, const RegressionSums<D>& second);
 
-/// Sums over the particles of one material that tell where it ends along its outward normal.
+/// Sums over the particles of one material that tell where it ends along its outward normal. Weights are S_ip itself:
+/// what counts is the edge beside the node. The more even they are, the further beside the place where it touches a
+/// round body seems to touch too, which keeps it from rolling; the narrower, the more the edge jitters.
 template <int D>
 struct EdgeSums {
   double weight = 0;
   double moment = 0;
 
   /// Particles of edge `size`. Of many layers, each a size behind the one before, the outermost has the say.
-  void add(const ContactPlane<D>& plane, double particle_weight, const Vector<D>& x, double size)
+  void add(const ContactPlane<D>& plane, double shape, const Vector<D>& x, double size)
   {
     const double place = -plane.side * x.dot(plane.normal());
-    const double say = particle_weight * std::exp(sharpness / size * place);
+    const double say = shape * std::exp(sharpness / size * place);
     weight += say;
     moment += say * place;
   }
@@ -119,9 +124,8 @@ struct EdgeSums {
   static constexpr double sharpness = 3;
 };
 
-/// Calls `visit(node, weight, x)` for every particle and every node with a plane that it reaches, x being the particle
-/// seen from the node. Weights are the roots of S_ip: more even, they see more of the surface than S_ip itself, and
-/// still fade in and out as particles move.
+/// Calls `visit(node, S_ip, x)` for every particle and every node with a plane that it reaches, x being the particle
+/// seen from the node.
 template <class Interpolator, int D = Interpolator::dimension, class Visit>
 void for_each_parted(const Interpolator& interpolator, const GridBlock<D>& block, const ContactPlane<D>* planes,
                      std::span<const Vector<D>> position, Visit&& visit)
@@ -133,9 +137,9 @@ void for_each_parted(const Interpolator& interpolator, const GridBlock<D>& block
     for_each_row<D>(block, stencil, [&](const StencilRow<D>& row) {
       for (std::size_t i = 0; i < Interpolator::support; ++i) {
         const std::ptrdiff_t node = row.first + static_cast<std::ptrdiff_t>(i);
-        const double weight = stencil.weight[0][i] * row.across;
-        if (planes[node].side == 0 || !(weight > 0)) continue;
-        visit(node, std::sqrt(weight), Vector<D>(place - block.cells_to(node)));
+        const double shape = stencil.weight[0][i] * row.across;
+        if (planes[node].side == 0 || !(shape > 0)) continue;
+        visit(node, shape, Vector<D>(place - block.cells_to(node)));
       }
     });
   }

@@ -129,3 +129,17 @@ TEST_CASE("a body beside a mirror meets another as the whole body does")
   CHECK(expected > 0);
   CHECK(2 * momentum(*of_half, 1) == Approx(expected).epsilon(1e-9));
 }
+
+TEST_CASE("ground under two bodies that meet by regression is not pushed along with them")
+{
+  Scene scene = blocks(2, 0.3 * h, 0.5, regression);
+  const int ground = add_elastic(scene, 1000, 1e5, 0.2);
+  add_box(scene, ground, {0.1, 0.05, 0}, {1.2, 0.15, 0});
+  const auto simulation = Simulation::make(scene, 2);
+  const double before = momentum(*simulation, 0);
+
+  advance_to(*simulation, 0.1);
+
+  CHECK(momentum(*simulation, 1) > 0.5 * before);
+  CHECK(std::abs(momentum(*simulation, 2)) < 1e-3 * before);
+}

@@ -59,8 +59,8 @@ struct Around {
   {
     ContactPlane<D> plane;
     for (int pass = 0; pass < n_passes; ++pass) {
-      const auto add = [](RegressionSums<D>& sums, const ContactPlane<D>& p, double weight, const Vector<D>& x) {
-        sums.add(p, weight, x);
+      const auto add = [](RegressionSums<D>& sums, const ContactPlane<D>& p, double shape, const Vector<D>& x) {
+        sums.add(p, shape, x);
       };
       plane.coefficients =
           newton_step<D>(plane.coefficients, sums<RegressionSums<D>>(first, -1, plane.coefficients, add),
@@ -70,8 +70,8 @@ struct Around {
   }
   double gap(const ContactPlane<D>& plane) const
   {
-    const auto add = [](EdgeSums<D>& sums, const ContactPlane<D>& p, double weight, const Vector<D>& x) {
-      sums.add(p, weight, x, particle_size);
+    const auto add = [](EdgeSums<D>& sums, const ContactPlane<D>& p, double shape, const Vector<D>& x) {
+      sums.add(p, shape, x, particle_size);
     };
     return -sums<EdgeSums<D>>(first, -1, plane.coefficients, add).edge(particle_size) -
            sums<EdgeSums<D>>(second, 1, plane.coefficients, add).edge(particle_size);
@@ -98,7 +98,7 @@ struct Around {
     own.coefficients = coefficients;
     Sums sums;
     for_each_parted(Gimp<D>(2), block, planes.data(), std::span<const Vector<D>>(position),
-                    [&](std::ptrdiff_t, double weight, const Vector<D>& x) { add(sums, own, weight, x); });
+                    [&](std::ptrdiff_t, double shape, const Vector<D>& x) { add(sums, own, shape, x); });
     return sums;
   }
 
@@ -165,7 +165,7 @@ Errors mean_errors(int n_planes)
     const Around<D> around = half_spaces<D>(random, normal, offset(random), 0);
     errors.gradient += degrees_between<D>(around.gradient_normal(), normal) / n_planes;
     errors.discriminant += degrees_between<D>(around.plane(1).normal(), normal) / n_planes;
-    errors.logistic += degrees_between<D>(around.plane(3).normal(), normal) / n_planes;
+    errors.logistic += degrees_between<D>(around.plane(2).normal(), normal) / n_planes;
   }
   return errors;
 }
@@ -178,9 +178,8 @@ TEST_CASE("logistic regression finds the plane between half spaces better than t
 
   CAPTURE(plane.gradient, plane.discriminant, plane.logistic, space.gradient, space.discriminant, space.logistic);
   CHECK(space.logistic < space.discriminant);
-  CHECK(plane.logistic < 0.8 * plane.gradient);
-  CHECK(space.logistic < 0.8 * space.gradient);
-  CHECK(space.logistic < 2.5);
+  CHECK(plane.logistic < 0.75 * plane.gradient);
+  CHECK(space.logistic < 0.75 * space.gradient);
 }
 
 TEST_CASE("as two materials move through the grid together their normal by regression jitters less")
@@ -196,7 +195,7 @@ TEST_CASE("as two materials move through the grid together their normal by regre
       for (Vector<3>& x : *material) x += (i - n_steps / 2) * 0.01 * along;
     }
     by_gradient = std::max(by_gradient, degrees_between<3>(around.gradient_normal(), normal));
-    by_regression = std::max(by_regression, degrees_between<3>(around.plane(3).normal(), normal));
+    by_regression = std::max(by_regression, degrees_between<3>(around.plane(2).normal(), normal));
   }
 
   CAPTURE(by_gradient, by_regression);
@@ -211,14 +210,15 @@ TEST_CASE("the gap between layers of particles is found, between cut ones it is 
   const Around<3> layers{particles<3>(Matrix<3>::Identity(), Vector<3>::Zero(), below),
                          particles<3>(Matrix<3>::Identity(), Vector<3>::Zero(), above)};
 
-  CHECK(layers.gap(layers.plane(3)) == Approx(gap).margin(0.05));
+  CHECK(layers.gap(layers.plane(2)) == Approx(gap).margin(0.05));
   std::mt19937 random(3);
+  std::uniform_real_distribution<double> offset(-0.7, 0.7);
   double sum = 0;
   constexpr int n_planes = 50;
   for (int i = 0; i < n_planes; ++i) {
     const Vector<3> normal = random_turn<3>(random).col(0);
-    const Around<3> cut = half_spaces<3>(random, normal, 0, gap);
-    const double found = cut.gap(cut.plane(3));
+    const Around<3> cut = half_spaces<3>(random, normal, offset(random), gap);
+    const double found = cut.gap(cut.plane(2));
     sum += found;
     CHECK(found == Approx(gap).margin(0.45));
   }
