@@ -11,6 +11,7 @@ namespace tamp::tasks
 {
 
 using components::NodeMotion;
+using components::NodeSums;
 using components::ParticleMotion;
 using components::StrainIncrement;
 using runtime::GridView;
@@ -29,18 +30,22 @@ runtime::TaskDeclaration grid_to_particles(const Method<Interpolator>& method)
   return runtime::task("grid to particles")
       .over_patches_and_groups(method.deformable_groups)
       .sparse()
-      .reads(node::motion<D>.halo(1), particle::id.previous(), particle::position<D>.previous(),
-             particle::velocity<D>.previous(), particle::deformation_gradient<D>.previous(),
-             particle::volume.previous(), particle::stress<D>.previous())
+      .reads(node::sums<D>.halo(1), node::motion<D>.halo(1), particle::id.previous(), particle::mass.previous(),
+             particle::position<D>.previous(), particle::velocity<D>.previous(),
+             particle::deformation_gradient<D>.previous(), particle::volume.previous(), particle::stress<D>.previous())
       .computes(particle::position<D>, particle::velocity<D>, particle::deformation_gradient<D>, particle::volume,
-                particle::stress<D>, particle::strain_increment<D>)
-      .body([&method](const TaskContext& at, GridView<const NodeMotion<D>> nodes, std::span<const std::int64_t> id,
+                particle::stress<D>, particle::strain_increment<D>, particle::own_stiffness)
+      .body([&method](const TaskContext& at, GridView<const NodeSums<D>> sums, GridView<const NodeMotion<D>> nodes,
+                      std::span<const std::int64_t> id, std::span<const double> mass,
                       std::span<const Vector<D>> old_position, std::span<const Vector<D>> old_velocity,
                       std::span<const Matrix<D>> old_deformation, std::span<const double> old_volume,
                       std::span<const SymmetricTensor<D>> old_stress, std::span<Vector<D>> position,
                       std::span<Vector<D>> velocity, std::span<Matrix<D>> deformation, std::span<double> volume,
-                      std::span<SymmetricTensor<D>> stress, std::span<SymmetricTensor<D>> strain) {
+                      std::span<SymmetricTensor<D>> stress, std::span<SymmetricTensor<D>> strain,
+                      std::span<double> own_stiffness) {
         const auto block = block_of<D>(at.layout, nodes);
+        const auto& interpolator = method.interpolator(at.group);
+        const bool viscous_rule = method.time_step_rule == StepRule::viscous;
         const double dt = at.step.size;
         std::array<ParticleMotion<D>, batch> motion;
         std::array<Matrix<D>, batch> g;
@@ -48,8 +53,7 @@ runtime::TaskDeclaration grid_to_particles(const Method<Interpolator>& method)
         for (std::size_t first = 0; first < position.size(); first += batch) {
           const std::size_t size = std::min(batch, position.size() - first);
           for (std::size_t i = 0; i < size; ++i) {
-            motion[i] = components::grid_to_particle(method.interpolator(at.group), block, old_position[first + i],
-                                                     nodes.data());
+            motion[i] = components::grid_to_particle(interpolator, block, old_position[first + i], nodes.data());
             g[i] = dt * motion[i].velocity_gradient;
           }
           components::strain_increments<D>(old_deformation.subspan(first, size), std::span(g).first(size),
@@ -68,6 +72,9 @@ runtime::TaskDeclaration grid_to_particles(const Method<Interpolator>& method)
             volume[p] = old_volume[p] * step.volume_ratio;
             stress[p] = rotated<D>(old_stress[p], step.rotation_increment);
             strain[p] = step.strain_increment;
+            own_stiffness[p] = viscous_rule ? components::own_stiffness(interpolator, block, old_position[p], mass[p],
+                                                                        method.least_node_mass, sums.data())
+                                            : 0;
           }
         }
       });

@@ -42,6 +42,8 @@ inline const runtime::ParticleLabel<SymmetricTensor<D>> stress{"stress"};
 inline const runtime::ParticleLabel<double> viscous_pressure{"viscous pressure"};
 /// Of particles whose material is a tabular cap model.
 inline const runtime::ParticleLabel<components::CapState> cap_state{"cap state"};
+/// In the nodes of this step, see components::own_stiffness; 0 where the rule for the time step does not ask.
+inline const runtime::ParticleLabel<double> own_stiffness{"own stiffness"};
 /// Of this step, in the frame of its end.
 template <int D>
 inline const runtime::ParticleLabel<SymmetricTensor<D>> strain_increment{"strain increment"};

@@ -4,8 +4,6 @@
 #include <cmath>
 #include <limits>
 
-#include "components/loads/time_step.hpp"
-
 namespace tamp::tasks
 {
 
@@ -42,7 +40,6 @@ Method<Interpolator>::Method(const Scene& given)
 {
   for (int m = 0; m < static_cast<int>(scene.materials.size()); ++m) {
     interpolators.emplace_back(scene.particles_per_axis_of(m));
-    step_factors.push_back(components::transfer_step_factor(scene.particles_per_axis_of(m)));
     const auto is_rigid = [m](const SceneBody& body) { return body.rigid && body.material == m; };
     const auto body = std::find_if(scene.bodies.begin(), scene.bodies.end(), is_rigid);
     if (body == scene.bodies.end()) {

@@ -78,8 +78,6 @@ struct Method {
   std::array<std::array<bool, 2>, std::size_t{dimension}> mirrors;
   std::optional<components::ArtificialViscosity> viscosity;
   StepRule time_step_rule;
-  /// On the bounds of the viscous rule, by material; the published rule has none.
-  std::vector<double> step_factors;
   components::ContactTable contacts;
   std::span<const SceneMaterial> materials;
   /// The simulation moves them from step to step.

@@ -50,7 +50,7 @@ components::TangentModuli initial_moduli(const components::TabularCap& sand)
 }
 
 template <int D>
-double initial_wave_speed(const Scene& scene, const SceneBody& body)
+components::TangentModuli greatest_initial_moduli(const Scene& scene, const SceneBody& body)
 {
   const SceneMaterial& material = scene.materials[static_cast<std::size_t>(body.material)];
   auto moduli = std::visit([](const auto& model) { return initial_moduli(model); }, material.model);
@@ -59,7 +59,7 @@ double initial_wave_speed(const Scene& scene, const SceneBody& body)
     moduli.bulk_modulus = SettledSand<D>(scene, body).greatest_bulk_modulus();
     moduli.shear_modulus = ratio * moduli.bulk_modulus;
   }
-  return components::wave_speed(moduli.bulk_modulus, moduli.shear_modulus, material.density);
+  return moduli;
 }
 
 /// The patches dealt to the ranks by the particles that start on them.
@@ -222,18 +222,29 @@ class SimulationOf : public Simulation
     return std::min(size, end - time_);
   }
 
+  /// Of a body alone. Its nodes are not known yet, so that each particle may have its own to itself.
+  double initial_stable_step(const SceneBody& body) const
+  {
+    const double h = method_.cell_size;
+    const Vector<D> v = vector_of<D>(body.velocity);
+    if (body.rigid) return components::published_time_step<D>(h, 0, v);
+    const auto [bulk, shear] = greatest_initial_moduli<D>(scene_, body);
+    const double density = scene_.materials[static_cast<std::size_t>(body.material)].density;
+    if (method_.time_step_rule == StepRule::published) {
+      return components::published_time_step<D>(h, components::wave_speed(bulk, shear, density), v);
+    }
+    const int n_per_axis = scene_.particles_per_axis_of(body.material);
+    return components::viscous_time_step<D>(
+        h, {density, bulk, shear, v, 0, components::greatest_own_stiffness(D, n_per_axis)},
+        method_.viscosity.value_or(components::ArtificialViscosity{0, 0}));
+  }
+
   double initial_stable_step() const
   {
     double bound = std::numeric_limits<double>::infinity();
-    const auto viscosity = method_.viscosity.value_or(components::ArtificialViscosity{0, 0});
     for (const SceneBody& body : scene_.bodies) {
-      const auto material = static_cast<std::size_t>(body.material);
-      const double c = body.rigid ? 0 : initial_wave_speed<D>(scene_, body);
       const Vector<D> v = vector_of<D>(body.velocity);
-      bound = std::min(bound, body.rigid || method_.time_step_rule == StepRule::published
-                                  ? components::published_time_step<D>(method_.cell_size, c, v)
-                                  : method_.step_factors[material] *
-                                        components::viscous_time_step<D>(method_.cell_size, c, v, 0, viscosity));
+      bound = std::min(bound, initial_stable_step(body));
       if (method_.time_step_rule == StepRule::published) continue;
       for (const SceneBody& other : scene_.bodies) {
         const double approach = (vector_of<D>(other.velocity) - v).norm();

@@ -39,6 +39,7 @@ struct StressArguments {
   std::span<const double> old_volume;
   std::span<const double> volume;
   std::span<const double> old_viscous_pressure;
+  std::span<const double> own_stiffness;
   std::span<const SymmetricTensor<D>> strain;
   std::span<SymmetricTensor<D>> stress;
   std::span<double> viscous_pressure;
@@ -47,15 +48,13 @@ struct StressArguments {
 /// One batch after the material has answered: artificial viscosity, energies, and the bound on the next step.
 template <class Interpolator, int D = Interpolator::dimension>
 void account(const Method<Interpolator>& method, double dt, const StressArguments<D>& s, std::size_t first,
-             std::span<const SymmetricTensor<D>> old_stress, const BatchAnswer& answer, double step_factor,
-             StepTotals& totals)
+             std::span<const SymmetricTensor<D>> old_stress, const BatchAnswer& answer, StepTotals& totals)
 {
   for (std::size_t k = 0; k < old_stress.size(); ++k) {
     const std::size_t p = first + k;
-    const double bulk = answer.bulk_modulus[k];
+    const double bulk = answer.bulk_modulus[k], shear = answer.shear_modulus[k];
     const double density = s.mass[p] / s.volume[p];
     const double volume_rate = trace(s.strain[p]) / dt;
-    const double c = components::wave_speed(bulk, answer.shear_modulus[k], density);
     s.viscous_pressure[p] =
         method.viscosity ? method.viscosity->pressure(density, bulk, volume_rate, method.cell_size) : 0;
 
@@ -67,11 +66,13 @@ void account(const Method<Interpolator>& method, double dt, const StressArgument
     totals.plastic += plastic;
     totals.viscous += s.old_viscous_pressure[p] * (s.old_volume[p] - s.volume[p]);
 
-    const double bound = method.time_step_rule == StepRule::published
-                             ? components::published_time_step<D>(method.cell_size, c, s.velocity[p])
-                             : step_factor * components::viscous_time_step<D>(
-                                                 method.cell_size, c, s.velocity[p], volume_rate,
-                                                 method.viscosity.value_or(components::ArtificialViscosity{0, 0}));
+    const double bound =
+        method.time_step_rule == StepRule::published
+            ? components::published_time_step<D>(method.cell_size, components::wave_speed(bulk, shear, density),
+                                                 s.velocity[p])
+            : components::viscous_time_step<D>(method.cell_size,
+                                               {density, bulk, shear, s.velocity[p], volume_rate, s.own_stiffness[p]},
+                                               method.viscosity.value_or(components::ArtificialViscosity{0, 0}));
     // Written so that what is not a number does not pass for a bound.
     totals.stable_step = bound >= totals.stable_step ? totals.stable_step : bound;
   }
@@ -97,7 +98,7 @@ void in_batches(const Method<Interpolator>& method, const TaskContext& at, const
                             {s.position[p].begin(), s.position[p].end()});
     }
     account<Interpolator>(method, at.step.size, s, first, std::span<const SymmetricTensor<D>>(old_stress.data(), n),
-                          answer, method.step_factors[static_cast<std::size_t>(at.group)], totals);
+                          answer, totals);
   }
 }
 
@@ -126,7 +127,7 @@ auto stress_task(const std::string& material, int group)
       .over_patches_and_groups({group})
       .reads(particle::id.previous(), particle::mass.previous(), particle::position<D>, particle::velocity<D>,
              particle::volume.previous(), particle::volume, particle::viscous_pressure.previous(),
-             particle::strain_increment<D>)
+             particle::own_stiffness, particle::strain_increment<D>)
       .updates(particle::stress<D>)
       .computes(particle::viscous_pressure)
       .reduces(step_totals);
@@ -139,10 +140,11 @@ runtime::TaskDeclaration update(const Method<Interpolator>& method, int group, c
   constexpr int D = Interpolator::dimension;
   return stress_task<D>(name, group)
       .body([&method, &steel](const TaskContext& at, auto id, auto mass, auto position, auto velocity, auto old_volume,
-                              auto volume, auto old_viscous_pressure, auto strain, auto stress, auto viscous_pressure,
-                              StepTotals& totals) {
-        const StressArguments<D> s{id,     mass,   position,        velocity, old_volume, volume, old_viscous_pressure,
-                                   strain, stress, viscous_pressure};
+                              auto volume, auto old_viscous_pressure, auto own_stiffness, auto strain, auto stress,
+                              auto viscous_pressure, StepTotals& totals) {
+        const StressArguments<D> s{
+            id,     mass,   position,        velocity, old_volume, volume, old_viscous_pressure, own_stiffness,
+            strain, stress, viscous_pressure};
         in_batches(method, at, s, totals, [&](std::size_t first, std::size_t n, BatchAnswer& answer) {
           std::fill_n(answer.plastic_work.begin(), n, 0.0);
           std::fill_n(answer.bulk_modulus.begin(), n, steel.bulk_modulus);
@@ -160,10 +162,11 @@ runtime::TaskDeclaration update(const Method<Interpolator>& method, int group, c
   return stress_task<D>(name, group)
       .reads(particle::deformation_gradient<D>)
       .body([&method, &rubber](const TaskContext& at, auto id, auto mass, auto position, auto velocity, auto old_volume,
-                               auto volume, auto old_viscous_pressure, auto strain, auto stress, auto viscous_pressure,
-                               StepTotals& totals, std::span<const Matrix<D>> deformation) {
-        const StressArguments<D> s{id,     mass,   position,        velocity, old_volume, volume, old_viscous_pressure,
-                                   strain, stress, viscous_pressure};
+                               auto volume, auto old_viscous_pressure, auto own_stiffness, auto strain, auto stress,
+                               auto viscous_pressure, StepTotals& totals, std::span<const Matrix<D>> deformation) {
+        const StressArguments<D> s{
+            id,     mass,   position,        velocity, old_volume, volume, old_viscous_pressure, own_stiffness,
+            strain, stress, viscous_pressure};
         in_batches(method, at, s, totals, [&](std::size_t first, std::size_t n, BatchAnswer& answer) {
           std::fill_n(answer.plastic_work.begin(), n, 0.0);
           components::update<D>(rubber, deformation.subspan(first, n), stress.subspan(first, n));
@@ -185,10 +188,12 @@ runtime::TaskDeclaration update(const Method<Interpolator>& method, int group, c
       .reads(particle::cap_state.previous())
       .computes(particle::cap_state)
       .body([&method, &sand](const TaskContext& at, auto id, auto mass, auto position, auto velocity, auto old_volume,
-                             auto volume, auto old_viscous_pressure, auto strain, auto stress, auto viscous_pressure,
-                             StepTotals& totals, std::span<const CapState> old_state, std::span<CapState> state) {
-        const StressArguments<D> s{id,     mass,   position,        velocity, old_volume, volume, old_viscous_pressure,
-                                   strain, stress, viscous_pressure};
+                             auto volume, auto old_viscous_pressure, auto own_stiffness, auto strain, auto stress,
+                             auto viscous_pressure, StepTotals& totals, std::span<const CapState> old_state,
+                             std::span<CapState> state) {
+        const StressArguments<D> s{
+            id,     mass,   position,        velocity, old_volume, volume, old_viscous_pressure, own_stiffness,
+            strain, stress, viscous_pressure};
         in_batches(method, at, s, totals, [&](std::size_t first, std::size_t n, BatchAnswer& answer) {
           const auto failure = components::update<D>(sand, strain.subspan(first, n), old_state.subspan(first, n),
                                                      stress.subspan(first, n), state.subspan(first, n),

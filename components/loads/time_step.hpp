@@ -1,9 +1,11 @@
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
 #include "components/loads/artificial_viscosity.hpp"
+#include "components/materials/wave_speed.hpp"
 #include "components/tensors.hpp"
 
 /// Bounds on the time step [s] from one particle or one contact, before any safety factor; the step is the least of
@@ -18,27 +20,48 @@ double published_time_step(double cell_size, double wave_speed, const Vector<D>&
   return cell_size / (wave_speed + velocity.cwiseAbs().maxCoeff());
 }
 
-/// The rule that counts artificial viscosity too. The viscosity damps the highest mode of the grid by the ratio
-/// zeta = C0 + C1 h max(0, -tr D) / c, and central differences that lag the damping by half a step then allow
-/// sqrt(1 + zeta^2) - zeta of the undamped step. `volume_rate` = tr D [1/s, expansion positive].
+/// A particle as the viscous rule sees it.
 template <int D>
-double viscous_time_step(double cell_size, double wave_speed, const Vector<D>& velocity, double volume_rate,
-                         const ArtificialViscosity& viscosity)
+struct StiffParticle {
+  double density;                      ///< kg/m^3
+  double bulk_modulus, shear_modulus;  ///< Pa
+  Vector<D> velocity;                  ///< m/s
+  double volume_rate;                  ///< tr D [1/s], expansion positive
+  double own_stiffness;                ///< of components::own_stiffness, a pure number
+};
+
+/// The part k0 in the bound below that does not come from a particle's own stiffness.
+constexpr double shared_stiffness = 4.5;
+
+/// The rule that counts sparsely filled nodes and artificial viscosity. A mode of the grid, x'' = -a x - b x' with a in
+/// 1/s^2, b in 1/s and b x' of the step before (viscosity is lagged), forgets what the nodes do not hand back to the
+/// particles; where they hand back nothing it stays bounded up to a dt^2 / 2 + b dt = 1. The largest a is
+/// (k0 c^2 + s c_s^2) / h^2, s being the particle's own stiffness, and the largest b is (k0 + s) (C0 c_b + C1 h
+/// max(0, -tr D)) / h, with the speeds c of dilatational waves, c_b = sqrt(K / density) and c_s of the modulus
+/// K + (2/D - 2/3) G of equal strain along D axes: a particle that has its nodes to itself feels just s, one of many
+/// what waves feel. That both may be added, and k0, are read from eigenvalues of blocks, balls and thinned out lattices
+/// of particles at random offsets (tools/studies/stable_step.py).
+template <int D>
+double viscous_time_step(double cell_size, const StiffParticle<D>& p, const ArtificialViscosity& viscosity)
 {
-  const double closing_speed = cell_size * std::fmax(0, -volume_rate);
-  const double zeta = viscosity.linear + viscosity.quadratic * closing_speed / wave_speed;
-  // 1 / (sqrt(1 + zeta^2) + zeta) is sqrt(1 + zeta^2) - zeta without the cancellation at large zeta.
-  return cell_size / (wave_speed + velocity.norm()) / (std::hypot(1.0, zeta) + zeta);
+  const double c = wave_speed(p.bulk_modulus, p.shear_modulus, p.density);
+  const double squeeze_modulus = p.bulk_modulus + (2.0 / D - 2.0 / 3.0) * p.shear_modulus;
+  const double a = shared_stiffness * c * c + p.own_stiffness * squeeze_modulus / p.density;
+  const double closing_speed = cell_size * std::fmax(0, -p.volume_rate);
+  const double b = (shared_stiffness + p.own_stiffness) *
+                   (viscosity.linear * std::sqrt(p.bulk_modulus / p.density) + viscosity.quadratic * closing_speed);
+  // h / dt, by the root of the quadratic without cancellation.
+  const double signal_speed = 0.5 * (b + std::sqrt(b * b + 2 * a));
+  return cell_size / (signal_speed + p.velocity.norm());
 }
 
-/// The part of the bound above that particles leave. In each step particles hand back to the nodes only the share
-/// r = (1 - 1/n^2) / 3 of the velocity that they took from the shortest wave (+1 and -1 from node to node), n being
-/// particles along each axis of a cell: that is the mean square of the wave, linear between nodes, averaged over each
-/// particle. Leapfrog of the rest, which the nodes forget, is stable up to h / (c sqrt(2 - r)).
-inline double transfer_step_factor(int n_per_axis)
+/// The own stiffness of a particle alone, at worst: it lies on a node and just reaches the two beside
+/// that, along each axis; with l = h / (2 n), half its size, the squares of slopes over weights sum up to
+/// 2 / l + 1 / (h - l).
+inline double greatest_own_stiffness(int dimension, int n_per_axis)
 {
-  const double n = n_per_axis;
-  return std::sqrt(3 / (5 + 1 / (n * n)));
+  const double l = 0.5 / n_per_axis;
+  return std::pow(std::max(1.0, 0.5 * n_per_axis), dimension - 1) * dimension * (2 / l + 1 / (1 - l));
 }
 
 /// Bodies that meet at `approach_speed` close no more than a tenth of a cell in a step, so that what they meet is

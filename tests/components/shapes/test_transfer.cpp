@@ -1,7 +1,10 @@
 #include <catch2/catch.hpp>
 
+#include <algorithm>
+#include <cmath>
 #include <vector>
 
+#include "components/loads/time_step.hpp"
 #include "components/shapes/transfer.hpp"
 #include "tests/components/shapes/shape_reference.hpp"
 
@@ -156,4 +159,51 @@ TEMPLATE_TEST_CASE_SIG("a particle takes from the grid what a plain loop over al
     REQUIRE((motion.velocity_change - change).norm() < 1e-14);
     REQUIRE((motion.velocity_gradient - gradient).norm() * cell_size < 1e-13);
   }
+}
+
+TEMPLATE_TEST_CASE_SIG("a particle's own stiffness is its share in that of its nodes", "", ((int D), D), 2, 3)
+{
+  const int n_per_axis = GENERATE(1, 2, 4);
+  const double l = 0.5 / n_per_axis;
+  const auto block = block_of_nodes<D>(5, cell_size);
+  std::mt19937 random(9);
+  const Cloud<D> cloud(block, 60, random);
+  std::vector<NodeSums<D>> sums(static_cast<std::size_t>(n_nodes_of(block)));
+  particles_to_grid(Gimp<D>(n_per_axis), block, cloud.sources(), sums.data());
+
+  for (std::size_t p = 0; p < cloud.mass.size(); ++p) {
+    double plain = 0;
+    for (std::size_t i = 0; i < sums.size(); ++i) {
+      const Vector<D> node = node_position(block, static_cast<std::ptrdiff_t>(i));
+      const PlainShape<D> shape(cloud.position[p], node, l, cell_size);
+      if (shape.weight > 0) plain += shape.gradient.squaredNorm() / sums[i].mass();
+    }
+    // Four an axis: two lie side by side across half a cell.
+    plain *= cloud.mass[p] * cell_size * cell_size * (n_per_axis == 4 ? std::pow(2, D - 1) : 1);
+
+    REQUIRE(own_stiffness(Gimp<D>(n_per_axis), block, cloud.position[p], cloud.mass[p], 0, sums.data()) ==
+            Approx(plain));
+  }
+}
+
+TEMPLATE_TEST_CASE_SIG("no place of a particle alone is stiffer than the greatest own stiffness", "", ((int D), D), 2,
+                       3)
+{
+  const int n_per_axis = GENERATE(1, 2, 3, 4);
+  const auto block = block_of_nodes<D>(6, 1.0);
+  const Gimp<D> interpolator(n_per_axis);
+  const double greatest = greatest_own_stiffness(D, n_per_axis), l = 0.5 / n_per_axis;
+  const auto alone = [&](double along_each_axis) {
+    const Vector<D> x = block.origin + Vector<D>::Constant(2 + along_each_axis);
+    std::vector<NodeSums<D>> sums(static_cast<std::size_t>(n_nodes_of(block)));
+    const std::vector<Vector<D>> position{x}, velocity{Vector<D>::Zero()};
+    const std::vector<double> one{1};
+    const std::vector<SymmetricTensor<D>> stress{SymmetricTensor<D>::Zero()};
+    particles_to_grid(interpolator, block, {position, velocity, one, one, stress, one}, sums.data());
+    return own_stiffness(interpolator, block, x, 1, 0, sums.data());
+  };
+
+  for (int i = 0; i < 200; ++i) REQUIRE(alone((i + 0.5) / 200) <= greatest * (1 + 1e-9));
+  // It just reaches the node behind.
+  CHECK(alone(l - 1e-6) == Approx(greatest).epsilon(1e-4));
 }

@@ -1,0 +1,83 @@
+#include <catch2/catch.hpp>
+
+#include <cmath>
+#include <limits>
+#include <string>
+
+#include "tasks/simulation_error.hpp"
+#include "tests/tasks/scenes.hpp"
+
+using namespace tamp;
+using namespace tamp::test;
+
+namespace
+{
+
+/// What is free of everything and drifts through the grid, so that its particles come to lie anywhere between nodes.
+struct FreeBody {
+  std::string name;
+  int dimension;
+  double size;  ///< of the edge, or the diameter [cells]
+};
+
+constexpr double cell_size = 0.05;  // m
+
+/// m/s; some 1/300 of a cell in a step
+Triple drift(int dimension)
+{
+  return {0.4, 0.28, dimension == 2 ? 0.0 : 0.16};
+}
+
+/// Drifting, and stirred in all of its modes by a thousandth of that.
+Scene free_body(const FreeBody& body, bool viscous)
+{
+  Scene scene = empty_scene(body.dimension, {14, 14, body.dimension == 2 ? 1 : 14}, cell_size);
+  if (viscous) scene.artificial_viscosity = components::ArtificialViscosity{};
+  const int material = add_elastic(scene, 1000, 1e6, 0.3);
+  const double size = cell_size * body.size, lower = 4 * cell_size, upper = lower + size, middle = lower + size / 2;
+  if (body.name == "ball") {
+    add_body(scene, material, components::Solid<3>(components::Ball<3>{{middle, middle, middle}, size / 2}), {0, 0, 0});
+  } else {
+    add_box(scene, material, {lower, lower, lower}, {upper, upper, upper});
+  }
+  scene.bodies[0].velocity_field = [v = drift(body.dimension)](const Triple& x) {
+    return Triple{v[0] + 4e-4 * std::sin(531 * x[0] + 317 * x[1] + 211 * x[2]),
+                  v[1] + 4e-4 * std::sin(419 * x[0] + 557 * x[1] + 283 * x[2]),
+                  v[2] + 4e-4 * std::sin(367 * x[0] + 239 * x[1] + 601 * x[2])};
+  };
+  return scene;
+}
+
+/// Energy of all motion but that of the body's middle, over 600 steps: at the end over that of the stirring; infinite
+/// if the body broke on the way.
+double growth(Scene scene, double multiplier)
+{
+  scene.time.multiplier = multiplier;
+  const auto simulation = Simulation::make(scene, 1);
+  const auto inner_energy = [&] {
+    const ParticleReport report = simulation->report();
+    return report.kinetic - 0.5 * report.momentum().squaredNorm() / total_mass(report);
+  };
+  const double start = inner_energy();
+  try {
+    for (int n = 0; n < 600; ++n) simulation->advance(1e30);
+  } catch (const SimulationError&) {
+    return std::numeric_limits<double>::infinity();
+  }
+  return inner_energy() / start;
+}
+
+}  // namespace
+
+TEST_CASE("free elastic bodies stay bounded up to the bound on the step, and not far beyond it")
+{
+  const auto body = GENERATE(FreeBody{"block", 2, 4}, FreeBody{"block", 3, 2.5}, FreeBody{"ball", 3, 3});
+  const bool viscous = GENERATE(false, true);
+  const Scene scene = free_body(body, viscous);
+  CAPTURE(body.name, body.dimension, viscous);
+
+  CHECK(growth(scene, Scene{}.time.multiplier) < 1);
+  CHECK(growth(scene, 1) < 1);
+  // Viscosity acts in half of the steps, while the material closes; the bound counts on all of them.
+  CHECK(growth(scene, viscous ? 1.8 : 1.5) > 1e3);
+}
