@@ -1,5 +1,10 @@
 #include "tasks/rigid_body.hpp"
 
+#include <string>
+
+#include "components/errors.hpp"
+#include "tasks/simulation_error.hpp"
+
 namespace tamp::tasks
 {
 
@@ -49,7 +54,11 @@ components::RigidState moved(const RigidBody& body, const ContactImpulses::Impul
   components::RigidState state = body.free;
   state.momentum += impulse.linear;
   state.angular_momentum += impulse.angular;
-  return components::drift(body.properties, state, dt);
+  try {
+    return components::drift(body.properties, state, dt);
+  } catch (const components::BadValue& bad) {
+    throw SimulationError(std::string("a rigid body cannot be followed: ") + bad.what(), "", -1, {});
+  }
 }
 
 }  // namespace tamp::tasks

@@ -55,7 +55,8 @@ struct RigidCouplings {
 components::RigidState accelerated(const RigidBody& body, const Eigen::Vector3d& gravity,
                                    const std::optional<components::RotatingFrame>& frame, double time, double kick);
 
-/// The body at the end of a step of length `dt` in which contact gave it `impulse`.
+/// The body at the end of a step of length `dt` in which contact gave it `impulse`. Throws SimulationError for one that
+/// spins too fast to be followed.
 components::RigidState moved(const RigidBody& body, const ContactImpulses::Impulse& impulse, double dt);
 
 }  // namespace tamp::tasks

@@ -1,6 +1,7 @@
 #include "components/rigid/rigid_body.hpp"
 
 #include <Eigen/LU>
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <string>
@@ -73,30 +74,46 @@ Eigen::Quaterniond cayley(const Vector3& w, double dt)
   return turn.normalized();
 }
 
+/// The turn of one step, as seen in the body, from the angular momentum there. Where |I^-1| |momentum| dt is below 1/2
+/// each pass brings the midpoint four times nearer, until round-off stops it.
+Eigen::Quaterniond midpoint_turn(const MassProperties& body, const Vector3& momentum, double dt)
+{
+  const Vector3 old_spin = body.inverse_inertia * momentum;
+  Vector3 spin = old_spin;
+  double change = std::numeric_limits<double>::infinity();
+  while (true) {
+    const Vector3 new_momentum = cayley(spin, dt).conjugate() * momentum;
+    const Vector3 midpoint = 0.5 * (old_spin + body.inverse_inertia * new_momentum);
+    const double new_change = (midpoint - spin).norm();
+    spin = midpoint;
+    if (!(new_change < change)) return cayley(spin, dt);
+    change = new_change;
+  }
+}
+
+/// Into how many parts a step is cut for the midpoint to be found.
+int parts_of_turn(const MassProperties& body, const RigidState& state, double dt)
+{
+  constexpr double most = 1000;
+  const double parts = std::ceil(2 * body.inverse_inertia.norm() * state.angular_momentum.norm() * dt);
+  if (!(parts <= most)) {
+    throw BadValue("an angular velocity of " + std::to_string(angular_velocity(body, state).norm()) + " rad/s",
+                   "one that turns the body by less in a step of " + std::to_string(dt) + " s");
+  }
+  return std::max(1, static_cast<int>(parts));
+}
+
 }  // namespace
 
 RigidState drift(const MassProperties& body, const RigidState& state, double dt)
 {
-  const Vector3 old_momentum = state.orientation.conjugate() * state.angular_momentum;
-  const Vector3 old_spin = body.inverse_inertia * old_momentum;
-  Vector3 spin = old_spin;
-  Eigen::Quaterniond turn = cayley(spin, dt);
-  // Contracts as |w| dt < 1 in every step that moves the surface by less than its radius; then this is far more than
-  // enough, and the loop ends when round-off is reached.
-  constexpr int most_iterations = 200;
-  double change = std::numeric_limits<double>::infinity();
-  for (int i = 0; i < most_iterations; ++i) {
-    const Vector3 new_momentum = turn.conjugate() * old_momentum;
-    const Vector3 midpoint = 0.5 * (old_spin + body.inverse_inertia * new_momentum);
-    const double new_change = (midpoint - spin).norm();
-    spin = midpoint;
-    turn = cayley(spin, dt);
-    if (new_change == 0 || (new_change >= change && new_change < 1e-12 * spin.norm())) break;
-    change = new_change;
-  }
   RigidState moved = state;
   moved.centre += dt / body.mass * state.momentum;
-  moved.orientation = (state.orientation * turn).normalized();
+  const int parts = parts_of_turn(body, state, dt);
+  for (int i = 0; i < parts; ++i) {
+    const Vector3 momentum = moved.orientation.conjugate() * state.angular_momentum;
+    moved.orientation = (moved.orientation * midpoint_turn(body, momentum, dt / parts)).normalized();
+  }
   return moved;
 }
 

@@ -65,8 +65,9 @@ RigidMotion motion_of(const MassProperties& body, const RigidState& state);
 /// the mean of I^-1 Pi before and after, the orientation turns by the Cayley map of W dt. That map carries Pi along as
 /// Euler's equations at midpoint do, so the spatial angular momentum is kept as it is stored, and the energy Pi.I^-1 Pi
 /// / 2, a quadratic invariant, to round-off (M. Austin, P. S. Krishnaprasad & L.-S. Wang, J. Comput. Phys. 107, 1993).
-/// Second order in the orientation. The midpoint is found by iteration, which converges while |w| dt is below about
-/// 1/2.
+/// Second order in the orientation. The midpoint is found by iteration to round-off; a step that turns the body too far
+/// for that is made in equal parts. Throws BadValue where even a thousand parts are too few, or a momentum is no
+/// number.
 RigidState drift(const MassProperties& body, const RigidState& state, double dt);
 
 }  // namespace tamp::components

@@ -349,3 +349,14 @@ TEST_CASE("a rigid body that comes to an edge of the domain, open or a wall, end
 
   CHECK_THAT(failure_of(scene), Catch::Contains("reaches the edge of the domain"));
 }
+
+TEST_CASE("a rigid body that spins too fast to be followed is a failure of the simulation")
+{
+  RigidBody body{.body = 0, .group = 0};
+  body.properties = components::mass_properties(std::vector<double>{1, 1},
+                                                std::vector<Eigen::Vector3d>{{0, 0, 0}, {1, 0, 0}}, 1, false);
+  ContactImpulses::Impulse impulse;
+  impulse.angular = {0, 1e12, 0};
+
+  CHECK_THROWS_AS(moved(body, impulse, 0.1), SimulationError);
+}

@@ -1,5 +1,6 @@
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <vector>
 
@@ -69,6 +70,33 @@ TEST_CASE("torque-free tumbling keeps energy and angular momentum over 1000 turn
   // The axis of the middle moment is unstable: the body turns over.
   CHECK(tumble < -0.5);
   CHECK((state.centre - body.centre - Vector3(3, -1, 2) * 0.02 * n_steps).norm() < 1e-9 * 0.02 * n_steps);
+}
+
+TEST_CASE("steps that turn a body by two radians keep energy and angular momentum, of a thin rod too")
+{
+  MassProperties body = asymmetric_top();
+  if (GENERATE(false, true)) {
+    body.inertia = Vector3(1, 50, 50).asDiagonal();
+    body.inverse_inertia = body.inertia.inverse();
+  }
+  RigidState state = tumbling(body, {0.3, 1.9, 0.5});
+  const double energy = kinetic_energy(body, state);
+  const Vector3 momentum = state.angular_momentum;
+
+  for (int i = 0; i < 1000; ++i) {
+    state = drift(body, state, 1.0);
+
+    REQUIRE(kinetic_energy(body, state) == Approx(energy).epsilon(1e-11));
+    REQUIRE((momentum_of_spin(body, state) - momentum).norm() < 1e-11 * momentum.norm());
+  }
+}
+
+TEST_CASE("a body that spins beyond all measure is refused, not turned anyhow")
+{
+  const MassProperties body = asymmetric_top();
+  const double spin = GENERATE(1e6, std::numeric_limits<double>::infinity(), std::numeric_limits<double>::quiet_NaN());
+
+  CHECK_THROWS_AS(drift(body, tumbling(body, {spin, 0, 0}), 0.01), BadValue);
 }
 
 TEST_CASE("a symmetric top precesses as Euler has it, second order in the step")
