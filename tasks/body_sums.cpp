@@ -76,4 +76,19 @@ Eigen::Vector3d BodySums::place_of(const Eigen::Vector3d& reference) const
   return position / mass + rotation() * (reference - reference_position / mass);
 }
 
+BodySums sums_of(const components::MassProperties& body, const components::RigidState& state)
+{
+  const Eigen::Matrix3d turn = state.orientation.toRotationMatrix();
+  const Eigen::Matrix3d carried = turn * body.second_moment();
+  BodySums sums;
+  sums.mass = body.mass;
+  sums.momentum = state.momentum;
+  sums.position = body.mass * state.centre;
+  sums.reference_position = body.mass * body.centre;
+  sums.second_moment = carried * turn.transpose() + sums.position * state.centre.transpose();
+  sums.carried_moment = carried + sums.position * body.centre.transpose();
+  sums.angular_momentum = state.angular_momentum + state.centre.cross(state.momentum);
+  return sums;
+}
+
 }  // namespace tamp::tasks

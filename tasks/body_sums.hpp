@@ -2,11 +2,14 @@
 
 #include <Eigen/Core>
 
+#include "components/rigid/rigid_body.hpp"
+
 namespace tamp::tasks
 {
 
-/// Sums over the particles of one body, from which its motion as a whole follows, whether it deforms or not. In plane
-/// strain the third coordinates are 0. SI units; a slab of 1 m.
+/// Sums over the matter of one body, from which its motion as a whole follows, whether it deforms or not: over its
+/// particles as points, or exactly for a rigid body. In plane strain the third coordinates are 0. SI units; a slab of 1
+/// m.
 struct BodySums {
   double mass = 0;
   Eigen::Vector3d momentum = Eigen::Vector3d::Zero();
@@ -30,5 +33,7 @@ struct BodySums {
   /// Where the body carries a point that was at `reference` at the start [m].
   Eigen::Vector3d place_of(const Eigen::Vector3d& reference) const;
 };
+
+BodySums sums_of(const components::MassProperties& body, const components::RigidState& state);
 
 }  // namespace tamp::tasks

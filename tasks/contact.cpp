@@ -36,11 +36,12 @@ struct NodeImpulses {
   }
 };
 
-/// Hands on the velocities after the impulses; a rigid body's stays, and it takes what the others together gave.
+/// Hands on the velocities after the impulses, at the node `i` at `x`; a rigid body's stays, and it takes what the
+/// others together gave.
 template <class Interpolator, int D = Interpolator::dimension>
 NodeImpulses<D> give_back(const Method<Interpolator>& method, const NodeOfGroups<D>& node, const RigidBody* rigid,
                           const PerGroup<GridView<const NodeSums<D>>>& sums,
-                          const PerGroup<GridView<NodeMotion<D>>>& motions, const Index& i)
+                          const PerGroup<GridView<NodeMotion<D>>>& motions, const Index& i, const Vector<D>& x)
 {
   const auto at_start = [&](std::size_t g) { return Vector<D>(sums[g][i].momentum() / sums[g][i].mass()); };
   NodeImpulses<D> done;
@@ -56,7 +57,8 @@ NodeImpulses<D> give_back(const Method<Interpolator>& method, const NodeOfGroups
   }
   if (rigid == nullptr) return done;
   const auto g = static_cast<std::size_t>(rigid->group);
-  done.add(g, -given, at_start(g), node.velocity[g]);
+  const components::RigidMotion before = components::motion_of(rigid->properties, rigid->state);
+  done.add(g, -given, before.at(in_space<D>(x)).template head<D>(), node.velocity[g]);
   return done;
 }
 
@@ -103,11 +105,12 @@ runtime::TaskDeclaration contact(const Method<Interpolator>& method)
               std::span(node.mass.data(), n_groups), std::span(node.surface_gradient.data(), n_groups), method.contacts,
               thresholds, std::span(node.velocity.data(), n_groups));
           if (outcome.approach_speed == 0) return;
-          const NodeImpulses<D> done = give_back(method, node, rigid, sums, motions, i);
+          const Vector<D> x = place_of<D>(at.layout.grid(), i);
+          const NodeImpulses<D> done = give_back(method, node, rigid, sums, motions, i, x);
           // Nodes on a seam are worked on by every patch around it, and counted by one.
           if (!owned.contains(i)) return;
           totals.contact += done.energy;
-          add_impulses(method, node, done, place_of<D>(at.layout.grid(), i), impulses);
+          add_impulses(method, node, done, x, impulses);
           if (method.time_step_rule == StepRule::viscous) {
             totals.stable_step =
                 std::min(totals.stable_step, components::contact_time_step(method.cell_size, outcome.approach_speed));

@@ -35,18 +35,32 @@ double work_function(const Method<Interpolator>& method, const Vector<D>& x)
   return work;
 }
 
+/// A rigid body is known as a whole, and one patch tells of it; its particles as points would lack their own turning.
+void report_rigid_motion(const TaskContext& at, const RigidBody& body, ParticleReport& report)
+{
+  if (at.patch.id != 0) return;
+  report.kinetic += components::kinetic_energy(body.properties, body.state);
+  report.bodies[static_cast<std::size_t>(body.body)] = sums_of(body.properties, body.state);
+}
+
 template <class Interpolator, int D = Interpolator::dimension>
-void report_motion(const Method<Interpolator>& method, int group, std::span<const std::int64_t> body,
+void report_motion(const Method<Interpolator>& method, const TaskContext& at, std::span<const std::int64_t> body,
                    std::span<const double> mass, std::span<const Vector<D>> position,
                    std::span<const Vector<D>> reference, std::span<const Vector<D>> velocity,
                    std::span<const SymmetricTensor<D>> stress, ParticleReport& report)
 {
   for (std::size_t p = 0; p < mass.size(); ++p) {
-    report.kinetic += 0.5 * mass[p] * velocity[p].squaredNorm();
     report.gravity_work += mass[p] * work_function(method, position[p]);
+    report.materials[static_cast<std::size_t>(at.group)].add(stress[p]);
+  }
+  if (const RigidBody* rigid = method.rigid_body(at.group)) {
+    report_rigid_motion(at, *rigid, report);
+    return;
+  }
+  for (std::size_t p = 0; p < mass.size(); ++p) {
+    report.kinetic += 0.5 * mass[p] * velocity[p].squaredNorm();
     report.bodies[static_cast<std::size_t>(body[p])].add(mass[p], in_space<D>(position[p]), in_space<D>(reference[p]),
                                                          in_space<D>(velocity[p]));
-    report.materials[static_cast<std::size_t>(group)].add(stress[p]);
   }
 }
 
@@ -59,7 +73,7 @@ runtime::TaskDeclaration report_of(const Method<Interpolator>& method, int group
       .reduces(particle_report)
       .body([&method](const TaskContext& at, auto body, auto mass, auto position, auto reference, auto velocity,
                       auto stress, ParticleReport& report) {
-        report_motion(method, at.group, body, mass, position, reference, velocity, stress, report);
+        report_motion(method, at, body, mass, position, reference, velocity, stress, report);
       });
 }
 
@@ -72,7 +86,7 @@ runtime::TaskDeclaration report_of(const Method<Interpolator>& method, int group
       .reduces(particle_report)
       .body([&method, &sand](const TaskContext& at, auto body, auto mass, auto position, auto reference, auto velocity,
                              auto stress, std::span<const CapState> state, ParticleReport& report) {
-        report_motion(method, at.group, body, mass, position, reference, velocity, stress, report);
+        report_motion(method, at, body, mass, position, reference, velocity, stress, report);
         MaterialPeaks& peaks = report.materials[static_cast<std::size_t>(at.group)];
         for (const CapState& s : state) peaks.add(sand, s);
       });
