@@ -73,16 +73,37 @@ std::vector<double> BodyParticles<D>::per_patch() const
 }
 
 template <int D>
-Vector<D> BodyParticles<D>::initial_velocity(const SceneBody& body, std::size_t number, const Vector<D>& x) const
+Vector<D> BodyParticles<D>::rigid_velocity(int body, const Vector<D>& x) const
 {
-  if (body.velocity_field) {
-    Triple at{0, 0, 0};
-    std::copy(x.begin(), x.end(), at.begin());
-    return vector_of<D>(body.velocity_field(at));
+  const SceneBody& given = scene_.bodies[static_cast<std::size_t>(body)];
+  const Eigen::Vector3d spin(given.angular_velocity.data());
+  const Vector<D> arm = x - centres_[static_cast<std::size_t>(body)];
+  return vector_of<D>(given.velocity) + spin.cross(in_space<D>(arm)).template head<D>();
+}
+
+template <int D>
+Vector<D> BodyParticles<D>::initial_velocity(int body, const Vector<D>& x) const
+{
+  const SceneBody& given = scene_.bodies[static_cast<std::size_t>(body)];
+  if (!given.velocity_field) return rigid_velocity(body, x);
+  Triple at{0, 0, 0};
+  std::copy(x.begin(), x.end(), at.begin());
+  return vector_of<D>(given.velocity_field(at));
+}
+
+template <int D>
+Eigen::AlignedBox<double, D> BodyParticles<D>::velocities(int body) const
+{
+  const auto material = static_cast<std::size_t>(scene_.bodies[static_cast<std::size_t>(body)].material);
+  Eigen::AlignedBox<double, D> span;
+  for (const auto& materials : particles_) {
+    const Particles& own = materials[material];
+    for (std::size_t p = 0; p < own.id.size(); ++p) {
+      if (own.body[p] != body) continue;
+      span.extend(rigid_velocity(body, own.position[p]));
+    }
   }
-  const Eigen::Vector3d spin(body.angular_velocity.data());
-  const Vector<D> turning = spin.cross(in_space<D>(x - centres_[number])).template head<D>();
-  return vector_of<D>(body.velocity) + turning;
+  return span;
 }
 
 template <int D>
@@ -131,7 +152,7 @@ void BodyParticles<D>::store(const Particles& particles, int patch, int material
     state(particle::body)[p] = particles.body[p];
     state(particle::position<D>)[p] = particles.position[p];
     state(particle::reference_position<D>)[p] = particles.position[p];
-    state(particle::velocity<D>)[p] = initial_velocity(scene_.bodies[number], number, particles.position[p]);
+    state(particle::velocity<D>)[p] = initial_velocity(static_cast<int>(number), particles.position[p]);
     state(particle::deformation_gradient<D>)[p] = Matrix<D>::Identity();
     state(particle::volume)[p] = volume;
     state(particle::mass)[p] = density * volume;

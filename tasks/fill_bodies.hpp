@@ -1,5 +1,6 @@
 #pragma once
 
+#include <Eigen/Geometry>
 #include <cstdint>
 #include <map>
 #include <vector>
@@ -24,6 +25,8 @@ class BodyParticles
 
   /// How many there are on each patch.
   std::vector<double> per_patch() const;
+  /// Spans the velocities of a body's particles [m/s], but for a velocity field.
+  Eigen::AlignedBox<double, D> velocities(int body) const;
   /// Of a rigid body. Throws BadValue for one that has fewer than two particles.
   RigidBody rigid_body(int body) const;
   /// Puts them into the patches that are the warehouse's own.
@@ -37,7 +40,9 @@ class BodyParticles
     std::vector<Vector<D>> position;
   };
 
-  Vector<D> initial_velocity(const SceneBody& body, std::size_t number, const Vector<D>& x) const;
+  /// From the scene's velocity and angular velocity alone.
+  Vector<D> rigid_velocity(int body, const Vector<D>& x) const;
+  Vector<D> initial_velocity(int body, const Vector<D>& x) const;
   void store(const Particles& particles, int patch, int material, runtime::Warehouse& warehouse) const;
 
   const Scene& scene_;

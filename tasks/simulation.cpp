@@ -87,7 +87,7 @@ class SimulationOf : public Simulation
     profiler_.emplace(engine_->step_schedule, engine_->step, n_threads(), n_traced_steps);
     forecast_bytes_ = sum_over_ranks(engine_->warehouse.forecast_bytes());
     lost_.emplace(engine_->layout.size());
-    totals_.stable_step = initial_stable_step();
+    totals_.stable_step = initial_stable_step(particles);
   }
 
   void advance(double end) override
@@ -222,11 +222,11 @@ class SimulationOf : public Simulation
     return std::min(size, end - time_);
   }
 
-  /// Of a body alone. Its nodes are not known yet, so that each particle may have its own to itself.
-  double initial_stable_step(const SceneBody& body) const
+  /// Of a body alone whose matter is no faster than `v` along any axis. Its nodes are not known yet, so that each particle
+  /// may have its own to itself.
+  double initial_stable_step(const SceneBody& body, const Vector<D>& v) const
   {
     const double h = method_.cell_size;
-    const Vector<D> v = vector_of<D>(body.velocity);
     if (body.rigid) return components::published_time_step<D>(h, 0, v);
     const auto [bulk, shear] = greatest_initial_moduli<D>(scene_, body);
     const double density = scene_.materials[static_cast<std::size_t>(body.material)].density;
@@ -239,15 +239,19 @@ class SimulationOf : public Simulation
         method_.viscosity.value_or(components::ArtificialViscosity{0, 0}));
   }
 
-  double initial_stable_step() const
+  double initial_stable_step(const BodyParticles<D>& particles) const
   {
     double bound = std::numeric_limits<double>::infinity();
+    std::vector<Eigen::AlignedBox<double, D>> velocities;
     for (const SceneBody& body : scene_.bodies) {
-      const Vector<D> v = vector_of<D>(body.velocity);
-      bound = std::min(bound, initial_stable_step(body));
+      const auto own = particles.velocities(static_cast<int>(velocities.size()));
+      const Vector<D> v = own.min().cwiseAbs().cwiseMax(own.max().cwiseAbs());
+      bound = std::min(bound, initial_stable_step(body, v));
+      velocities.push_back(own);
       if (method_.time_step_rule == StepRule::published) continue;
-      for (const SceneBody& other : scene_.bodies) {
-        const double approach = (vector_of<D>(other.velocity) - v).norm();
+      for (std::size_t other = 0; other + 1 < velocities.size(); ++other) {
+        const auto& theirs = velocities[other];
+        const double approach = (own.max() - theirs.min()).cwiseMax(theirs.max() - own.min()).norm();
         bound = std::min(bound, components::contact_time_step(method_.cell_size, approach));
       }
     }

@@ -387,6 +387,35 @@ TEST_CASE("a rigid body that comes to an edge of the domain, open or a wall, end
   CHECK_THAT(failure_of(scene), Catch::Contains("reaches the edge of the domain"));
 }
 
+TEST_CASE("the first step is bounded by the fastest matter of a body that spins, rigid or not")
+{
+  const bool rigid = GENERATE(true, false);
+  Scene scene = empty_scene(2, {16, 16, 1}, cell);
+  scene.time.rule = StepRule::published;
+  SceneBody& body = add_rigid_box(scene, 1000, {0.3, 0.3, 0}, {0.5, 0.5, 0}, {0, 0, 0});
+  body.rigid = rigid;
+  body.angular_velocity = {0, 0, 1e5};
+  // Particles are half a cell wide.
+  const double speed = 1e5 * (0.1 - cell / 4);
+  const double wave_speed = rigid ? 0 : std::sqrt(uniaxial_modulus(1e9, 0.3) / 1000);
+
+  const double bound = Simulation::make(scene, 1)->totals().stable_step;
+
+  CHECK(bound == Approx(cell / (wave_speed + speed)).epsilon(1e-12));
+}
+
+TEST_CASE("the first step lets bodies that spin towards each other close a tenth of a cell")
+{
+  Scene scene = empty_scene(2, {16, 16, 1}, cell);
+  add_rigid_box(scene, 1000, {0.15, 0.3, 0}, {0.35, 0.5, 0}, {3, 0, 0}).angular_velocity = {0, 0, 100};
+  add_rigid_box(scene, 1000, {0.45, 0.3, 0}, {0.65, 0.5, 0}, {-1, 0, 0});
+
+  const double bound = Simulation::make(scene, 1)->totals().stable_step;
+
+  const double turning = 100 * (0.1 - cell / 4);
+  CHECK(bound == Approx(0.1 * cell / std::hypot(4 + turning, turning)).epsilon(1e-12));
+}
+
 TEST_CASE("a rigid body that spins too fast to be followed is a failure of the simulation")
 {
   RigidBody body{.body = 0, .group = 0};
