@@ -15,19 +15,6 @@ using runtime::TaskContext;
 namespace
 {
 
-/// Nodes of a rigid body move as it would without contact.
-template <class Interpolator, int D = Interpolator::dimension>
-void move_freely(const TaskContext& at, const RigidBody& body, const GridView<const NodeSums<D>>& sums,
-                 const GridView<NodeMotion<D>>& motion)
-{
-  const components::RigidMotion free = components::motion_of(body.properties, body.free);
-  for_each(motion.box(), [&](const Index& i) {
-    motion[i] = {};
-    if (!(sums[i].mass() > 0)) return;
-    motion[i].set(free.at(in_space<D>(place_of<D>(at.layout.grid(), i))).template head<D>(), Vector<D>::Zero());
-  });
-}
-
 /// What a node on mirroring walls is left with when they take up what presses on them at rest: without it the Coriolis
 /// term would turn a push on the floor into one along it.
 void take_up(const std::array<std::array<bool, 2>, 3>& mirrors, const runtime::Grid& grid, const Index& node,
@@ -70,19 +57,17 @@ runtime::TaskDeclaration accelerate_nodes(const Method<Interpolator>& method)
 {
   constexpr int D = Interpolator::dimension;
   return runtime::task("accelerate nodes")
-      .over_patches_and_groups()
+      .over_patches_and_groups(method.deformable_groups)
       .sparse()
       .reads(node::sums<D>.halo(1))
-      .computes(node::motion<D>.halo(1))
-      .body([&method](const TaskContext& at, GridView<const NodeSums<D>> sums, GridView<NodeMotion<D>> motion) {
-        if (const RigidBody* body = method.rigid_body(at.group)) {
-          move_freely<Interpolator>(at, *body, sums, motion);
-          return;
-        }
+      .computes(node::motion<D>.halo(1), node::inverse_mass.halo(1))
+      .body([&method](const TaskContext& at, GridView<const NodeSums<D>> sums, GridView<NodeMotion<D>> motion,
+                      GridView<double> inverse_mass) {
         const double kick = 0.5 * (at.step.previous_size + at.step.size);
         for_each(sums.box(), [&](const Index& i) {
           const NodeSums<D>& node = sums[i];
           const double mass = node.mass();
+          inverse_mass[i] = mass > method.least_node_mass ? 1 / mass : 0;
           if (!(mass > 0)) {
             motion[i] = {};
             return;

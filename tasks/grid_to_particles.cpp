@@ -11,7 +11,6 @@ namespace tamp::tasks
 {
 
 using components::NodeMotion;
-using components::NodeSums;
 using components::ParticleMotion;
 using components::StrainIncrement;
 using runtime::GridView;
@@ -30,12 +29,12 @@ runtime::TaskDeclaration grid_to_particles(const Method<Interpolator>& method)
   return runtime::task("grid to particles")
       .over_patches_and_groups(method.deformable_groups)
       .sparse()
-      .reads(node::sums<D>.halo(1), node::motion<D>.halo(1), particle::id.previous(), particle::mass.previous(),
+      .reads(node::inverse_mass.halo(1), node::motion<D>.halo(1), particle::id.previous(), particle::mass.previous(),
              particle::position<D>.previous(), particle::velocity<D>.previous(),
              particle::deformation_gradient<D>.previous(), particle::volume.previous(), particle::stress<D>.previous())
       .computes(particle::position<D>, particle::velocity<D>, particle::deformation_gradient<D>, particle::volume,
                 particle::stress<D>, particle::strain_increment<D>, particle::own_stiffness)
-      .body([&method](const TaskContext& at, GridView<const NodeSums<D>> sums, GridView<const NodeMotion<D>> nodes,
+      .body([&method](const TaskContext& at, GridView<const double> inverse_mass, GridView<const NodeMotion<D>> nodes,
                       std::span<const std::int64_t> id, std::span<const double> mass,
                       std::span<const Vector<D>> old_position, std::span<const Vector<D>> old_velocity,
                       std::span<const Matrix<D>> old_deformation, std::span<const double> old_volume,
@@ -73,7 +72,7 @@ runtime::TaskDeclaration grid_to_particles(const Method<Interpolator>& method)
             stress[p] = rotated<D>(old_stress[p], step.rotation_increment);
             strain[p] = step.strain_increment;
             own_stiffness[p] = viscous_rule ? components::own_stiffness(interpolator, block, old_position[p], mass[p],
-                                                                        method.least_node_mass, sums.data())
+                                                                        inverse_mass.data())
                                             : 0;
           }
         }

@@ -57,6 +57,8 @@ template <int D>
 inline const runtime::NodeLabel<components::NodeSums<D>> sums{"node sums"};
 template <int D>
 inline const runtime::NodeLabel<components::NodeMotion<D>> motion{"node motion"};
+/// 0 at nodes that hardly exist [1/kg].
+inline const runtime::NodeLabel<double> inverse_mass{"inverse mass"};
 template <int D>
 inline const runtime::NodeLabel<components::ContactPlane<D>> contact_plane{"contact plane"};
 /// One for each pass over the particles that turns the planes.

@@ -13,9 +13,13 @@ namespace tamp::tasks
 template <class Interpolator>
 runtime::TaskDeclaration particles_to_grid(const Method<Interpolator>& method);
 
-/// Nodes are accelerated by their forces, gravity and what the turning of the frame adds.
+/// Nodes of deformable materials are accelerated by their forces, gravity and what the turning of the frame adds.
 template <class Interpolator>
 runtime::TaskDeclaration accelerate_nodes(const Method<Interpolator>& method);
+
+/// Nodes of the material that is a rigid body move as it would without contact.
+template <class Interpolator>
+runtime::TaskDeclaration release_rigid_nodes(const Method<Interpolator>& method, int material);
 
 /// Of pairs whose normal comes by regression: planes are laid between their particles, and the materials face each other
 /// along the planes' normals where they touch, and nowhere else.

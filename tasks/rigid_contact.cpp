@@ -57,6 +57,27 @@ bool inside(const Method<Interpolator>& method, const runtime::Grid& grid, int g
 
 }  // namespace
 
+template <class Interpolator>
+runtime::TaskDeclaration release_rigid_nodes(const Method<Interpolator>& method, int group)
+{
+  constexpr int D = Interpolator::dimension;
+  const std::string& name = method.materials[static_cast<std::size_t>(group)].name;
+  return runtime::task("release rigid nodes: " + name)
+      .over_patches_and_groups({group})
+      .sparse()
+      .reads(node::sums<D>.halo(1))
+      .computes(node::motion<D>.halo(1))
+      .body([&method](const TaskContext& at, GridView<const NodeSums<D>> sums, GridView<NodeMotion<D>> motion) {
+        const RigidBody& body = *method.rigid_body(at.group);
+        const components::RigidMotion free = components::motion_of(body.properties, body.free);
+        for_each(motion.box(), [&](const Index& i) {
+          motion[i] = {};
+          if (!(sums[i].mass() > 0)) return;
+          motion[i].set(free.at(in_space<D>(place_of<D>(at.layout.grid(), i))).template head<D>(), Vector<D>::Zero());
+        });
+      });
+}
+
 /// All nodes of a rigid body share its six degrees of freedom, so its contact is gathered from all patches before any
 /// of them can say how fast it moves.
 template <class Interpolator>
@@ -147,6 +168,8 @@ runtime::TaskDeclaration move_rigid_body(const Method<Interpolator>& method, int
       });
 }
 
+template runtime::TaskDeclaration release_rigid_nodes(const Method<components::Gimp<2>>&, int);
+template runtime::TaskDeclaration release_rigid_nodes(const Method<components::Gimp<3>>&, int);
 template runtime::TaskDeclaration gather_rigid_contact(const Method<components::Gimp<2>>&);
 template runtime::TaskDeclaration gather_rigid_contact(const Method<components::Gimp<3>>&);
 template runtime::TaskDeclaration move_rigid_nodes(const Method<components::Gimp<2>>&);

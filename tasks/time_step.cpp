@@ -12,7 +12,8 @@ std::vector<runtime::TaskDeclaration> time_step(const Method<Interpolator>& meth
 {
   std::vector<runtime::TaskDeclaration> step;
   step.push_back(particles_to_grid(method));
-  step.push_back(accelerate_nodes(method));
+  if (!method.deformable_groups.empty()) step.push_back(accelerate_nodes(method));
+  for (const RigidBody& body : method.rigid_bodies) step.push_back(release_rigid_nodes(method, body.group));
   if (method.contacts.has_regression()) {
     for (runtime::TaskDeclaration& phase : part_materials(method)) step.push_back(std::move(phase));
   }

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <algorithm>
-#include <cmath>
 #include <cstddef>
 #include <span>
 
@@ -105,24 +104,24 @@ ParticleMotion<D> grid_to_particle(const Interpolator& interpolator, const GridB
 /// h^2 m_p sum |grad S_ip|^2 / m_i, a pure number: how stiff a particle makes its nodes by itself, and so how fast they
 /// can shake, in units of its modulus over density and h^2. Particles smaller than half a cell count with as many of
 /// their like as lie side by side across half a cell, as one layer of them moves as one. Inside of a body it is below
-/// 1, at an edge about 5, and up to 9 an axis where a particle has its nodes to itself. Nodes of up to
-/// `least_node_mass` [kg] do not count.
+/// 1, at an edge about 5, and up to 9 an axis where a particle has its nodes to itself. `inverse_mass` of nodes is in
+/// 1/kg, 0 at those that do not count.
 template <class Interpolator, int D = Interpolator::dimension>
 double own_stiffness(const Interpolator& interpolator, const GridBlock<D>& block, const Vector<D>& x, double mass,
-                     double least_node_mass, const NodeSums<D>* sums)
+                     const double* inverse_mass)
 {
   double sum = 0;
   const auto stencil = interpolator.at(block, x);
   for_each_row<D>(block, stencil, [&](const StencilRow<D>& row) {
     const double across = row.across * row.across, slope_across = row.slope_across.squaredNorm();
     for (std::size_t i = 0; i < Interpolator::support; ++i) {
-      const double node_mass = sums[row.first + static_cast<std::ptrdiff_t>(i)].mass();
-      if (!(node_mass > least_node_mass)) continue;
       const double weight = stencil.weight[0][i], slope = stencil.slope[0][i];
-      sum += (slope * slope * across + weight * weight * slope_across) / node_mass;
+      sum += (slope * slope * across + weight * weight * slope_across) *
+             inverse_mass[row.first + static_cast<std::ptrdiff_t>(i)];
     }
   });
-  const double n_alike = std::pow(std::max(1.0, 0.25 / interpolator.half_size()), D - 1);
+  const double across_half_cell = std::max(1.0, 0.25 / interpolator.half_size());
+  const double n_alike = D == 2 ? across_half_cell : across_half_cell * across_half_cell;
   return n_alike * block.cell_size * block.cell_size * mass * sum;
 }
 
