@@ -7,6 +7,7 @@
 #include "components/rigid/rigid_body.hpp"
 #include "components/rigid/rigid_contact.hpp"
 #include "runtime/data/views.hpp"
+#include "runtime/grid/patch_layout.hpp"
 
 namespace tamp::tasks
 {
@@ -54,6 +55,19 @@ struct RigidCouplings {
 /// centred at `time`. Both act on the whole of the body, so that they turn it too where they differ across it.
 components::RigidState accelerated(const RigidBody& body, const Eigen::Vector3d& gravity,
                                    const std::optional<components::RotatingFrame>& frame, double time, double kick);
+
+/// Do the nodes that a particle at `x` reaches lie within the grid, whose edges nothing is known to hold? `half_size`
+/// is half its edge in cells.
+template <int D>
+bool is_off_edges(const runtime::Grid& grid, double half_size, const Vector<D>& x)
+{
+  const double reach = (1 + half_size) * grid.cell_size;
+  for (int k = 0; k < D; ++k) {
+    if (x[k] < grid.coordinate(k, 0) + reach) return false;
+    if (x[k] > grid.coordinate(k, grid.n_cells[static_cast<std::size_t>(k)]) - reach) return false;
+  }
+  return true;
+}
 
 /// The body at the end of a step of length `dt` in which contact gave it `impulse`. Throws SimulationError for one that
 /// spins too fast to be followed.

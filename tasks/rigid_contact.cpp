@@ -43,18 +43,6 @@ void add_node(const Method<Interpolator>& method, const RigidBody& body, const N
   }
 }
 
-/// Do the nodes that a particle at `x` reaches lie within the domain?
-template <class Interpolator, int D = Interpolator::dimension>
-bool inside(const Method<Interpolator>& method, const runtime::Grid& grid, int group, const Vector<D>& x)
-{
-  const double reach = (1 + method.interpolator(group).half_size()) * grid.cell_size;
-  for (int k = 0; k < D; ++k) {
-    if (x[k] < grid.coordinate(k, 0) + reach) return false;
-    if (x[k] > grid.coordinate(k, grid.n_cells[static_cast<std::size_t>(k)]) - reach) return false;
-  }
-  return true;
-}
-
 }  // namespace
 
 template <class Interpolator>
@@ -157,7 +145,7 @@ runtime::TaskDeclaration move_rigid_body(const Method<Interpolator>& method, int
           volume[p] = old_volume[p];
           stress[p].setZero();
           viscous_pressure[p] = 0;
-          if (!inside(method, at.layout.grid(), at.group, position[p])) {
+          if (!is_off_edges<D>(at.layout.grid(), method.interpolator(at.group).half_size(), position[p])) {
             throw SimulationError("a rigid body reaches the edge of the domain, where nothing is known to hold it",
                                   method.materials[static_cast<std::size_t>(at.group)].name, id[p],
                                   {position[p].begin(), position[p].end()});

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <string>
 
@@ -157,15 +158,19 @@ void RunHistory::add_body(std::size_t body, const std::vector<Eigen::Vector3d>& 
   const tasks::SceneBody& given = simulation_.scene().bodies[body];
   const tasks::BodySums& sums = report_.bodies[body];
   const auto add = [&](const Eigen::Vector3d& v) { row.insert(row.end(), v.data(), v.data() + dimension); };
+  const auto first = static_cast<std::ptrdiff_t>(row.size());
   row.push_back(depth(body));
   add(sums.momentum / sums.mass);
   row.push_back(sums.tilt(dimension) * 180 / std::numbers::pi);
   if (dimension == 3) add(sums.spin());
   add(forces[static_cast<std::size_t>(given.material)]);
-  if (!given.axis) return;
-  add(sums.place_of(Eigen::Vector3d(given.axis->nose.data())));
-  add(sums.place_of(Eigen::Vector3d(given.axis->tail.data())));
-  row.push_back(axis_angle(body));
+  if (given.axis) {
+    add(sums.place_of(Eigen::Vector3d(given.axis->nose.data())));
+    add(sums.place_of(Eigen::Vector3d(given.axis->tail.data())));
+    row.push_back(axis_angle(body));
+  }
+  // Nothing is known of a body that has left; the sign of what is not a number would be chance.
+  if (sums.mass == 0) std::fill(row.begin() + first, row.end(), std::numeric_limits<double>::quiet_NaN());
 }
 
 void RunHistory::add_peaks(std::size_t material, const tasks::MaterialPeaks& peaks, std::vector<double>& row) const

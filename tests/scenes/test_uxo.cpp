@@ -163,6 +163,9 @@ TEST_CASE("ejecta that leave through the open top are counted with their mass an
   }
   CHECK(some_left);
   CHECK(rows.back().at("lost[particles]") == 256);
+  // Nothing is known of a body that has left.
+  CHECK(std::isnan(rows.back().at("block.velocity_z[m/s]")));
+  CHECK(test::read_text(options.folder / "history.csv").find("-nan") == std::string::npos);
 }
 
 }  // namespace tamp::tools

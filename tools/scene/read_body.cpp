@@ -1,14 +1,12 @@
 #include "tools/scene/read_body.hpp"
 
 #include <fmt/core.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 
 #include "components/errors.hpp"
-#include "components/geometry/fill.hpp"
-#include "tasks/method.hpp"
 #include "tasks/settled_sand.hpp"
+#include "tools/scene/body_sites.hpp"
 #include "tools/scene/read_solid.hpp"
 
 namespace tamp::tools
@@ -22,24 +20,6 @@ Vector<D> point(JsonReader& reader, const std::string& key)
 {
   const std::vector<double> numbers = reader.numbers(key, D, any_number);
   return Eigen::Map<const Vector<D>>(numbers.data());
-}
-
-template <int D>
-std::string text(const Vector<D>& v)
-{
-  return fmt::format("[{}]", fmt::join(v.data(), v.data() + D, ", "));
-}
-
-template <int D>
-std::vector<Vector<D>> sites(const components::Solid<D>& solid, const tasks::Scene& scene, int material)
-{
-  components::ParticleLattice<D> lattice;
-  lattice.origin = Eigen::Map<const Vector<D>>(scene.grid.lower.data());
-  lattice.cell_size = scene.grid.cell_size;
-  lattice.n_per_axis = scene.particles_per_axis_of(material);
-  components::CellRange<D> cells{};
-  std::copy_n(scene.grid.n_cells.begin(), D, cells.upper.begin());
-  return components::fill(solid, lattice, cells);
 }
 
 /// Does the solid keep within the grid? Lengths that are equal but for rounding are equal.
@@ -103,7 +83,7 @@ void check_settled(const tasks::Scene& scene, const tasks::SceneBody& body, cons
   }
   try {
     const tasks::SettledSand<D> settled(scene, body);
-    for (const Vector<D>& x : sites(std::get<components::Solid<D>>(body.solid), scene, body.material)) settled.at(x);
+    for (const Vector<D>& x : sites<D>(scene, body)) settled.at(x);
   } catch (const components::BadValue& bad) {
     reader.add_problem("initial_stress", bad.found, "expected " + bad.expected);
   }
@@ -153,27 +133,6 @@ std::optional<tasks::SceneBody> read(const std::string& name, JsonReader& reader
   return body;
 }
 
-/// The first particle of one body that lies in the solid of another.
-template <int D>
-std::optional<Vector<D>> first_within(const tasks::Scene& scene, const tasks::SceneBody& body,
-                                      const tasks::SceneBody& other)
-{
-  const auto& solid = std::get<components::Solid<D>>(other.solid);
-  for (const Vector<D>& site : sites(std::get<components::Solid<D>>(body.solid), scene, body.material)) {
-    if (solid.contains(site)) return site;
-  }
-  return std::nullopt;
-}
-
-/// A place that both bodies take. Either may have the finer particles.
-template <int D>
-std::string overlap(const tasks::Scene& scene, const tasks::SceneBody& body, const tasks::SceneBody& other)
-{
-  auto place = first_within<D>(scene, body, other);
-  if (!place) place = first_within<D>(scene, other, body);
-  return place ? text<D>(*place) : "";
-}
-
 }  // namespace
 
 std::optional<tasks::SceneBody> read_body(const std::string& name, JsonReader reader, const tasks::Scene& scene,
@@ -181,32 +140,6 @@ std::optional<tasks::SceneBody> read_body(const std::string& name, JsonReader re
 {
   return scene.grid.dimension == 2 ? read<2>(name, reader, scene, material_names, grid_is_good)
                                    : read<3>(name, reader, scene, material_names, grid_is_good);
-}
-
-void check_rigid_bodies(const tasks::Scene& scene, const JsonReader& bodies)
-{
-  for (const tasks::SceneBody& body : scene.bodies) {
-    if (!body.rigid) continue;
-    for (const tasks::SceneBody& other : scene.bodies) {
-      if (&other == &body || other.material != body.material) continue;
-      bodies.add_problem(body.name, fmt::format("rigid, but of one material with body \"{}\"", other.name),
-                         "expected a material of its own");
-    }
-  }
-}
-
-void check_no_overlap(const tasks::Scene& scene, const JsonReader& bodies)
-{
-  for (std::size_t i = 1; i < scene.bodies.size(); ++i) {
-    for (std::size_t j = 0; j < i; ++j) {
-      const tasks::SceneBody &body = scene.bodies[i], &other = scene.bodies[j];
-      const std::string place =
-          scene.grid.dimension == 2 ? overlap<2>(scene, body, other) : overlap<3>(scene, body, other);
-      if (place.empty()) continue;
-      bodies.add_problem(body.name, fmt::format("overlaps body \"{}\", at {}", other.name, place),
-                         "expected bodies that share no particle");
-    }
-  }
 }
 
 }  // namespace tamp::tools

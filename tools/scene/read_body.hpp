@@ -15,10 +15,4 @@ namespace tamp::tools
 std::optional<tasks::SceneBody> read_body(const std::string& name, JsonReader reader, const tasks::Scene& scene,
                                           const std::vector<std::string>& material_names, bool grid_is_good);
 
-/// Adds a problem for each rigid body whose material is another body's too: contact is between materials.
-void check_rigid_bodies(const tasks::Scene& scene, const JsonReader& bodies);
-
-/// Adds a problem for each pair of bodies of which one would have a particle inside of the other.
-void check_no_overlap(const tasks::Scene& scene, const JsonReader& bodies);
-
 }  // namespace tamp::tools

@@ -179,17 +179,49 @@ TEST_CASE("settled sand that moves or is rigid is told")
         "--set#/bodies/block/initial_stress: a rigid body, which has no stress; expected one that is not rigid");
 }
 
-TEST_CASE("a rigid body of one particle, or one that shares its material, is told")
+TEST_CASE("rigid bodies whose contact nothing could tell are told")
 {
-  const std::vector<std::string> rigid{"/bodies/block/rigid=true"};
-  CHECK(problems_with(rigid) == "");
-  CHECK(problems_with({"/bodies/block/rigid=true", "/particles_per_cell=[1,1]"}) ==
-        "--set#/bodies/block/rigid: a rigid body of one particle; expected two or more, so that it has an orientation");
+  const std::string body = R"({"material":"steel","rigid":true,"geometry":{"type":"box",)";
+  std::vector<std::string> scene{"/grid/upper=[9,9]", "/bodies/block=" + body + R"("lower":[2,2],"upper":[3,3]}})"};
+  const auto problems = [&](const std::string& assignment) {
+    scene.push_back(assignment);
+    return problems_with(scene);
+  };
+  CHECK(problems_with(scene) == "");
 
-  const std::string other = R"({"material":"steel","geometry":{"type":"box","lower":[1,1],"upper":[2,2]}})";
-  CHECK_THAT(problems_with({"/bodies/block/rigid=true", "/bodies/other=" + other}),
-             Catch::Contains("#/bodies/block: rigid, but of one material with body \"other\"; expected a material of "
-                             "its own"));
+  SECTION("of one particle")
+  {
+    CHECK(
+        problems("/particles_per_cell=[1,1]") ==
+        "--set#/bodies/block/rigid: a rigid body of one particle; expected two or more, so that it has an orientation");
+  }
+  SECTION("of another's material")
+  {
+    CHECK_THAT(problems("/bodies/other=" + body + R"("lower":[6,6],"upper":[7,7]}})"),
+               Catch::Contains("#/bodies/block: rigid, but of one material with body \"other\"; expected a material of "
+                               "its own"));
+  }
+  SECTION("at an edge")
+  {
+    CHECK(problems("/bodies/block/geometry/lower=[0,2]") ==
+          "--set#/bodies/block: rigid, and less than a cell from the edge of the grid; expected all nodes that it "
+          "reaches "
+          "to lie within the grid");
+  }
+  SECTION("beside another")
+  {
+    scene.push_back(R"(/materials/iron={"type":"hypoelastic","density":8000,"bulk_modulus":10e9,"shear_modulus":7e9})");
+    const auto other = [&](int lower) {
+      const std::string left = std::to_string(lower), right = std::to_string(lower + 1);
+      return "/bodies/other=" + body + R"("lower":[)" + left + R"(,2],"upper":[)" + right + R"(,3]}})";
+    };
+    scene.push_back(other(3));
+    CHECK_THAT(
+        problems(R"(/bodies/other/material="iron")"),
+        Catch::Contains("so near to the rigid body \"block\" that they meet; expected one of them to be deformable"));
+    scene.push_back(other(4));
+    CHECK(problems(R"(/bodies/other/material="iron")") == "");
+  }
 }
 
 TEST_CASE("what a rigid body is given of a wrong type is told with what was found")
