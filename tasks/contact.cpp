@@ -6,6 +6,7 @@
 #include "tasks/contact_nodes.hpp"
 #include "tasks/labels.hpp"
 #include "tasks/phases.hpp"
+#include "tasks/walls.hpp"
 
 namespace tamp::tasks
 {
@@ -93,7 +94,7 @@ runtime::TaskDeclaration contact(const Method<Interpolator>& method)
                       const PerGroup<GridView<NodeMotion<D>>>& motions, StepTotals& totals, ContactImpulses& impulses) {
         const std::size_t n_groups = sums.size();
         const components::ContactThresholds thresholds = contact_thresholds(method);
-        const runtime::IndexBox owned = at.layout.owned_nodes(at.patch);
+        const runtime::IndexBox counted = counted_nodes(method, at);
         NodeOfGroups<D> node;
         for_each(sums[0].box(), [&](const Index& i) {
           if (node.gather(method, sums, motions, i) < 2) return;
@@ -108,7 +109,7 @@ runtime::TaskDeclaration contact(const Method<Interpolator>& method)
           const Vector<D> x = place_of<D>(at.layout.grid(), i);
           const NodeImpulses<D> done = give_back(method, node, rigid, sums, motions, i, x);
           // Nodes on a seam are worked on by every patch around it, and counted by one.
-          if (!owned.contains(i)) return;
+          if (!counted.contains(i)) return;
           totals.contact += done.energy;
           add_impulses(method, node, done, x, impulses);
           if (method.time_step_rule == StepRule::viscous) {

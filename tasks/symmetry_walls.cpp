@@ -22,7 +22,7 @@ template <class Interpolator, int D = Interpolator::dimension>
 void add_impulse(const Method<Interpolator>& method, const TaskContext& at, const GridView<const NodeSums<D>>& sums,
                  const GridView<NodeMotion<D>>& motion, GridImpulse& impulse)
 {
-  for_each(at.layout.owned_nodes(at.patch), [&](const Index& i) {
+  for_each(counted_nodes(method, at), [&](const Index& i) {
     const Vector<D> change = motion[i].velocity_change();
     for (std::size_t k = 0; k < std::size_t{D}; ++k) {
       double mass = sums[i].mass();

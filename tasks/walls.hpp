@@ -27,4 +27,17 @@ void for_each_wall(const Method<Interpolator>& method, const runtime::TaskContex
   }
 }
 
+/// The nodes that this patch counts in sums over all: its own, and those beyond an open face that particles still
+/// reach.
+template <class Interpolator>
+runtime::IndexBox counted_nodes(const Method<Interpolator>& method, const runtime::TaskContext& at)
+{
+  runtime::IndexBox nodes = at.layout.owned_nodes(at.patch);
+  for (std::size_t k = 0; k < Interpolator::dimension; ++k) {
+    if (!method.mirrors[k][0] && at.patch.cells.lower[k] == 0) --nodes.lower[k];
+    if (!method.mirrors[k][1] && at.patch.cells.upper[k] == at.layout.grid().n_cells[k]) ++nodes.upper[k];
+  }
+  return nodes;
+}
+
 }  // namespace tamp::tasks

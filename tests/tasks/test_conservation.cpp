@@ -81,6 +81,25 @@ TEST_CASE("what walls and gravity give is what the particles have gained")
   CHECK(simulation->report().materials[0].plastic_volumetric > 0.01);
 }
 
+TEST_CASE("what falls out of the domain takes just the momentum that gravity gave it")
+{
+  Scene scene = empty_scene(2, {12, 12, 1}, 0.1);
+  scene.n_patches = {2, 2, 1};
+  scene.gravity = {1, -10, 0};
+  const int soft = add_elastic(scene, 1000, 1e5, 0.3);
+  add_box(scene, soft, {0.3, 0.2, 0}, {0.9, 0.6, 0}, {1, -1, 0}).angular_velocity = {0, 0, 5};
+  const auto simulation = Simulation::make(scene, 2);
+  const Eigen::Vector3d before = simulation->report().momentum();
+
+  advance_to(*simulation, 0.2);
+
+  REQUIRE(simulation->lost().count > 0);
+  REQUIRE(simulation->report().bodies[0].mass > 0);
+  const Eigen::Vector3d gained = simulation->report().momentum() + simulation->lost().momentum - before;
+  const Eigen::Vector3d given = Eigen::Map<const Eigen::Vector3d>(simulation->impulse().value.data());
+  CHECK((gained - given).norm() < 1e-12 * before.norm());
+}
+
 TEST_CASE("a run is the same, bit by bit, on any number of threads")
 {
   const auto digest = [](int n_threads) {
