@@ -3,8 +3,8 @@
 
     tools/studies/projectile_pictures.py runs/table --out docs/projectile.png
 
-Draws the middle 5 mm of the box with tools/picture.py, so it needs a display (or Xvfb) and Debian's python3-paraview and
-python3-matplotlib."""
+Draws the middle 5 mm of the box with tools/picture.py, so it needs a display (or Xvfb -noreset) and Debian's
+python3-paraview and python3-matplotlib."""
 
 import argparse
 import pathlib
@@ -14,6 +14,7 @@ import tempfile
 import matplotlib
 matplotlib.use("Agg")
 from matplotlib import pyplot
+from PIL import Image
 
 import ranks
 
@@ -55,6 +56,7 @@ def main():
     for panel, field in zip(panels[0], FIELDS):
         panel.set_title(TITLES[field], fontsize=9)
     figure.savefig(options.out, dpi=110)
+    Image.open(options.out).convert("RGB").quantize(64).save(options.out, optimize=True)
 
 
 if __name__ == "__main__":
