@@ -21,8 +21,8 @@ runtime::TaskDeclaration accelerate_nodes(const Method<Interpolator>& method);
 template <class Interpolator>
 runtime::TaskDeclaration release_rigid_nodes(const Method<Interpolator>& method, int material);
 
-/// Of pairs whose normal comes by regression: planes are laid between their particles, and the materials face each other
-/// along the planes' normals where they touch, and nowhere else.
+/// Of pairs whose normal comes by regression: planes are laid between their particles, and the materials face each
+/// other along the planes' normals where they touch, and nowhere else.
 template <class Interpolator>
 std::vector<runtime::TaskDeclaration> part_materials(const Method<Interpolator>& method);
 

@@ -21,7 +21,8 @@ struct NodeContact {
 
 /// `free` is the velocity that the body would have at the node without contact. It tells whether they approach, and
 /// whether friction can hold them together; C is zero if they part. That is not asked again when the body's motion is
-/// known: a node from which contact turns the body away still counts for it, and one that it is turned towards does not.
+/// known: a node from which contact turns the body away still counts for it, and one that it is turned towards does
+/// not.
 NodeContact node_contact(double mass, const Vector3& normal, double friction, const Vector3& free,
                          const Vector3& velocity);
 

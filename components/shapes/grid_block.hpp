@@ -26,8 +26,9 @@ struct GridBlock {
     Vector<D> cells;
     for (int k = D - 1; k >= 0; --k) {
       const std::ptrdiff_t stride = strides[static_cast<std::size_t>(k)];
-      cells[k] = static_cast<double>(node / stride);
-      node %= stride;
+      const std::ptrdiff_t whole = node / stride;
+      cells[k] = static_cast<double>(whole);
+      node -= whole * stride;
     }
     return cells;
   }
