@@ -72,17 +72,17 @@ TEST_CASE("the projectile's history follows nose, tail and angle, and the sand n
   const test::TemporaryFolder folder;
   RunOptions options;
   options.folder = folder.path() / "run";
-  options.max_steps = 14;
+  options.max_steps = 12;
   options.n_threads = 2;
   options.quiet = true;
 
   run(read_scene(shipped("quick.json"), small), options);
 
   const auto rows = test::history_of(options.folder / "history.csv");
-  REQUIRE(rows.size() == 15);
+  REQUIRE(rows.size() == 13);
   CHECK(rows[0].at("projectile.axis_angle[deg]") == Approx(45).margin(1e-9));
   CHECK(rows[0].at("projectile.depth[m]") == 0);
-  double most_compacted = 0, pushed_back = 0;
+  double most_compacted = 0;
   for (std::size_t i = 0; i < rows.size(); ++i) {
     const test::HistoryRow& row = rows[i];
     const Eigen::Vector3d axis = place(row, "projectile.nose") - place(row, "projectile.tail");
@@ -95,16 +95,15 @@ TEST_CASE("the projectile's history follows nose, tail and angle, and the sand n
     REQUIRE(row.at("sand.near_nose.plastic_volumetric_min[-]") >= row.at("sand.plastic_volumetric_min[-]"));
     most_compacted = std::max(most_compacted, row.at("sand.near_nose.plastic_volumetric_max[-]"));
     if (i == 0) continue;
-    // The sand never pulls it down.
-    REQUIRE(row.at("projectile.contact_force_z[N]") >= 0);
-    pushed_back = std::min(pushed_back, row.at("projectile.contact_force_x[N]"));
+    // The sand pushes it back and up, and it slows down.
+    REQUIRE(row.at("projectile.contact_force_x[N]") < 0);
+    REQUIRE(row.at("projectile.contact_force_z[N]") > 0);
+    REQUIRE(row.at("projectile.velocity_x[m/s]") < rows[i - 1].at("projectile.velocity_x[m/s]"));
     const double advance = row.at("projectile.depth[m]") - rows[i - 1].at("projectile.depth[m]");
     REQUIRE(advance > 0);
-    REQUIRE(advance < 283.01 * row.at("dt[s]"));
+    REQUIRE(advance < 283 * row.at("dt[s]"));
   }
   CHECK(most_compacted > 0.01);
-  CHECK(pushed_back < -1000);
-  CHECK(rows.back().at("projectile.velocity_x[m/s]") < 0.95 * rows.front().at("projectile.velocity_x[m/s]"));
   CHECK(rows.back().at("lost[particles]") == 0);
 }
 
