@@ -26,12 +26,9 @@ if(TAMP_SANITIZE)
   target_link_options(tamp_options INTERFACE -fsanitize=${TAMP_SANITIZE})
 endif()
 if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)
-  # gcc 12 sees overlapping copies in its own std::string (gcc bug 105651).
-  target_compile_options(tamp_options INTERFACE -Wno-restrict)
-endif()
-if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND TAMP_SANITIZE)
-  # With sanitizers on, gcc 12 warns of objects inside inlined library code that are set on every path.
-  target_compile_options(tamp_options INTERFACE -Wno-maybe-uninitialized)
+  # gcc 12 sees overlapping copies in its own std::string (gcc bug 105651), and unset values in its own AVX-512 intrinsics
+  # (gcc bug 105593) and, with sanitizers on, in inlined library code.
+  target_compile_options(tamp_options INTERFACE -Wno-restrict -Wno-uninitialized -Wno-maybe-uninitialized)
 endif()
 
 # tamp_library(ROOM [SOURCE_LEFT_OUT...]): the library tamp_ROOM of every source below the current folder.
