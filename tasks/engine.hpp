@@ -27,9 +27,9 @@ class Engine
          const runtime::PatchLayout& dealt, const runtime::Communicator& communicator, int n_workers,
          std::function<bool(const StepTotals&)> accepted)
       : layout(dealt),
-        step_graph(time_step(method, std::move(accepted)), layout, material_names, host_data<Interpolator>()),
+        step_graph(time_step(method, std::move(accepted)), layout, material_names, host_data(method)),
         report_graph(report_tasks(method), layout, material_names,
-                     {host_data<Interpolator>().state, {&particle_report, &nose_report}}),
+                     {host_data(method).state, {&particle_report, &nose_report}}),
         warehouse(std::array<const runtime::TaskGraph*, 2>{&step_graph, &report_graph}, communicator.rank()),
         step(step_graph, warehouse, communicator),
         report(report_graph, warehouse, communicator),

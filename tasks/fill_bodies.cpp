@@ -153,6 +153,10 @@ void BodyParticles<D>::store(const Particles& particles, int patch, int material
     state(particle::position<D>)[p] = particles.position[p];
     state(particle::reference_position<D>)[p] = particles.position[p];
     state(particle::velocity<D>)[p] = initial_velocity(static_cast<int>(number), particles.position[p]);
+    if (scene_.transfer == Transfer::affine) {
+      const Eigen::Vector3d spin(scene_.bodies[number].angular_velocity.data());
+      state(particle::velocity_gradient<D>)[p] = cross_matrix(spin).template topLeftCorner<D, D>();
+    }
     state(particle::deformation_gradient<D>)[p] = Matrix<D>::Identity();
     state(particle::volume)[p] = volume;
     state(particle::mass)[p] = density * volume;

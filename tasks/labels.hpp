@@ -32,6 +32,9 @@ inline const runtime::ParticleLabel<Vector<D>> position{"position"};
 /// At the middle of the step that led here: half a step behind the position (leapfrog).
 template <int D>
 inline const runtime::ParticleLabel<Vector<D>> velocity{"velocity"};
+/// Of the step that led here, at its middle [1/s]; row: component of velocity. Where the transfer is affine.
+template <int D>
+inline const runtime::ParticleLabel<Matrix<D>> velocity_gradient{"velocity gradient"};
 template <int D>
 inline const runtime::ParticleLabel<Matrix<D>> deformation_gradient{"deformation gradient"};
 inline const runtime::ParticleLabel<double> volume{"volume"};

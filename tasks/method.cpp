@@ -29,6 +29,7 @@ double least_particle_mass(const Scene& scene)
 template <class Interpolator>
 Method<Interpolator>::Method(const Scene& given)
     : scene(given),
+      transfer(scene.transfer),
       cell_size(scene.grid.cell_size),
       least_node_mass(least_weight * least_particle_mass(scene)),
       gravity(vector_of<dimension>(scene.gravity)),

@@ -33,6 +33,10 @@ enum class StepRule { published, viscous };
 
 enum class Interpolator { gimp };
 
+/// How velocities go between particles and grid. `flip`: particles bring theirs, and take the nodes' changes of them.
+/// `affine`: they bring the velocities' gradient too, which they took from the grid in the step before.
+enum class Transfer { flip, affine };
+
 struct SceneTime {
   double end;
   StepRule rule = StepRule::viscous;
@@ -111,6 +115,7 @@ struct Scene {
   std::array<std::array<Face, 2>, 3> faces{};
   SceneTime time;
   Interpolator interpolator = Interpolator::gimp;
+  Transfer transfer = Transfer::flip;
   /// Along each axis of a cell.
   int particles_per_axis = 2;
   Triple gravity{0, 0, 0};

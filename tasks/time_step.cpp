@@ -31,20 +31,22 @@ std::vector<runtime::TaskDeclaration> time_step(const Method<Interpolator>& meth
 }
 
 template <class Interpolator>
-runtime::HostData host_data()
+runtime::HostData host_data(const Method<Interpolator>& method)
 {
   constexpr int D = Interpolator::dimension;
-  return {{&particle::id, &particle::body, &particle::reference_position<D>, &particle::mass, &particle::position<D>,
-           &particle::velocity<D>, &particle::deformation_gradient<D>, &particle::volume, &particle::stress<D>,
-           &particle::viscous_pressure, &particle::cap_state},
-          {&step_totals, &grid_impulse, &contact_impulses}};
+  runtime::HostData data{{&particle::id, &particle::body, &particle::reference_position<D>, &particle::mass,
+                          &particle::position<D>, &particle::velocity<D>, &particle::deformation_gradient<D>,
+                          &particle::volume, &particle::stress<D>, &particle::viscous_pressure, &particle::cap_state},
+                         {&step_totals, &grid_impulse, &contact_impulses}};
+  if (method.transfer == Transfer::affine) data.state.push_back(&particle::velocity_gradient<D>);
+  return data;
 }
 
 template std::vector<runtime::TaskDeclaration> time_step(const Method<components::Gimp<2>>&,
                                                          std::function<bool(const StepTotals&)>);
 template std::vector<runtime::TaskDeclaration> time_step(const Method<components::Gimp<3>>&,
                                                          std::function<bool(const StepTotals&)>);
-template runtime::HostData host_data<components::Gimp<2>>();
-template runtime::HostData host_data<components::Gimp<3>>();
+template runtime::HostData host_data(const Method<components::Gimp<2>>&);
+template runtime::HostData host_data(const Method<components::Gimp<3>>&);
 
 }  // namespace tamp::tasks

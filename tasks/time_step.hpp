@@ -18,6 +18,6 @@ std::vector<runtime::TaskDeclaration> time_step(const Method<Interpolator>& meth
 
 /// The particle data that last from step to step, and the results that the host takes.
 template <class Interpolator>
-runtime::HostData host_data();
+runtime::HostData host_data(const Method<Interpolator>& method);
 
 }  // namespace tamp::tasks

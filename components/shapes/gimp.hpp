@@ -21,6 +21,22 @@ struct Stencil {
   std::array<std::array<double, Support>, D> slope;
 };
 
+/// The same with the weights' first moments about the particle, w[k][i] (x_i - x)_k [m], in place of their slopes. As
+/// weights reproduce linear functions, the particle is at the mean of its nodes.
+template <int D, int Support>
+Stencil<D, Support> with_moments(Stencil<D, Support> stencil, double cell_size)
+{
+  for (std::size_t k = 0; k < D; ++k) {
+    const auto& w = stencil.weight[k];
+    double place = 0;  // in cells from the first node
+    for (std::size_t i = 1; i < Support; ++i) place += static_cast<double>(i) * w[i];
+    for (std::size_t i = 0; i < Support; ++i) {
+      stencil.slope[k][i] = w[i] * (static_cast<double>(i) - place) * cell_size;
+    }
+  }
+  return stencil;
+}
+
 /// Generalised interpolation of particles of constant size: linear functions averaged over the particle's box
 /// (Bardenhagen & Kober 2004; PAR-10021867-092020-6, eq. 22 and 44). 3 nodes an axis: 9 in the plane, 27 in space.
 template <int D>

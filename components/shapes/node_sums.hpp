@@ -20,6 +20,7 @@ struct NodeSums {
   double mass() const { return values[0]; }
   /// sum m_p v_p S_ip [kg m/s]
   Vector<D> momentum() const { return values.template segment<D>(1).matrix(); }
+  void add_momentum(const Vector<D>& momentum) { values.template segment<D>(1) += momentum.array(); }
   /// -sum V_p (sigma_p - q_p I) . grad S_ip [N]
   Vector<D> internal_force() const { return values.template segment<D>(1 + D).matrix(); }
   /// sum V_p grad S_ip [m^(D-1)]: points out of the material at its surface, vanishes within.

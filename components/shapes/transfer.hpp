@@ -61,6 +61,31 @@ void particles_to_grid(const Interpolator& interpolator, const GridBlock<D>& blo
   }
 }
 
+/// Adds to the momenta of nodes what the particles' velocity gradients tell of the velocities there,
+/// m_p S_ip grad v_p (x_i - x_p), row of grad v: component of velocity (Wallstedt & Guilkey, CMES 19, 2007). A rigid
+/// motion then comes to the grid as it is, where without it nodes at a surface get the velocity of the matter that they
+/// reach, which lies to one side of them. The sums over the nodes are zero: momentum stays what it is.
+template <class Interpolator, int D = Interpolator::dimension>
+void add_gradient_momentum(const Interpolator& interpolator, const GridBlock<D>& block,
+                           std::span<const Vector<D>> position, std::span<const double> mass,
+                           std::span<const Matrix<D>> velocity_gradient, NodeSums<D>* sums)
+{
+  using Momentum = Vector<D>;
+  for (std::size_t p = 0; p < position.size(); ++p) {
+    const Matrix<D> gradient = mass[p] * velocity_gradient[p];
+    const auto stencil = with_moments(interpolator.at(block, position[p]), block.cell_size);
+    for_each_row<D>(block, stencil, [&](const StencilRow<D>& row) {
+      Momentum by_weight = Momentum::Zero();
+      for (int k = 1; k < D; ++k) by_weight += row.slope_across[k - 1] * gradient.col(k);
+      const Momentum by_moment = row.across * gradient.col(0);
+      for (std::size_t i = 0; i < Interpolator::support; ++i) {
+        sums[row.first + static_cast<std::ptrdiff_t>(i)].add_momentum(stencil.weight[0][i] * by_weight +
+                                                                      stencil.slope[0][i] * by_moment);
+      }
+    });
+  }
+}
+
 /// What the grid gives back to one particle.
 template <int D>
 struct ParticleMotion {

@@ -46,7 +46,9 @@ Scene punch()
 TEST_CASE("bodies that collide in free space keep their mass and momentum")
 {
   const int dimension = GENERATE(2, 3);
-  const auto simulation = Simulation::make(collision(dimension), 2);
+  Scene scene = collision(dimension);
+  scene.transfer = GENERATE(Transfer::flip, Transfer::affine);
+  const auto simulation = Simulation::make(scene, 2);
   const ParticleReport before = simulation->report();
 
   for (int i = 0; i < 150; ++i) {
@@ -67,7 +69,9 @@ TEST_CASE("bodies that collide in free space keep their mass and momentum")
 
 TEST_CASE("what walls and gravity give is what the particles have gained")
 {
-  const auto simulation = Simulation::make(punch(), 2);
+  Scene scene = punch();
+  scene.transfer = GENERATE(Transfer::flip, Transfer::affine);
+  const auto simulation = Simulation::make(scene, 2);
   const ParticleReport before = simulation->report();
 
   for (int i = 0; i < 100; ++i) simulation->advance(1e30);

@@ -28,7 +28,9 @@ TEST_CASE("a body without forces flies on undeformed through cells and patches")
   // Seven cells along x and a backward drift of half a cell along y; faster and slower than the body's waves.
   const double speed = GENERATE(1.0, 20.0);
   const Triple velocity{speed, -0.07 * speed, 0.9 * speed};
-  const auto simulation = Simulation::make(flying_block(dimension, velocity), n_threads);
+  Scene scene = flying_block(dimension, velocity);
+  scene.transfer = GENERATE(Transfer::flip, Transfer::affine);
+  const auto simulation = Simulation::make(scene, n_threads);
   const auto before = particles_of(*simulation);
   const double mass = total_mass(simulation->report());
 

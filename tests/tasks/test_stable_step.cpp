@@ -72,12 +72,14 @@ double growth(Scene scene, double multiplier)
 TEST_CASE("free elastic bodies stay bounded up to the bound on the step, and not far beyond it")
 {
   const auto body = GENERATE(FreeBody{"block", 2, 4}, FreeBody{"block", 3, 2.5}, FreeBody{"ball", 3, 3});
-  const bool viscous = GENERATE(false, true);
-  const Scene scene = free_body(body, viscous);
-  CAPTURE(body.name, body.dimension, viscous);
+  const bool viscous = GENERATE(false, true), affine = GENERATE(false, true);
+  Scene scene = free_body(body, viscous);
+  scene.transfer = affine ? Transfer::affine : Transfer::flip;
+  CAPTURE(body.name, body.dimension, viscous, affine);
 
   CHECK(growth(scene, Scene{}.time.multiplier) < 1);
   CHECK(growth(scene, 1) < 1);
-  // Viscosity acts in half of the steps, while the material closes; the bound counts on all of them.
-  CHECK(growth(scene, viscous ? 1.8 : 1.5) > 1e3);
+  // Viscosity acts in half of the steps, while the material closes; the bound counts on all of them. Nor does it count
+  // on what velocity gradients bring back to the nodes.
+  CHECK(growth(scene, (viscous ? 1.8 : 1.5) + (affine ? 0.2 : 0)) > 1e3);
 }

@@ -18,15 +18,17 @@ namespace
 
 namespace fs = std::filesystem;
 
-/// Of the quick punch, in few steps.
+/// The quick punch, with the transfer that has particles keep most.
+const std::string scene = TAMP_SOURCE_DIR "/inputs/punch/quick.json --set /transfer=affine";
+
 std::string run_of(const fs::path& folder, const std::string& options)
 {
-  return "run " TAMP_SOURCE_DIR "/inputs/punch/quick.json --quiet --out " + folder.string() + " " + options;
+  return "run " + scene + " --quiet --out " + folder.string() + " " + options;
 }
 
 std::string restart_of(const fs::path& folder, const std::string& options)
 {
-  return "run " TAMP_SOURCE_DIR "/inputs/punch/quick.json --quiet --restart " + folder.string() + " " + options;
+  return "run " + scene + " --quiet --restart " + folder.string() + " " + options;
 }
 
 nlohmann::json summary_of(const fs::path& folder)

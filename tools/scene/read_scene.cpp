@@ -37,6 +37,8 @@ class SceneReader
     read_faces();
     read_time();
     root_.choice("interpolator", {"gimp"}, true);
+    const bool affine = root_.choice("transfer", {"flip", "affine"}, true) == "affine";
+    scene_.transfer = affine ? tasks::Transfer::affine : tasks::Transfer::flip;
     read_particles_per_cell();
     read_loads();
     read_materials();

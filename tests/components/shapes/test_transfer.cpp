@@ -95,6 +95,44 @@ std::vector<NodeMotion<D>> random_motion(std::ptrdiff_t n, std::mt19937& random)
 
 }  // namespace
 
+TEMPLATE_TEST_CASE_SIG("with their velocity gradients, particles bring a linear velocity field to every node as it is",
+                       "", ((int D), D), 2, 3)
+{
+  const int n_per_axis = GENERATE(1, 2, 4);
+  const auto block = block_of_nodes<D>(5, cell_size);
+  std::mt19937 random(7);
+  Cloud<D> cloud(block, 40, random);
+  const Matrix<D> gradient =
+      100 * Matrix<D>::NullaryExpr([&] { return std::uniform_real_distribution<double>(-1, 1)(random); });
+  Vector<D> momentum = Vector<D>::Zero();
+  for (std::size_t p = 0; p < cloud.mass.size(); ++p) {
+    cloud.velocity[p] = cloud.velocity[0] + gradient * (cloud.position[p] - cloud.position[0]);
+    momentum += cloud.mass[p] * cloud.velocity[p];
+  }
+  const std::vector<Matrix<D>> gradients(cloud.mass.size(), gradient);
+  const Gimp<D> interpolator(n_per_axis);
+  std::vector<NodeSums<D>> sums(static_cast<std::size_t>(n_nodes_of(block)));
+
+  particles_to_grid(interpolator, block, cloud.sources(), sums.data());
+  double error_without = 0;
+  const auto error_at = [&](std::size_t i) {
+    const Vector<D> node = node_position(block, static_cast<std::ptrdiff_t>(i));
+    const Vector<D> expected = cloud.velocity[0] + gradient * (node - cloud.position[0]);
+    return (sums[i].momentum() / sums[i].mass() - expected).norm();
+  };
+  for (std::size_t i = 0; i < sums.size(); ++i) {
+    if (sums[i].mass() > 1e-9) error_without = std::max(error_without, error_at(i));
+  }
+  add_gradient_momentum<Gimp<D>, D>(interpolator, block, cloud.position, cloud.mass, gradients, sums.data());
+
+  CHECK(error_without > 0.1);
+  for (std::size_t i = 0; i < sums.size(); ++i) {
+    momentum -= sums[i].momentum();
+    if (sums[i].mass() > 1e-9) REQUIRE(error_at(i) < 1e-6);
+  }
+  CHECK(momentum.norm() < 1e-11);
+}
+
 TEMPLATE_TEST_CASE_SIG("particles give the grid what plain loops over all pairs give", "", ((int D), D), 2, 3)
 {
   const int n_per_axis = GENERATE(1, 2, 4);

@@ -282,6 +282,7 @@ TEST_CASE("a name that is none of the choices is told with the choices")
         "mean "
         "\"hypoelastic\"?");
   CHECK(problems_with({"/interpolator=linear"}) == "--set#/interpolator: \"linear\"; expected gimp");
+  CHECK(problems_with({"/transfer=apic"}) == "--set#/transfer: \"apic\"; expected one of flip, affine");
   CHECK(problems_with({"/boundaries/x-=wall"}) == "--set#/boundaries/x-: \"wall\"; expected one of symmetry, open");
   CHECK(problems_with({"/bodies/block/material=stel"}) ==
         "--set#/bodies/block/material: \"stel\"; expected steel, did you mean \"steel\"?");
