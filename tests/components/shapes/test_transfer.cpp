@@ -44,6 +44,7 @@ template <int D>
 std::vector<double> inverse_masses(const std::vector<NodeSums<D>>& sums)
 {
   std::vector<double> inverse;
+  inverse.reserve(sums.size());
   for (const NodeSums<D>& node : sums) inverse.push_back(node.mass() > 0 ? 1 / node.mass() : 0);
   return inverse;
 }
