@@ -61,3 +61,45 @@ TEST_CASE("a thin body turns as fast as it spins where velocities come to the gr
   CHECK(plain > 0.05);
   CHECK(std::abs(affine) < 2e-3);
 }
+
+namespace
+{
+
+/// Two turning blocks that are mirror images of each other meet at x = 0.8 m, or one of them meets a mirror at x = 0.
+Scene meeting_blocks(bool whole)
+{
+  Scene scene = empty_scene(2, {whole ? 16 : 8, 12, 1}, 0.1);
+  scene.transfer = Transfer::affine;
+  scene.time.maximum_step = 1e-4;
+  const double mirror = whole ? 0.8 : 0;
+  const int soft = add_elastic(scene, 1000, 1e6, 0.3);
+  add_box(scene, soft, {mirror + 0.1, 0.4, 0}, {mirror + 0.5, 0.7, 0}, {-4, 1, 0}).angular_velocity = {0, 0, 5};
+  if (whole) {
+    add_box(scene, soft, {mirror - 0.5, 0.4, 0}, {mirror - 0.1, 0.7, 0}, {4, 1, 0}).angular_velocity = {0, 0, -5};
+  } else {
+    scene.faces[0] = {Face::symmetry, Face::open};
+  }
+  return scene;
+}
+
+}  // namespace
+
+TEST_CASE("with velocity gradients too, a body meets a mirror as it meets its image")
+{
+  const auto whole = Simulation::make(meeting_blocks(true), 1), half = Simulation::make(meeting_blocks(false), 1);
+  const double start = whole->report().momentum()[1];
+
+  advance_to(*whole, 0.06);
+  advance_to(*half, 0.06);
+
+  const auto at_image = particles_of(*whole), at_mirror = particles_of(*half);
+  Eigen::Vector3d momentum = Eigen::Vector3d::Zero();
+  for (std::size_t p = 0; p < at_mirror.size(); ++p) {
+    momentum += at_mirror[p].velocity;
+    REQUIRE((at_image[p].position - Eigen::Vector3d(0.8, 0, 0) - at_mirror[p].position).norm() < 1e-10);
+    REQUIRE((at_image[p].velocity - at_mirror[p].velocity).norm() < 1e-8);
+  }
+  // It has bounced off.
+  CHECK(momentum[0] > 0);
+  CHECK(whole->report().momentum()[1] == Approx(start).epsilon(1e-12));
+}

@@ -2,7 +2,8 @@
 """The projectile's way into the sand on finer and finer grids, rigid and deformable, with each kind of contact normal.
 
     tools/studies/projectile_resolution.py [--tamp build/release/tamp] [--cells 5 2.5] [--normals regression projectile]
-                                           [--bodies rigid deformable] [--shear-modulus 8e9] [--end 1e-4]
+                                           [--bodies rigid deformable] [--shear-modulus 8e9] [--transfer flip]
+                                           [--end 1e-4]
 
 Runs inputs/uxo/quick.json on a part of its box that waves do not leave within 0.1 ms, or on a larger part if it is to
 go on for longer, and prints a table. Cells are in mm; each half as wide costs about 16 times as much: on one core the
@@ -36,7 +37,7 @@ def run(options, normal, body, millimetres, folder):
     given = box(options.end) | {
         "/grid/cell_size": millimetres / 1000, "/materials/projectile/particles_per_axis": per_axis,
         "/materials/projectile/shear_modulus": options.shear_modulus, "/contact/0/normal": normal,
-        "/bodies/projectile/rigid": body == "rigid", "/time/end": options.end, "/output/fields_interval": 1}
+        "/bodies/projectile/rigid": body == "rigid", "/transfer": options.transfer, "/time/end": options.end, "/output/fields_interval": 1}
     sets = [word for key, value in given.items() for word in ("--set", f"{key}={json.dumps(value)}")]
     scene = ranks.ROOT / "inputs/uxo/quick.json"
     subprocess.run([options.tamp, "run", scene, "--out", folder, "--quiet", *sets], check=True)
@@ -52,6 +53,7 @@ def main():
     parser.add_argument("--normals", nargs="+", default=["regression", "projectile", "flatter"])
     parser.add_argument("--bodies", nargs="+", default=["rigid"], choices=["rigid", "deformable"])
     parser.add_argument("--shear-modulus", type=float, default=8e9, help="of the deformable projectile [Pa]")
+    parser.add_argument("--transfer", default="flip", choices=["flip", "affine"])
     parser.add_argument("--end", type=float, default=1e-4, help="s")
     options = parser.parse_args()
     print("| normal | cells | body | steps | run | speed | nose, depth | axis below the horizontal | to contact |")
