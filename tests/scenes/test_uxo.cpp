@@ -109,7 +109,7 @@ TEST_CASE("the projectile's history follows nose, tail and angle, and the sand n
 
 TEST_CASE("every scene of the projectile has the same digest on any ranks and threads", "[ranks]")
 {
-  const std::string name = GENERATE("quick.json", "table.json", "svr.json", "mlp.json");
+  const std::string name = GENERATE("quick.json", "fine.json", "table.json", "svr.json", "mlp.json");
   std::vector<std::string> assignments = small;
   if (name == "quick.json") assignments.push_back(by_regression);
   const auto checked = read_scene(shipped(name), assignments);
