@@ -21,7 +21,7 @@ import ranks
 
 # In cells of 5 mm, so that every grid fits.
 EARLY_BOX = ([0, 0.02, 0.04], [0.1, 0.08, 0.16])
-BOX = ([0, 0.02, 0.02], [0.15, 0.08, 0.16])
+BOX = ([0, 0.02, 0.02], [0.15, 0.08, 0.18])
 SURFACE = 0.1075
 
 
