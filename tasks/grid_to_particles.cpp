@@ -21,7 +21,7 @@ constexpr std::size_t batch = 32;
 
 /// Particles keep their velocity and take the nodes' changes of it (FLIP). What deforms them is the gradient of the
 /// velocity at the middle of the step, over the shape at its middle (eqs 54-58); the old stress turns with them, and
-/// what the material answers is added by the next phase.
+/// what the material answers is added by the next phase. `velocity_gradient` is there where the transfer is affine.
 template <class Interpolator>
 runtime::TaskDeclaration grid_to_particles(const Method<Interpolator>& method)
 {

@@ -11,6 +11,7 @@ using components::SymmetryWall;
 using runtime::GridView;
 using runtime::TaskContext;
 
+/// `velocity_gradient` is there where the transfer is affine.
 template <class Interpolator>
 runtime::TaskDeclaration particles_to_grid(const Method<Interpolator>& method)
 {

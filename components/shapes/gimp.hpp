@@ -21,8 +21,8 @@ struct Stencil {
   std::array<std::array<double, Support>, D> slope;
 };
 
-/// The same with the weights' first moments about the particle, w[k][i] (x_i - x)_k [m], in place of their slopes. As
-/// weights reproduce linear functions, the particle is at the mean of its nodes.
+/// A stencil with the weights' first moments about the particle, w[k][i] (x_i - x)_k [m], in place of their slopes. As
+/// weights reproduce linear functions, the particle is at the weighted mean of its nodes.
 template <int D, int Support>
 Stencil<D, Support> with_moments(Stencil<D, Support> stencil, double cell_size)
 {

@@ -70,14 +70,13 @@ void add_gradient_momentum(const Interpolator& interpolator, const GridBlock<D>&
                            std::span<const Vector<D>> position, std::span<const double> mass,
                            std::span<const Matrix<D>> velocity_gradient, NodeSums<D>* sums)
 {
-  using Momentum = Vector<D>;
   for (std::size_t p = 0; p < position.size(); ++p) {
     const Matrix<D> gradient = mass[p] * velocity_gradient[p];
     const auto stencil = with_moments(interpolator.at(block, position[p]), block.cell_size);
     for_each_row<D>(block, stencil, [&](const StencilRow<D>& row) {
-      Momentum by_weight = Momentum::Zero();
+      Vector<D> by_weight = Vector<D>::Zero();
       for (int k = 1; k < D; ++k) by_weight += row.slope_across[k - 1] * gradient.col(k);
-      const Momentum by_moment = row.across * gradient.col(0);
+      const Vector<D> by_moment = row.across * gradient.col(0);
       for (std::size_t i = 0; i < Interpolator::support; ++i) {
         sums[row.first + static_cast<std::ptrdiff_t>(i)].add_momentum(stencil.weight[0][i] * by_weight +
                                                                       stencil.slope[0][i] * by_moment);
