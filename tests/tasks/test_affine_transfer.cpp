@@ -93,13 +93,13 @@ TEST_CASE("with velocity gradients too, a body meets a mirror as it meets its im
   advance_to(*half, 0.06);
 
   const auto at_image = particles_of(*whole), at_mirror = particles_of(*half);
-  Eigen::Vector3d momentum = Eigen::Vector3d::Zero();
+  Eigen::Vector3d velocities = Eigen::Vector3d::Zero();
   for (std::size_t p = 0; p < at_mirror.size(); ++p) {
-    momentum += at_mirror[p].velocity;
+    velocities += at_mirror[p].velocity;
     REQUIRE((at_image[p].position - Eigen::Vector3d(0.8, 0, 0) - at_mirror[p].position).norm() < 1e-10);
     REQUIRE((at_image[p].velocity - at_mirror[p].velocity).norm() < 1e-8);
   }
   // It has bounced off.
-  CHECK(momentum[0] > 0);
+  CHECK(velocities[0] > 0);
   CHECK(whole->report().momentum()[1] == Approx(start).epsilon(1e-12));
 }
