@@ -6,8 +6,13 @@ endfunction()
 
 find_program(TAMP_CCACHE ccache)
 if(TAMP_CCACHE)
-  set(CMAKE_C_COMPILER_LAUNCHER ${TAMP_CCACHE})
-  set(CMAKE_CXX_COMPILER_LAUNCHER ${TAMP_CCACHE})
+  # Precompiled headers are found again by their content.
+  set(with_ccache ${CMAKE_COMMAND} -E env CCACHE_SLOPPINESS=pch_defines,time_macros ${TAMP_CCACHE})
+  set(CMAKE_C_COMPILER_LAUNCHER ${with_ccache})
+  set(CMAKE_CXX_COMPILER_LAUNCHER ${with_ccache})
+  if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+    add_compile_options($<$<COMPILE_LANGUAGE:CXX>:-fpch-preprocess>)
+  endif()
 endif()
 
 set(THREADS_PREFER_PTHREAD_FLAG ON)
@@ -18,6 +23,14 @@ tamp_uses(oneTBB ${TBB_VERSION} "threads and concurrent containers")
 
 find_package(Eigen3 3.4 REQUIRED CONFIG)
 tamp_uses(Eigen ${Eigen3_VERSION} "small vectors and matrices")
+
+# Debian's package has no CMake file of its own.
+find_path(SLEEF_INCLUDE_DIR sleef.h REQUIRED)
+find_library(SLEEF_LIBRARY sleef REQUIRED)
+add_library(SLEEF::sleef UNKNOWN IMPORTED)
+set_target_properties(SLEEF::sleef PROPERTIES IMPORTED_LOCATION ${SLEEF_LIBRARY}
+                                              INTERFACE_INCLUDE_DIRECTORIES ${SLEEF_INCLUDE_DIR})
+tamp_uses(SLEEF "" "elementary functions with the same bits on every processor")
 
 find_package(MPI REQUIRED COMPONENTS C)
 tamp_uses(MPI ${MPI_C_VERSION} "messages between ranks (${MPI_C_LIBRARIES})")
@@ -44,8 +57,11 @@ if(TAMP_MESHES)
   tamp_uses(CGAL ${CGAL_VERSION} "triangle meshes (GPL)")
 endif()
 
-find_package(Catch2 2.13 REQUIRED CONFIG)
-if(Catch2_VERSION VERSION_GREATER_EQUAL 3)
+find_package(Catch2 2.13 QUIET CONFIG)
+if(NOT Catch2_FOUND)
+  tamp_uses("no tests," "" "they need Catch2")
+elseif(Catch2_VERSION VERSION_GREATER_EQUAL 3)
   message(FATAL_ERROR "the tests are written for Catch2 version 2, this is ${Catch2_VERSION}")
+else()
+  tamp_uses(Catch2 ${Catch2_VERSION} "tests")
 endif()
-tamp_uses(Catch2 ${Catch2_VERSION} "tests")

@@ -9,15 +9,23 @@ set(CMAKE_CXX_FLAGS_DEBUG "-O1 -g")
 add_library(tamp_options INTERFACE)
 target_compile_features(tamp_options INTERFACE cxx_std_20)
 target_include_directories(tamp_options INTERFACE ${PROJECT_SOURCE_DIR})
-target_compile_options(tamp_options INTERFACE -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Werror)
-# No fused multiply-add unless it is asked for, so that a number does not depend on how a function was inlined; and no
-# errno from sqrt and no trap on a division, neither of which changes a number, so that loops with them are vectorised.
+if(TAMP_WARNINGS)
+  target_compile_options(tamp_options INTERFACE -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Werror)
+endif()
+
+# The same bits from every compiler, for every processor: no fused multiply-add, and sums in the order in which they are
+# written, which in Eigen's hands depends on the width of a register. Neither errno from sqrt nor traps on a division
+# change a number; without them loops are vectorised.
 target_compile_options(tamp_options INTERFACE -ffp-contract=off -fno-math-errno -fno-trapping-math)
+target_compile_definitions(tamp_options INTERFACE EIGEN_DONT_VECTORIZE)
+if(CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64")
+  target_compile_options(tamp_options INTERFACE -march=${TAMP_ARCH})
+elseif(TAMP_ARCH STREQUAL "native" AND NOT CMAKE_CROSSCOMPILING)
+  target_compile_options(tamp_options INTERFACE -mcpu=native)
+endif()
+
 # HDF5's own list of libraries is long; the program loads only those it calls.
 target_link_options(tamp_options INTERFACE -Wl,--as-needed)
-if(TAMP_NATIVE)
-  target_compile_options(tamp_options INTERFACE -march=native)
-endif()
 if(TAMP_CHECKED)
   target_compile_definitions(tamp_options INTERFACE TAMP_CHECKED=1)
 endif()
@@ -26,40 +34,60 @@ if(TAMP_SANITIZE)
   target_link_options(tamp_options INTERFACE -fsanitize=${TAMP_SANITIZE})
 endif()
 if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)
-  # gcc 12 sees overlapping copies in its own std::string (gcc bug 105651), and unset values in its own AVX-512 intrinsics
+  # gcc 12 sees overlapping and endless copies in its own std::string (gcc bug 105651), and unset values in its own AVX-512 intrinsics
   # (gcc bug 105593) and, with sanitizers on, in inlined library code.
-  target_compile_options(tamp_options INTERFACE -Wno-restrict -Wno-uninitialized -Wno-maybe-uninitialized)
+  target_compile_options(tamp_options INTERFACE -Wno-restrict -Wno-stringop-overflow -Wno-uninitialized -Wno-maybe-uninitialized)
 endif()
 
-# tamp_library(ROOM [SOURCE_LEFT_OUT...]): the library tamp_ROOM of every source below the current folder.
-function(tamp_library room)
+# tamp_sources(SOURCES [LEFT_OUT...]): every source below the current folder but those whose paths match.
+function(tamp_sources variable)
   file(GLOB_RECURSE sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*.cpp)
   foreach(left_out IN LISTS ARGN)
-    list(REMOVE_ITEM sources ${CMAKE_CURRENT_SOURCE_DIR}/${left_out})
+    list(FILTER sources EXCLUDE REGEX "^${CMAKE_CURRENT_SOURCE_DIR}/${left_out}")
   endforeach()
-  if(NOT sources)
-    set(sources ${CMAKE_CURRENT_BINARY_DIR}/empty.cpp)
-    file(TOUCH ${sources})
-  endif()
+  set(${variable} ${sources} PARENT_SCOPE)
+endfunction()
+
+# tamp_library(ROOM [LEFT_OUT...]): the library tamp_ROOM of those sources.
+function(tamp_library room)
+  tamp_sources(sources ${ARGN})
   add_library(tamp_${room} STATIC ${sources})
   target_link_libraries(tamp_${room} PUBLIC tamp_options)
+  tamp_unite_folders(tamp_${room})
+endfunction()
+
+# Where CMAKE_UNITY_BUILD is on, the sources of a folder are compiled as one: what they borrow is read, and its
+# templates are made, once. Sources with options of their own stay by themselves.
+function(tamp_unite_folders target)
+  get_target_property(sources ${target} SOURCES)
+  foreach(source IN LISTS sources)
+    cmake_path(GET source PARENT_PATH folder)
+    cmake_path(ABSOLUTE_PATH folder)
+    cmake_path(RELATIVE_PATH folder BASE_DIRECTORY ${PROJECT_SOURCE_DIR})
+    string(MAKE_C_IDENTIFIER "${folder}" group)
+    set_source_files_properties(${source} PROPERTIES UNITY_GROUP ${group})
+  endforeach()
+  set_target_properties(${target} PROPERTIES UNITY_BUILD_MODE GROUP)
+endfunction()
+
+# What is not worth more of the compiler's time: it is no part of a time step.
+function(tamp_compile_fast target)
+  target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O1>)
 endfunction()
 
 # Headers of what is borrowed give no warnings of ours.
 foreach(borrowed TBB::tbb Eigen3::Eigen MPI::MPI_C hdf5::hdf5 fmt::fmt nlohmann_json::nlohmann_json CLI11::CLI11
                  Catch2::Catch2)
-  get_target_property(folders ${borrowed} INTERFACE_INCLUDE_DIRECTORIES)
-  if(folders)
-    set_property(TARGET ${borrowed} APPEND PROPERTY INTERFACE_SYSTEM_INCLUDE_DIRECTORIES ${folders})
+  if(TARGET ${borrowed})
+    get_target_property(folders ${borrowed} INTERFACE_INCLUDE_DIRECTORIES)
+    if(folders)
+      set_property(TARGET ${borrowed} APPEND PROPERTY INTERFACE_SYSTEM_INCLUDE_DIRECTORIES ${folders})
+    endif()
   endif()
 endforeach()
 
 function(tamp_print_summary)
   get_property(summary GLOBAL PROPERTY tamp_summary)
-  set(tuned "any x86-64 processor")
-  if(TAMP_NATIVE)
-    set(tuned "this processor")
-  endif()
-  message(STATUS "TAMP ${PROJECT_VERSION}, ${CMAKE_BUILD_TYPE}, for ${tuned}, by ${CMAKE_CXX_COMPILER_ID} "
-                 "${CMAKE_CXX_COMPILER_VERSION}, with\n${summary}")
+  message(STATUS "TAMP ${PROJECT_VERSION}, ${CMAKE_BUILD_TYPE}, for ${TAMP_ARCH} processors, by "
+                 "${CMAKE_CXX_COMPILER_ID} ${CMAKE_CXX_COMPILER_VERSION}, with\n${summary}")
 endfunction()

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "components/kinematics/polar_rotation.hpp"
+#include "components/portable_math.hpp"
 
 namespace tamp::tasks
 {
@@ -59,7 +60,9 @@ Eigen::Matrix3d BodySums::rotation() const
 double BodySums::tilt(int dimension) const
 {
   const Eigen::Matrix3d turn = rotation();
-  return dimension == 2 ? std::atan2(turn(1, 0), turn(0, 0)) : Eigen::AngleAxisd(turn).angle();
+  if (dimension == 2) return portable::atan2(turn(1, 0), turn(0, 0));
+  const Eigen::Vector3d twice_axial(turn(2, 1) - turn(1, 2), turn(0, 2) - turn(2, 0), turn(1, 0) - turn(0, 1));
+  return portable::atan2(twice_axial.norm(), turn.trace() - 1);
 }
 
 Eigen::Vector3d BodySums::spin() const

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "components/contact/friction.hpp"
+#include "components/portable_math.hpp"
 #include "components/shapes/node_sums.hpp"
 #include "runtime/data/views.hpp"
 #include "tasks/method.hpp"
@@ -15,7 +16,7 @@ namespace tamp::tasks
 template <class Interpolator>
 components::ContactThresholds contact_thresholds(const Method<Interpolator>& method)
 {
-  return {method.least_node_mass, 1e-9 * std::pow(method.cell_size, Interpolator::dimension - 1)};
+  return {method.least_node_mass, 1e-9 * portable::pow(method.cell_size, Interpolator::dimension - 1)};
 }
 
 /// The materials at one node, side by side.

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "components/portable_math.hpp"
 #include "runtime/storage/particle_share.hpp"
 #include "tasks/labels.hpp"
 
@@ -115,7 +116,7 @@ runtime::NodeBlock FieldColumns<Interpolator>::nodes(const Method<Interpolator>&
   block.boxes.emplace();
   auto& density = numbers_.emplace_back();
   auto& velocity = numbers_.emplace_back();
-  const double cell_volume = std::pow(method.cell_size, D);
+  const double cell_volume = portable::pow(method.cell_size, D);
   for (const runtime::Patch& patch : layout) {
     if (!warehouse.is_local(patch)) continue;
     block.boxes->push_back(layout.owned_nodes(patch));

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "components/portable_math.hpp"
+
 namespace tamp::tasks
 {
 
@@ -19,7 +21,7 @@ double least_particle_mass(const Scene& scene)
   for (int m = 0; m < static_cast<int>(scene.materials.size()); ++m) {
     const double size = scene.grid.cell_size / scene.particles_per_axis_of(m);
     const double density = scene.materials[static_cast<std::size_t>(m)].density;
-    least = std::min(least, density * std::pow(size, scene.grid.dimension));
+    least = std::min(least, density * portable::pow(size, scene.grid.dimension));
   }
   return least;
 }

@@ -1,17 +1,14 @@
 #include <exception>
 #include <string>
 
-#include <CLI/CLI.hpp>
-
 #include "runtime/execute/exchange.hpp"
 #include "runtime/ranks/communicator.hpp"
 #include "runtime/storage/file_error.hpp"
 #include "tasks/simulation_error.hpp"
-#include "tools/commands/commands.hpp"
+#include "tools/commands/program.hpp"
 #include "tools/errors.hpp"
 #include "tools/settle.hpp"
 #include "tools/signals.hpp"
-#include "tools/version.hpp"
 
 namespace
 {
@@ -33,37 +30,12 @@ Communicator ranks_of(int argc, char** argv)
   return is_for_all_ranks(argc, argv) ? Communicator::world() : Communicator{};
 }
 
-int run_program(int argc, char** argv)
-{
-  CLI::App app("Material point simulations of things driven into sand, on a task graph.", "tamp");
-  app.set_version_flag("--version", tamp::tools::version_text());
-  app.require_subcommand(1);
-  app.option_defaults()->always_capture_default();
-  tamp::tools::add_run_command(app);
-  tamp::tools::add_check_command(app);
-  tamp::tools::add_graph_command(app);
-  tamp::tools::add_profile_command(app);
-  tamp::tools::add_drive_command(app);
-  tamp::tools::add_compare_command(app);
-  tamp::tools::add_modulus_command(app);
-  tamp::tools::add_bench_command(app);
-
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::Success& asked) {  // --help, --version
-    return Communicator::world().is_first() ? app.exit(asked) : 0;
-  } catch (const CLI::ParseError& error) {
-    return settle(error.what(), ExitCode::bad_input, ranks_of(argc, argv));
-  }
-  return static_cast<int>(ExitCode::done);
-}
-
 int run_or_settle(int argc, char** argv)
 {
   const Communicator ranks = ranks_of(argc, argv);
   if (ranks.size() == 1 && !Communicator::world().is_first()) return 0;
   try {
-    return run_program(argc, argv);
+    return tamp::tools::run_program(argc, argv, ranks);
   } catch (const tamp::tools::Interrupted& stop) {
     return settle(stop.what(), ExitCode{static_cast<int>(ExitCode::signal) + stop.signal}, ranks);
   } catch (const tamp::tools::InputError& error) {

@@ -8,6 +8,7 @@
 #include <numbers>
 #include <string>
 
+#include "components/portable_math.hpp"
 #include "runtime/ranks/together.hpp"
 
 namespace tamp::tools
@@ -149,7 +150,7 @@ double RunHistory::axis_angle(std::size_t body) const
   const tasks::BodySums& sums = report_.bodies[body];
   const Eigen::Vector3d along =
       sums.rotation() * (Eigen::Vector3d(axis.nose.data()) - Eigen::Vector3d(axis.tail.data()));
-  return std::asin(-along[simulation_.scene().grid.dimension - 1] / along.norm()) * 180 / std::numbers::pi;
+  return portable::asin(-along[simulation_.scene().grid.dimension - 1] / along.norm()) * 180 / std::numbers::pi;
 }
 
 void RunHistory::add_body(std::size_t body, const std::vector<Eigen::Vector3d>& forces, std::vector<double>& row) const

@@ -44,7 +44,7 @@ std::string version_text()
 {
   return fmt::format(
       "tamp {}\n"
-      "build     {}\n"
+      "build     {} for {}\n"
       "compiler  {} {}\n"
       "oneTBB    {}\n"
       "Eigen     {}.{}.{}\n"
@@ -53,7 +53,7 @@ std::string version_text()
       "fmt       {}.{}.{}\n"
       "json      {}.{}.{}\n"
       "CLI11     {}",
-      version(), TAMP_BUILD_TYPE,
+      version(), TAMP_BUILD_TYPE, TAMP_ARCH,
 #ifdef __clang__
       "clang", __clang_version__,
 #else

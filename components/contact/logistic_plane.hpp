@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <span>
 
+#include "components/portable_math.hpp"
 #include "components/shapes/gimp.hpp"
 #include "components/shapes/grid_block.hpp"
 #include "components/tensors.hpp"
@@ -55,7 +56,7 @@ struct RegressionSums {
     Vector<D + 1> z;
     z << x, 1;
     const double w = std::sqrt(shape);
-    const double doubt = 1 / (1 + std::exp(plane.side * z.dot(plane.coefficients)));
+    const double doubt = 1 / (1 + portable::exp(plane.side * z.dot(plane.coefficients)));
     weight += w;
     gradient -= w * plane.side * doubt * z;
     hessian += w * doubt * (1 - doubt) * z * z.transpose();
@@ -103,13 +104,13 @@ struct EdgeSums {
   void add(const ContactPlane<D>& plane, double shape, const Vector<D>& x, double size)
   {
     const double place = -plane.side * x.dot(plane.normal());
-    const double say = shape * std::exp(sharpness / size * place);
+    const double say = shape * portable::exp(sharpness / size * place);
     weight += say;
     moment += say * place;
   }
   /// Exact for layers of particles up to the edge. An edge that cuts through the layers seems to be 0.22 sizes further
   /// out, as the particles along it reach out by up to half their size.
-  double edge(double size) const { return moment / weight + 0.5 * size / std::tanh(0.5 * sharpness); }
+  double edge(double size) const { return moment / weight + 0.5 * size / portable::tanh(0.5 * sharpness); }
 
   EdgeSums& operator+=(const EdgeSums& other)
   {

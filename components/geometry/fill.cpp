@@ -5,6 +5,7 @@
 #include <string>
 
 #include "components/errors.hpp"
+#include "components/portable_math.hpp"
 
 namespace tamp::components
 {
@@ -63,7 +64,7 @@ void for_each_index(const std::array<int, std::size_t{D}>& lower, const std::arr
 template <int D>
 double ParticleLattice<D>::particle_volume() const
 {
-  return std::pow(cell_size / n_per_axis, D);
+  return portable::pow(cell_size / n_per_axis, D);
 }
 
 template <int D>

@@ -8,6 +8,7 @@
 #include "components/errors.hpp"
 #include "components/geometry/axis.hpp"
 #include "components/geometry/checks.hpp"
+#include "components/portable_math.hpp"
 
 namespace tamp::components
 {
@@ -32,7 +33,7 @@ double Ogive::reach(const Vector<3>& direction) const
   const double outward = (direction - forward * axis.direction).norm();
   double furthest = std::max(axis.rim_reach(0, radius, direction), axis.rim_reach(back, 0, direction));
   // The arc's own point whose normal is the direction, where there is one.
-  const double x = rho * forward / std::hypot(forward, outward);
+  const double x = rho * forward / portable::hypot(forward, outward);
   if (x > 0 && x < back) {
     const double r = std::sqrt(rho * rho - x * x) - (rho - radius);
     furthest = std::max(furthest, axis.rim_reach(x, r, direction));
@@ -44,7 +45,7 @@ Volume Ogive::volume() const
 {
   const double back = length(), rho = arc(), shift = rho - radius;
   const double r_squared = rho * rho * back - back * back * back / 3 + shift * shift * back;
-  const double segment = 0.5 * (back * shift + rho * rho * std::asin(std::min(1.0, back / rho)));
+  const double segment = 0.5 * (back * shift + rho * rho * portable::asin(std::min(1.0, back / rho)));
   return {std::numbers::pi * (r_squared - 2 * shift * segment)};
 }
 

@@ -5,6 +5,7 @@
 
 #include "components/geometry/box.hpp"
 #include "components/geometry/volume.hpp"
+#include "components/portable_math.hpp"
 
 namespace tamp::components
 {
@@ -19,7 +20,7 @@ Volume sampled_volume(const Box<D>& box, Inside&& inside)
   // The real root of t^(D+1) = t + 1.
   constexpr double golden = D == 2 ? 1.32471795724474602596 : 1.22074408460575947536;
   Vector<D> stride;
-  for (int k = 0; k < D; ++k) stride[k] = std::pow(golden, -(k + 1));
+  for (int k = 0; k < D; ++k) stride[k] = portable::pow(golden, -(k + 1));
 
   const Vector<D> edges = box.upper - box.lower;
   Vector<D> place = Vector<D>::Constant(0.5);

@@ -6,6 +6,7 @@
 
 #include "components/loads/artificial_viscosity.hpp"
 #include "components/materials/wave_speed.hpp"
+#include "components/portable_math.hpp"
 #include "components/tensors.hpp"
 
 /// Bounds on the time step [s] from one particle or one contact, before any safety factor; the step is the least of
@@ -61,7 +62,7 @@ double viscous_time_step(double cell_size, const StiffParticle<D>& p, const Arti
 inline double greatest_own_stiffness(int dimension, int n_per_axis)
 {
   const double l = 0.5 / n_per_axis;
-  return std::pow(std::max(1.0, 0.5 * n_per_axis), dimension - 1) * dimension * (2 / l + 1 / (1 - l));
+  return portable::pow(std::max(1.0, 0.5 * n_per_axis), dimension - 1) * dimension * (2 / l + 1 / (1 - l));
 }
 
 /// Bodies that meet at `approach_speed` close no more than a tenth of a cell in a step, so that what they meet is

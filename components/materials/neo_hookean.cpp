@@ -1,9 +1,11 @@
 #include "components/materials/neo_hookean.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <numbers>
+
+#include "components/portable_math.hpp"
 
 namespace tamp::components
 {
@@ -22,14 +24,25 @@ struct Extremes {
   double least, greatest;
 };
 
-template <int D>
-Extremes principal_extremes(const SymmetricTensor<D>& b)
+/// Of the principal values.
+Extremes principal_extremes(const SymmetricTensor<2>& b)
 {
-  Eigen::SelfAdjointEigenSolver<Matrix<D>> solver;
-  solver.computeDirect(plane_part<D>(b), Eigen::EigenvaluesOnly);
-  const auto& in_plane = solver.eigenvalues();
-  if constexpr (D == 3) return {in_plane[0], in_plane[2]};
-  return {std::min(in_plane[0], b[2]), std::max(in_plane[D - 1], b[2])};
+  const double middle = 0.5 * (b[0] + b[1]), half = 0.5 * (b[0] - b[1]);
+  const double radius = std::sqrt(half * half + b[3] * b[3]);
+  return {std::min(middle - radius, b[2]), std::max(middle + radius, b[2])};
+}
+
+/// By the angle of the deviator, as the cubic has three real roots (O. K. Smith, Comm. ACM 4, 1961). Where two values
+/// are almost equal they are good to 1e-8 of their distance from the third.
+Extremes principal_extremes(const SymmetricTensor<3>& b)
+{
+  const SymmetricTensor<3> s = deviator(b);
+  const double middle = trace(b) / 3, radius = std::sqrt(double_dot(s, s) / 6);
+  if (!(radius > 0)) return {middle, middle};
+  const double cosine = 0.5 * plane_part<3>(s).determinant() / (radius * radius * radius);
+  const double angle = portable::acos(std::clamp(cosine, -1.0, 1.0)) / 3;
+  return {middle + 2 * radius * portable::cos(angle + 2 * std::numbers::pi / 3),
+          middle + 2 * radius * portable::cos(angle)};
 }
 
 }  // namespace
@@ -42,7 +55,7 @@ void update(const NeoHookean& solid, std::span<const Matrix<D>> deformation_grad
     const Matrix<D>& f = deformation_gradient[i];
     const double J = f.determinant();
     stress[i] = isotropic<n_symmetric<D>>(0.5 * solid.bulk_modulus * (J - 1 / J)) +
-                solid.shear_modulus * std::pow(J, -5.0 / 3.0) * deviator(left_cauchy_green<D>(f));
+                solid.shear_modulus * portable::pow(J, -5.0 / 3.0) * deviator(left_cauchy_green<D>(f));
   }
 }
 
@@ -51,9 +64,9 @@ TangentModuli tangent_moduli(const NeoHookean& solid, const Matrix<D>& deformati
 {
   const double J = deformation_gradient.determinant();
   const SymmetricTensor<D> b = left_cauchy_green<D>(deformation_gradient);
-  const auto [least, greatest] = principal_extremes<D>(b);
+  const auto [least, greatest] = principal_extremes(b);
   const double stretch = std::max(greatest, 5.0 / 9.0 * trace(b) - least / 3) + (greatest - least) / 3;
-  return {0.5 * solid.bulk_modulus * (J + 1 / J), 0.75 * solid.shear_modulus * std::pow(J, -5.0 / 3.0) * stretch};
+  return {0.5 * solid.bulk_modulus * (J + 1 / J), 0.75 * solid.shear_modulus * portable::pow(J, -5.0 / 3.0) * stretch};
 }
 
 template void update<2>(const NeoHookean&, std::span<const Matrix<2>>, std::span<SymmetricTensor<2>>);

@@ -10,10 +10,7 @@
 #include <utility>
 
 #include "components/errors.hpp"
-
-#ifdef __AVX512F__
-#  include <immintrin.h>
-#endif
+#include "components/portable_math.hpp"
 
 namespace tamp::components
 {
@@ -22,11 +19,11 @@ namespace
 {
 
 #if defined(__AVX512F__)
-constexpr std::size_t register_bytes = 64;
+constexpr std::size_t register_bytes = 64, n_registers = 32;
 #elif defined(__AVX__)
-constexpr std::size_t register_bytes = 32;
+constexpr std::size_t register_bytes = 32, n_registers = 16;
 #else
-constexpr std::size_t register_bytes = 16;
+constexpr std::size_t register_bytes = 16, n_registers = 16;
 #endif
 
 /// Neurons that the processor takes at a time.
@@ -34,18 +31,25 @@ using Pack [[gnu::vector_size(register_bytes), gnu::may_alias]] = double;
 using PackBits [[gnu::vector_size(register_bytes)]] = std::int64_t;
 
 constexpr std::size_t pack_size = register_bytes / sizeof(double);
-constexpr std::size_t block_packs = 8, block_size = pack_size * block_packs;
-constexpr std::size_t none = 64;  // the place of the first of no set bits
-constexpr std::size_t most_blocks = DenseNetwork::most_neurons / block_size;
 
-/// Rows of weights are padded to multiples of eight, the largest pack.
+// What follows decides in which order numbers are added, and so is the same for every processor.
+constexpr std::size_t block_size = 64;
+constexpr std::size_t none = block_size;  // the place of the first of no set bits
+constexpr std::size_t most_blocks = DenseNetwork::most_neurons / block_size;
+constexpr std::size_t row_multiple = 8;  // what rows of weights are padded to
+
 constexpr std::size_t padded(std::size_t n)
 {
-  return (n + 7) / 8 * 8;
+  return (n + row_multiple - 1) / row_multiple * row_multiple;
 }
 constexpr std::size_t packs_for(std::size_t n_neurons)
 {
   return padded(n_neurons) / pack_size;
+}
+/// Since an addition waits for the one before, inputs go by turns to two sums where outputs are few.
+constexpr std::size_t turns_for(std::size_t n_outputs, std::size_t n_streams)
+{
+  return n_streams * padded(n_outputs) / row_multiple < 8 ? 2 : 1;
 }
 
 /// body(0), ..., body(n - 1), written out, so that arrays indexed by it can stay in registers.
@@ -59,26 +63,12 @@ inline void unrolled(const Body& body)
   (std::make_index_sequence<n>());
 }
 
-/// sum += a b: fused, where the processor has it.
-inline void add_product(Pack& sum, double a, const Pack& b)
-{
-#ifdef __AVX512F__
-  sum = _mm512_fmadd_pd(_mm512_set1_pd(a), b, sum);
-#else
-  sum += a * b;
-#endif
-}
-
 /// Bit i is set where the i-th neuron is positive.
 inline std::uint64_t positive(const Pack& neurons)
 {
-#ifdef __AVX512F__
-  return _mm512_cmp_pd_mask(neurons, Pack{}, _CMP_GT_OQ);
-#else
   std::uint64_t bits = 0;
   for (std::size_t i = 0; i < pack_size; ++i) bits |= std::uint64_t{neurons[i] > 0} << i;
   return bits;
-#endif
 }
 
 /// e^x to 1e-15 of it for |x| < 700, and held beyond: x = k ln 2 + r, and a series for r.
@@ -95,7 +85,7 @@ inline void exponential(Pack& x)
   x = series * reinterpret_cast<const Pack&>(power_of_two);
 }
 
-/// Up to eight packs of a layer's neurons: the values and, for a gradient, the derivatives by both inputs. `active` has
+/// Up to 64 of a layer's neurons: the values and, for a gradient, the derivatives by both inputs. `active` has
 /// a bit for each that may be other than zero. In a relu layer that is less than half, and the rest is not multiplied
 /// by anything.
 template <std::size_t n_streams>
@@ -116,12 +106,11 @@ struct Sums {
   Pack packs[n_streams * n];
 };
 
-/// sums += inputs kernel. Since an addition waits for the one before, inputs go by turns to two sums if these are few.
-template <std::size_t n, std::size_t n_streams>
+/// sums += inputs kernel
+template <std::size_t n_turns, std::size_t n, std::size_t n_streams>
 inline void add_products(const Block<n_streams>& inputs, const Pack* kernel, std::size_t packs_per_row,
                          Sums<n, n_streams>& sums)
 {
-  constexpr std::size_t n_turns = n_streams * n < 8 ? 2 : 1;
   Sums<n, n_streams> by_turns[n_turns] = {sums};
   std::uint64_t left = inputs.active;
   while (left != 0) {
@@ -129,7 +118,7 @@ inline void add_products(const Block<n_streams>& inputs, const Pack* kernel, std
       const auto i = static_cast<std::size_t>(std::countr_zero(left));
       const Pack* const row = kernel + i % block_size * packs_per_row;
       unrolled<n_streams * n>(
-          [&](auto k) { add_product(by_turns[turn].packs[k], inputs.streams[k / n][i], row[k % n]); });
+          [&](auto k) { by_turns[turn].packs[k] += inputs.streams[k / n][i] * row[k % n]; });
       left &= left - 1;
     });
   }
@@ -137,13 +126,13 @@ inline void add_products(const Block<n_streams>& inputs, const Pack* kernel, std
   if constexpr (n_turns == 2) unrolled<n_streams * n>([&](auto k) { sums.packs[k] += by_turns[1].packs[k]; });
 }
 
+/// From the block's j-th pack on.
 template <std::size_t n, std::size_t n_streams>
-inline void rectify(const Sums<n, n_streams>& sums, Block<n_streams>& outputs)
+inline void rectify(const Sums<n, n_streams>& sums, Block<n_streams>& outputs, std::size_t j)
 {
-  outputs.active = 0;
   unrolled<n_streams * n>([&](auto k) {
-    outputs.pack(k / n, k % n) = sums.packs[k % n] > 0 ? sums.packs[k] : Pack{};
-    if (k < n) outputs.active |= positive(sums.packs[k]) << (k * pack_size);
+    outputs.pack(k / n, j + k % n) = sums.packs[k % n] > 0 ? sums.packs[k] : Pack{};
+    if (k < n) outputs.active |= positive(sums.packs[k]) << ((j + k) * pack_size);
   });
 }
 
@@ -168,22 +157,39 @@ struct LayerView {
   const Pack* kernel;
 };
 
-/// n packs of a layer's outputs.
-template <std::size_t n, std::size_t n_streams>
-inline void make_block(const LayerView& layer, const Block<n_streams>* inputs, Block<n_streams>& outputs)
+/// n packs of a layer's outputs, the block's j-th and those that follow.
+template <std::size_t n_turns, std::size_t n, std::size_t n_streams>
+inline void make_packs(const LayerView& layer, const Block<n_streams>* inputs, Block<n_streams>& outputs,
+                       std::size_t j)
 {
   Sums<n, n_streams> sums{};
-  unrolled<n>([&](auto j) { sums.packs[j] = layer.bias[j]; });
+  unrolled<n>([&](auto k) { sums.packs[k] = layer.bias[j + k]; });
   for (std::size_t i = 0; i < layer.n_inputs; i += block_size) {
-    add_products(inputs[i / block_size], layer.kernel + i * layer.packs_per_row, layer.packs_per_row, sums);
+    const Pack* const kernel = layer.kernel + i * layer.packs_per_row + j;
+    add_products<n_turns>(inputs[i / block_size], kernel, layer.packs_per_row, sums);
   }
 
-  for (auto& stream : outputs.streams) stream[none] = 0;
-  if (layer.activation == Activation::relu) return rectify(sums, outputs);
-  outputs.active = ~std::uint64_t{0} >> (64 - layer.n_outputs);
-  unrolled<n_streams * n>([&](auto k) { outputs.pack(k / n, k % n) = sums.packs[k]; });
+  if (layer.activation == Activation::relu) return rectify(sums, outputs, j);
+  unrolled<n_streams * n>([&](auto k) { outputs.pack(k / n, j + k % n) = sums.packs[k]; });
   if (layer.activation == Activation::linear) return;
-  for (std::size_t j = 0; j < n; ++j) bend(layer.activation, outputs, j);
+  for (std::size_t k = 0; k < n; ++k) bend(layer.activation, outputs, j + k);
+}
+
+/// As many packs at a time as there are registers for their sums.
+template <std::size_t n_turns, std::size_t n_streams>
+inline void make_block(const LayerView& layer, const Block<n_streams>* inputs, Block<n_streams>& outputs)
+{
+  constexpr std::size_t n_at_once = std::min<std::size_t>(8, n_registers * 3 / 4 / (n_streams * n_turns));
+  for (auto& stream : outputs.streams) stream[none] = 0;
+  outputs.active = layer.activation == Activation::relu ? 0 : ~std::uint64_t{0} >> (64 - layer.n_outputs);
+  const std::size_t n_packs = packs_for(layer.n_outputs);
+  for (std::size_t j = 0; j < n_packs; j += n_at_once) {
+    unrolled<n_at_once>([&](auto less_one) {
+      if (std::min(n_packs - j, n_at_once) == less_one + 1) {
+        make_packs<n_turns, less_one + 1>(layer, inputs, outputs, j);
+      }
+    });
+  }
 }
 
 template <std::size_t n_streams>
@@ -191,12 +197,13 @@ inline void make_layer(LayerView layer, const Block<n_streams>* inputs, Block<n_
 {
   for (std::size_t left = layer.n_outputs; left > 0; left -= layer.n_outputs) {
     layer.n_outputs = std::min(left, block_size);
-    const std::size_t n = packs_for(layer.n_outputs);
-    unrolled<block_packs>([&](auto less_one) {
-      if (n == less_one + 1) make_block<less_one + 1>(layer, inputs, *outputs);
-    });
-    layer.bias += n;
-    layer.kernel += n;
+    if (turns_for(layer.n_outputs, n_streams) == 2) {
+      make_block<2>(layer, inputs, *outputs);
+    } else {
+      make_block<1>(layer, inputs, *outputs);
+    }
+    layer.bias += packs_for(layer.n_outputs);
+    layer.kernel += packs_for(layer.n_outputs);
     ++outputs;
   }
 }
@@ -214,19 +221,21 @@ inline void set_inputs(double first, double second, Block<n_streams>& block)
   block.active = 3;
 }
 
-/// The sums of the neurons' products with a row of weights.
+/// The sums of the neurons' products with a row of weights, of every eighth neuron first.
 template <std::size_t n_streams>
 inline std::array<double, n_streams> dot(const Block<n_streams>* neurons, std::size_t n, const Pack* row)
 {
-  Pack products[n_streams] = {};
-  for (std::size_t j = 0; j < packs_for(n); ++j) {
-    for (std::size_t s = 0; s < n_streams; ++s) {
-      products[s] += neurons[j / block_packs].pack(s, j % block_packs) * row[j];
-    }
+  constexpr std::size_t n_parts = row_multiple / pack_size, block_packs = block_size / pack_size;
+  Pack products[n_streams][n_parts] = {};
+  for (std::size_t j = 0; j < packs_for(n); j += n_parts) {
+    unrolled<n_streams * n_parts>([&](auto k) {
+      constexpr std::size_t s = k / n_parts, part = k % n_parts;
+      products[s][part] += neurons[j / block_packs].pack(s, j % block_packs + part) * row[j + part];
+    });
   }
   std::array<double, n_streams> sums{};
   for (std::size_t s = 0; s < n_streams; ++s) {
-    for (std::size_t i = 0; i < pack_size; ++i) sums[s] += products[s][i];
+    for (std::size_t i = 0; i < row_multiple; ++i) sums[s] += products[s][i / pack_size][i % pack_size];
   }
   return sums;
 }
@@ -240,11 +249,11 @@ inline Activated activated(Activation activation, double x)
     case Activation::relu:
       return x > 0 ? Activated{x, 1} : Activated{0, 0};
     case Activation::sigmoid: {
-      const double y = 1 / (1 + std::exp(-x));
+      const double y = 1 / (1 + portable::exp(-x));
       return {y, y * (1 - y)};
     }
     case Activation::tanh: {
-      const double y = std::tanh(x);
+      const double y = portable::tanh(x);
       return {y, 1 - y * y};
     }
     case Activation::linear:

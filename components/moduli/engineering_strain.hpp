@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "components/moduli/elastic_model.hpp"
+#include "components/portable_math.hpp"
 
 namespace tamp::components
 {
@@ -11,11 +12,11 @@ namespace tamp::components
 /// The logarithmic volumetric strain -ln(J) of an engineering one, 1 - J, and back. Compression positive.
 inline double logarithmic_strain(double engineering)
 {
-  return -std::log1p(-engineering);
+  return -portable::log1p(-engineering);
 }
 inline double engineering_strain(double logarithmic)
 {
-  return -std::expm1(-logarithmic);
+  return -portable::expm1(-logarithmic);
 }
 
 /// A model that was fitted to engineering strains, asked in logarithmic ones. Total strain t = e + ep and plastic
@@ -84,7 +85,7 @@ class EngineeringStrain
   };
   static Measured measured(double elastic, double plastic)
   {
-    const double total_rate = std::exp(-(elastic + plastic)), plastic_rate = std::exp(-plastic);
+    const double total_rate = portable::exp(-(elastic + plastic)), plastic_rate = portable::exp(-plastic);
     return {plastic_rate - total_rate, 1 - plastic_rate, total_rate, plastic_rate};
   }
 

@@ -103,17 +103,18 @@ class GaussianSum
 /// this * factor + other
 inline GaussianSum::Row GaussianSum::Row::times(double factor, const Row& other) const
 {
-#ifdef __FMA__
-  using std::experimental::fma;
-  return {fma(low, Lanes(factor), other.low), fma(high, Lanes(factor), other.high)};
-#else
   return {low * factor + other.low, high * factor + other.high};
-#endif
 }
 
 inline double GaussianSum::Row::dot(const Row& other) const
 {
-  return reduce(low * other.low + high * other.high);
+  // Halves are added to halves: the library's own sum has an order for each processor.
+  std::array<double, n_lanes> sum;
+  (low * other.low + high * other.high).copy_to(sum.data(), std::experimental::element_aligned);
+  for (std::size_t half = n_lanes / 2; half > 0; half /= 2) {
+    for (std::size_t i = 0; i < half; ++i) sum[i] += sum[i + half];
+  }
+  return sum[0];
 }
 
 [[gnu::always_inline]] inline GaussianSum::Powers::Powers(double u)

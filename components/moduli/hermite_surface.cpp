@@ -40,28 +40,6 @@ std::vector<double> lines(double least, double most, std::vector<double> seams)
   return seams;
 }
 
-struct Error {
-  double pressure = 0, bulk_modulus = 0;
-
-  void include(const Error& other)
-  {
-    pressure = std::max(pressure, other.pressure);
-    bulk_modulus = std::max(bulk_modulus, other.bulk_modulus);
-  }
-  bool within(const SurfaceTolerance& tolerance) const
-  {
-    return pressure <= tolerance.pressure && bulk_modulus <= tolerance.bulk_modulus;
-  }
-};
-
-Error error_of(const SurfaceNode& found, const SurfaceNode& exact)
-{
-  const double k = std::abs(exact.bulk_modulus), p = std::abs(exact.pressure) + 1e-3 * k;
-  const auto number = [](double error) { return std::isnan(error) ? HUGE_VAL : error; };
-  return {number(std::abs(found.pressure - exact.pressure) / p),
-          number(std::abs(found.bulk_modulus - exact.bulk_modulus) / k)};
-}
-
 }  // namespace
 
 /// Cuts the squares of a surface until its errors are within the tolerance.
@@ -94,6 +72,28 @@ class HermiteSurface::Refinement
   }
 
  private:
+  struct Error {
+    double pressure = 0, bulk_modulus = 0;
+
+    void include(const Error& other)
+    {
+      pressure = std::max(pressure, other.pressure);
+      bulk_modulus = std::max(bulk_modulus, other.bulk_modulus);
+    }
+    bool within(const SurfaceTolerance& tolerance) const
+    {
+      return pressure <= tolerance.pressure && bulk_modulus <= tolerance.bulk_modulus;
+    }
+  };
+
+  static Error error_of(const SurfaceNode& found, const SurfaceNode& exact)
+  {
+    const double k = std::abs(exact.bulk_modulus), p = std::abs(exact.pressure) + 1e-3 * k;
+    const auto number = [](double error) { return std::isnan(error) ? HUGE_VAL : error; };
+    return {number(std::abs(found.pressure - exact.pressure) / p),
+            number(std::abs(found.bulk_modulus - exact.bulk_modulus) / k)};
+  }
+
   /// A leaf of the tree and what is known of it; its patch has the same number.
   struct Square {
     Place x, y;  // of the lower left corner

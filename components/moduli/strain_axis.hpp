@@ -6,6 +6,8 @@
 #include <span>
 #include <vector>
 
+#include "components/portable_math.hpp"
+
 namespace tamp::components
 {
 
@@ -25,7 +27,7 @@ class StrainAxis
   {
     for (std::size_t i = 0; i + 1 < lines.size(); ++i) {
       const double width = lines[i + 1] - lines[i];
-      const long n_halvings = std::lround(std::log2((lines.back() - lines.front()) / width));
+      const long n_halvings = std::lround(portable::log2((lines.back() - lines.front()) / width));
       const int n = n_halvings > 30 ? 1 : std::max(n_squares >> n_halvings, 1);
       sections_.push_back({lines[i], n / width, static_cast<double>(n_squares_)});
       n_squares_ += n;

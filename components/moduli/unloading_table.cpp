@@ -6,6 +6,7 @@
 
 #include "components/errors.hpp"
 #include "components/materials/piecewise_linear.hpp"
+#include "components/portable_math.hpp"
 
 namespace tamp::components
 {
@@ -22,11 +23,11 @@ void extend_along(std::vector<double>& pressure, std::vector<double>& elastic, d
 {
   constexpr int n_steps = 400;
   const double start = pressure.back();
-  const double ratio = std::pow(last_pressure / start, 1.0 / n_steps);
+  const double ratio = portable::pow(last_pressure / start, 1.0 / n_steps);
   const double jump = std::max(end_compliance - next.at(start).slope, 0.0);
   const double spread = gap > 0 ? std::min(start / 4, gap / (2 * jump)) : start / 4;
   const auto compliance = [&](double p) { return std::min(end_compliance, next.at(p).slope); };
-  const auto lag = [&](double p) { return jump * spread * std::exp(-(p - start) / spread); };
+  const auto lag = [&](double p) { return jump * spread * portable::exp(-(p - start) / spread); };
   for (int i = 1; i <= n_steps; ++i) {
     const double from = pressure.back();
     const double to = i == n_steps ? last_pressure : from * ratio;
@@ -154,7 +155,7 @@ void UnloadingTable::make_surface_grid()
   std::vector<double> pressures(n_pressures);
   for (std::size_t j = 0; j < n_pressures; ++j) {
     const double fraction = static_cast<double>(j) / (n_pressures - 1);
-    pressures[j] = last_pressure_ * std::expm1(8.5 * fraction) / std::expm1(8.5);
+    pressures[j] = last_pressure_ * portable::expm1(8.5 * fraction) / portable::expm1(8.5);
   }
 
   std::vector<double> plastic_of_line(n_lines);

@@ -1,88 +1,78 @@
 #pragma once
 
-#include <array>
+#include <experimental/simd>
 
 #include "components/tensors.hpp"
 
 namespace tamp::components
 {
 
-/// What particles give to a node. The values of a node stand together, in whole vector registers (8 or 12 doubles),
-/// so that one particle's share is added with a few wide operations.
+/// The numbers of a node, with the vectors among them, which begin at `first_of_vectors`. They stand together in whole
+/// vector registers, so that kernels take them with a few wide operations.
+template <int D, int n_values, int... first_of_vectors>
+struct alignas(4 * sizeof(double)) NodeValues {
+  using Wide = std::experimental::fixed_size_simd<double, n_values>;
+
+  Eigen::Array<double, n_values, 1> values = Eigen::Array<double, n_values, 1>::Zero();
+
+  Vector<D> vector(int first) const { return values.template segment<D>(first).matrix(); }
+  void set_vector(int first, const Vector<D>& vector) { values.template segment<D>(first) = vector.array(); }
+
+  Wide wide() const { return Wide(values.data(), std::experimental::element_aligned); }
+  void add(const Wide& share) { (wide() + share).copy_to(values.data(), std::experimental::element_aligned); }
+
+  /// On a mirror normal to `axis` the image brings the opposite of every normal component.
+  void hold_on_mirror(int axis) { ((values[first_of_vectors + axis] = 0), ...); }
+  /// As a mirror normal to `axis` shows them.
+  void mirror(int axis) { ((values[first_of_vectors + axis] *= -1), ...); }
+};
+
+/// What particles give to a node.
 template <int D>
-struct NodeSums {
-  static constexpr int n_values = D == 2 ? 8 : 12;
-  using Values = Eigen::Array<double, n_values, 1>;
-
-  Values values = Values::Zero();
-
+struct NodeSums : NodeValues<D, D == 2 ? 8 : 12, 1, 1 + D, 1 + 2 * D> {
   /// sum m_p S_ip [kg]
-  double mass() const { return values[0]; }
+  double mass() const { return this->values[0]; }
   /// sum m_p v_p S_ip [kg m/s]
-  Vector<D> momentum() const { return values.template segment<D>(1).matrix(); }
-  void add_momentum(const Vector<D>& momentum) { values.template segment<D>(1) += momentum.array(); }
+  Vector<D> momentum() const { return this->vector(1); }
+  void add_momentum(const Vector<D>& momentum) { this->set_vector(1, this->vector(1) + momentum); }
   /// -sum V_p (sigma_p - q_p I) . grad S_ip [N]
-  Vector<D> internal_force() const { return values.template segment<D>(1 + D).matrix(); }
+  Vector<D> internal_force() const { return this->vector(1 + D); }
   /// sum V_p grad S_ip [m^(D-1)]: points out of the material at its surface, vanishes within.
-  Vector<D> surface_gradient() const { return values.template segment<D>(1 + 2 * D).matrix(); }
-  void set_surface_gradient(const Vector<D>& gradient) { values.template segment<D>(1 + 2 * D) = gradient.array(); }
+  Vector<D> surface_gradient() const { return this->vector(1 + 2 * D); }
+  void set_surface_gradient(const Vector<D>& gradient) { this->set_vector(1 + 2 * D, gradient); }
 
   NodeSums& operator+=(const NodeSums& other)
   {
-    values += other.values;
+    this->values += other.values;
     return *this;
   }
-
-  /// On a mirror normal to `axis` the image brings the opposite of every normal component.
-  void hold_on_mirror(int axis)
-  {
-    for (const int vector : vectors) values[vector + axis] = 0;
-  }
-
-  /// These sums as a mirror normal to `axis` shows them.
   NodeSums mirrored(int axis) const
   {
     NodeSums image = *this;
-    for (const int vector : vectors) image.values[vector + axis] = -image.values[vector + axis];
+    image.mirror(axis);
     return image;
   }
-
- private:
-  static constexpr std::array<int, 3> vectors{1, 1 + D, 1 + 2 * D};
 };
 
 /// How a node moves through a step.
 template <int D>
-struct NodeMotion {
-  static constexpr int n_values = D == 2 ? 4 : 8;
-  using Values = Eigen::Array<double, n_values, 1>;
-
-  Values values = Values::Zero();
-
+struct NodeMotion : NodeValues<D, D == 2 ? 4 : 8, 0, D> {
   /// Velocity at the middle of the step [m/s].
-  Vector<D> velocity() const { return values.template segment<D>(0).matrix(); }
+  Vector<D> velocity() const { return this->vector(0); }
   /// Its change from the middle of the step before [m/s]: what particles take from it.
-  Vector<D> velocity_change() const { return values.template segment<D>(D).matrix(); }
+  Vector<D> velocity_change() const { return this->vector(D); }
 
   void set(const Vector<D>& velocity, const Vector<D>& change)
   {
-    values.template segment<D>(0) = velocity.array();
-    values.template segment<D>(D) = change.array();
-  }
-
-  void hold_on_mirror(int axis)
-  {
-    for (const int vector : vectors) values[vector + axis] = 0;
+    this->set_vector(0, velocity);
+    this->set_vector(D, change);
   }
   NodeMotion mirrored(int axis) const
   {
     NodeMotion image = *this;
-    for (const int vector : vectors) image.values[vector + axis] = -image.values[vector + axis];
+    image.mirror(axis);
     return image;
   }
-
- private:
-  static constexpr std::array<int, 2> vectors{0, D};
 };
 
 }  // namespace tamp::components

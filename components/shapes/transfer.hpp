@@ -30,22 +30,23 @@ template <class Interpolator, int D = Interpolator::dimension>
 void particles_to_grid(const Interpolator& interpolator, const GridBlock<D>& block, const ParticleSources<D>& from,
                        NodeSums<D>* sums)
 {
-  using Values = typename NodeSums<D>::Values;
+  using Values = typename NodeSums<D>::Wide;
   for (std::size_t p = 0; p < from.position.size(); ++p) {
     const double m = from.mass[p];
     const double volume = from.volume[p];
-    Values with_weight = Values::Zero();
-    with_weight[0] = m;
-    with_weight.template segment<D>(1) = m * from.velocity[p].array();
+    NodeSums<D> share;
+    share.values[0] = m;
+    share.set_vector(1, m * from.velocity[p]);
+    const Values with_weight = share.wide();
     // Column k of -V (sigma - q I) goes with derivative k of the weight, as does the surface gradient's component k.
     const Matrix<D> force =
         -volume * (plane_part<D>(from.stress[p]) - from.viscous_pressure[p] * Matrix<D>::Identity());
     std::array<Values, D> with_slope;
     for (int k = 0; k < D; ++k) {
-      Values& column = with_slope[static_cast<std::size_t>(k)];
-      column.setZero();
-      column.template segment<D>(1 + D) = force.col(k).array();
-      column[1 + 2 * D + k] = volume;
+      NodeSums<D> column;
+      column.set_vector(1 + D, force.col(k));
+      column.values[1 + 2 * D + k] = volume;
+      with_slope[static_cast<std::size_t>(k)] = column.wide();
     }
     const auto stencil = interpolator.at(block, from.position[p]);
     for_each_row<D>(block, stencil, [&](const StencilRow<D>& row) {
@@ -54,8 +55,8 @@ void particles_to_grid(const Interpolator& interpolator, const GridBlock<D>& blo
       for (int k = 1; k < D; ++k) by_weight += row.slope_across[k - 1] * with_slope[static_cast<std::size_t>(k)];
       const Values by_slope = row.across * with_slope[0];
       for (std::size_t i = 0; i < Interpolator::support; ++i) {
-        sums[row.first + static_cast<std::ptrdiff_t>(i)].values +=
-            stencil.weight[0][i] * by_weight + stencil.slope[0][i] * by_slope;
+        sums[row.first + static_cast<std::ptrdiff_t>(i)].add(stencil.weight[0][i] * by_weight +
+                                                             stencil.slope[0][i] * by_slope);
       }
     });
   }
@@ -100,15 +101,15 @@ template <class Interpolator, int D = Interpolator::dimension>
 ParticleMotion<D> grid_to_particle(const Interpolator& interpolator, const GridBlock<D>& block, const Vector<D>& x,
                                    const NodeMotion<D>* nodes)
 {
-  using Values = typename NodeMotion<D>::Values;
-  Values moved = Values::Zero();
+  using Values = typename NodeMotion<D>::Wide;
+  Values moved = 0;
   std::array<Values, D> slopes;
-  for (Values& slope : slopes) slope.setZero();
+  slopes.fill(0);
   const auto stencil = interpolator.at(block, x);
   for_each_row<D>(block, stencil, [&](const StencilRow<D>& row) {
-    Values by_weight = Values::Zero(), by_slope = Values::Zero();
+    Values by_weight = 0, by_slope = 0;
     for (std::size_t i = 0; i < Interpolator::support; ++i) {
-      const Values& values = nodes[row.first + static_cast<std::ptrdiff_t>(i)].values;
+      const Values values = nodes[row.first + static_cast<std::ptrdiff_t>(i)].wide();
       by_weight += stencil.weight[0][i] * values;
       by_slope += stencil.slope[0][i] * values;
     }
@@ -116,12 +117,13 @@ ParticleMotion<D> grid_to_particle(const Interpolator& interpolator, const GridB
     slopes[0] += row.across * by_slope;
     for (int k = 1; k < D; ++k) slopes[static_cast<std::size_t>(k)] += row.slope_across[k - 1] * by_weight;
   });
-  ParticleMotion<D> motion;
-  motion.velocity = moved.template segment<D>(0).matrix();
-  motion.velocity_change = moved.template segment<D>(D).matrix();
-  for (int k = 0; k < D; ++k) {
-    motion.velocity_gradient.col(k) = slopes[static_cast<std::size_t>(k)].template segment<D>(0).matrix();
-  }
+  const auto vector = [](const Values& values, int first) {
+    Vector<D> part;
+    for (int k = 0; k < D; ++k) part[k] = values[static_cast<std::size_t>(first + k)];
+    return part;
+  };
+  ParticleMotion<D> motion{vector(moved, 0), vector(moved, D), {}};
+  for (int k = 0; k < D; ++k) motion.velocity_gradient.col(k) = vector(slopes[static_cast<std::size_t>(k)], 0);
   return motion;
 }
 

@@ -13,7 +13,7 @@ namespace tamp::runtime
 
 void reserve_room(const std::filesystem::path& file, std::int64_t n_bytes)
 {
-  const int descriptor = open(file.c_str(), O_WRONLY | O_CLOEXEC);
+  const int descriptor = ::open(file.c_str(), O_WRONLY | O_CLOEXEC);
   if (descriptor < 0) throw FileError(file.string(), std::strerror(errno));
   const off_t size = lseek(descriptor, 0, SEEK_END);
   const int cause = size < 0 ? errno : posix_fallocate(descriptor, size, n_bytes);

@@ -18,7 +18,7 @@ namespace
 /// Waits until the disk has a file or the entries of a folder.
 void settle(const std::filesystem::path& file)
 {
-  const int descriptor = open(file.c_str(), O_RDONLY | O_CLOEXEC);
+  const int descriptor = ::open(file.c_str(), O_RDONLY | O_CLOEXEC);
   const bool settled = descriptor >= 0 && fsync(descriptor) == 0;
   const int cause = errno;
   if (descriptor >= 0) close(descriptor);

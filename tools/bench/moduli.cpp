@@ -55,10 +55,10 @@ States states_of(const UnloadingTable& table)
 }
 
 using Points = std::vector<ElasticPoint>;
-using Loop = std::function<void(const States&, Points&)>;
+using EvaluationLoop = std::function<void(const States&, Points&)>;
 
 template <components::ElasticModel Model>
-Loop batch_of(const Model& model)
+EvaluationLoop batch_of(const Model& model)
 {
   return [&model](const States& states, Points& points) {
     components::evaluate(model, std::span(states.elastic), std::span(states.plastic), std::span(points));
@@ -66,7 +66,7 @@ Loop batch_of(const Model& model)
 }
 
 template <class Function>
-Loop loop_of(const Function& point_at)
+EvaluationLoop loop_of(const Function& point_at)
 {
   return [point_at](const States& states, Points& points) {
     for (std::size_t i = 0; i < points.size(); ++i) points[i] = point_at(states.elastic[i], states.plastic[i]);
@@ -82,7 +82,7 @@ double seconds_now()
 }
 
 /// Nanoseconds a state.
-double measured(const Loop& loop, const States& states, Points& points)
+double measured(const EvaluationLoop& loop, const States& states, Points& points)
 {
   const double start = seconds_now();
   double seconds = 0;
@@ -98,7 +98,7 @@ double measured(const Loop& loop, const States& states, Points& points)
 /// One model: as it is used, and by its definition.
 struct Contest {
   std::string model;
-  Loop batch, plain;
+  EvaluationLoop batch, plain;
   std::vector<double> batch_ns{}, plain_ns{};
   double max_error = 0;
 
@@ -155,9 +155,9 @@ Result moduli(const std::filesystem::path& material)
   const NetworkModulus mlp(network);
   const ModulusSurface compiled_svr(svr, 1e-4), compiled_mlp(mlp, 1e-2);
 
-  const Loop plain_table = loop_of([&](double e, double ep) { return table.defined_at(e, ep); });
-  const Loop plain_svr = loop_of([&](double e, double ep) { return plain_support_vectors(vectors, e, ep); });
-  const Loop plain_mlp = loop_of([&](double e, double ep) {
+  const EvaluationLoop plain_table = loop_of([&](double e, double ep) { return table.defined_at(e, ep); });
+  const EvaluationLoop plain_svr = loop_of([&](double e, double ep) { return plain_support_vectors(vectors, e, ep); });
+  const EvaluationLoop plain_mlp = loop_of([&](double e, double ep) {
     return ElasticPoint{std::numeric_limits<double>::quiet_NaN(), plain_network(network, e, ep), 0};
   });
   std::vector<Contest> contests{{"table", batch_of(table), plain_table},

@@ -14,8 +14,8 @@ namespace tamp::tools::bench
 namespace
 {
 
-constexpr int n_steps = 200;
-constexpr int n_rounds = 5;
+constexpr int punch_steps = 200;
+constexpr int punch_rounds = 5;
 
 /// Runs the first steps and returns the time of each [s]; `record(step)` says whether the step is recorded.
 template <class Record>
@@ -23,7 +23,7 @@ std::vector<double> step_seconds(const tasks::Scene& scene, int n_threads, const
 {
   const auto simulation = tasks::Simulation::make(scene, n_threads);
   std::vector<double> seconds;
-  for (int step = 0; step < n_steps; ++step) {
+  for (int step = 0; step < punch_steps; ++step) {
     simulation->record(record(step));
     const auto start = std::chrono::steady_clock::now();
     simulation->advance(scene.time.end);
@@ -66,7 +66,7 @@ Result punch(const std::filesystem::path& file)
   std::vector<double> recording;
   std::vector<double> bandwidth;
   const auto always = [](int) { return true; };
-  for (int round = 0; round < n_rounds; ++round) {
+  for (int round = 0; round < punch_rounds; ++round) {
     bandwidth.push_back(triad_bytes_per_second());
     one_thread.push_back(sum(step_seconds(scene, 1, always)));
     two_threads.push_back(sum(step_seconds(scene, 2, always)));
@@ -75,7 +75,7 @@ Result punch(const std::filesystem::path& file)
     for (std::size_t step = 0; step + 1 < turns.size(); step += 2) recording.push_back(turns[step] / turns[step + 1]);
   }
 
-  const double ns = median(one_thread) / n_steps / particles * 1e9;
+  const double ns = median(one_thread) / punch_steps / particles * 1e9;
   const double triad = median(bandwidth);
   const double bytes = least_bytes(scene);
   const double bound_ns = bytes / triad * 1e9;
@@ -90,13 +90,13 @@ Result punch(const std::filesystem::path& file)
                  {"recording_overhead", overhead},
                  {"efficiency_2_threads", efficiency},
                  {"particles", particles},
-                 {"steps", n_steps},
-                 {"rounds", n_rounds}};
+                 {"steps", punch_steps},
+                 {"rounds", punch_rounds}};
   result.text = fmt::format(
       "punch: {:.0f} particles, {} steps, median of {} rounds\n"
       "  {:<44} {:>10.1f} ns\n  {:<44} {:>10.2f} GB/s\n  {:<44} {:>10.1f}\n  {:<44} {:>10.2f} ns\n"
       "  {:<44} {:>10.1f}\n  {:<44} {:>10.3f}\n  {:<44} {:>9.2f} %\n",
-      particles, n_steps, n_rounds, "time per particle and step, 1 thread", ns, "triad bandwidth, 1 thread",
+      particles, punch_steps, punch_rounds, "time per particle and step, 1 thread", ns, "triad bandwidth, 1 thread",
       triad * 1e-9, "bytes a particle-step must move", bytes, "time they need", bound_ns, "ratio of the two times",
       ns / bound_ns, "parallel efficiency of 2 threads", efficiency, "cost of recording", overhead * 100);
   return result;

@@ -18,25 +18,25 @@ namespace tamp::tools
 namespace
 {
 
-struct Options {
+struct BenchArguments {
   std::vector<std::string> names;
   std::string json;
   bench::TaskOptions tasks;
 };
 
-using Benchmark = std::function<bench::Result(const Options&)>;
+using Benchmark = std::function<bench::Result(const BenchArguments&)>;
 
 const std::map<std::string, Benchmark>& benchmarks()
 {
   static const std::map<std::string, Benchmark> all{
-      {"moduli", [](const Options&) { return bench::moduli(shipped_input("materials/concrete-sand")); }},
-      {"punch", [](const Options&) { return bench::punch(shipped_input("punch/table.json")); }},
-      {"tasks", [](const Options& options) { return bench::tasks(options.tasks); }}};
+      {"moduli", [](const BenchArguments&) { return bench::moduli(shipped_input("materials/concrete-sand")); }},
+      {"punch", [](const BenchArguments&) { return bench::punch(shipped_input("punch/table.json")); }},
+      {"tasks", [](const BenchArguments& options) { return bench::tasks(options.tasks); }}};
   return all;
 }
 
 /// Those asked for, or all that there are for so many ranks.
-std::vector<std::string> names_of(const Options& options, int n_ranks)
+std::vector<std::string> names_of(const BenchArguments& options, int n_ranks)
 {
   if (n_ranks > 1) {
     for (const std::string& name : options.names) {
@@ -50,7 +50,7 @@ std::vector<std::string> names_of(const Options& options, int n_ranks)
   return names;
 }
 
-void run_benchmarks(const Options& options)
+void run_benchmarks(const BenchArguments& options)
 {
   const auto ranks = runtime::Communicator::world();
   nlohmann::ordered_json json;
@@ -73,7 +73,7 @@ std::string multiple_of_8(const std::string& bytes)
 CLI::App* add_bench_command(CLI::App& app)
 {
   CLI::App* command = app.add_subcommand("bench", "Measure TAMP on this machine");
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<BenchArguments>();
   std::vector<std::string> known;
   for (const auto& [name, benchmark] : benchmarks()) known.push_back(name);
   command->add_option("NAME", options->names, "which benchmarks; all without a name")->check(CLI::IsMember(known));

@@ -4,6 +4,7 @@
 #include <memory>
 #include <variant>
 
+#include "components/portable_math.hpp"
 #include "tasks/simulation.hpp"
 #include "tools/commands/commands.hpp"
 #include "tools/scene/compiled_moduli.hpp"
@@ -16,7 +17,7 @@ namespace tamp::tools
 namespace
 {
 
-struct CheckOptions {
+struct CheckArguments {
   std::string scene;
   std::vector<std::string> assignments;
 };
@@ -33,7 +34,7 @@ void print_volumes(const tasks::Scene& scene, const tasks::SceneBody& body)
   const double density = scene.materials[static_cast<std::size_t>(body.material)].density;
   const components::Volume solid = solid_volume(body);
   const double spacing = scene.grid.cell_size / scene.particles_per_axis_of(body.material);
-  const double filled = static_cast<double>(body.n_particles) * std::pow(spacing, scene.grid.dimension);
+  const double filled = static_cast<double>(body.n_particles) * portable::pow(spacing, scene.grid.dimension);
   const std::string known =
       solid.is_exact() ? "exact" : fmt::format("within {:.2g} %", 100 * solid.error / solid.value);
   fmt::print(stderr, "        solid      {:.6g} m3, {:.6g} kg ({})\n", solid.value, density * solid.value, known);
@@ -41,7 +42,7 @@ void print_volumes(const tasks::Scene& scene, const tasks::SceneBody& body)
              100 * (filled / solid.value - 1));
 }
 
-void check(const CheckOptions& options)
+void check(const CheckArguments& options)
 {
   const CheckedScene checked = read_scene(options.scene, options.assignments);
   const tasks::Scene& scene = checked.scene;
@@ -71,7 +72,7 @@ CLI::App* add_check_command(CLI::App& app)
 {
   CLI::App* command =
       app.add_subcommand("check", "Check a scene, print it with every default filled in, count particles");
-  const auto options = std::make_shared<CheckOptions>();
+  const auto options = std::make_shared<CheckArguments>();
   command->add_option("SCENE", options->scene, "the scene's JSON file")->required();
   command->add_option("--set", options->assignments, "POINTER=VALUE: replace a value of the scene, may be repeated")
       ->allow_extra_args(false);

@@ -20,7 +20,7 @@ namespace tamp::tools
 namespace
 {
 
-struct Options {
+struct CompareArguments {
   std::string scene;
   std::vector<std::string> models{"table", "svr", "mlp"};
   std::vector<std::string> assignments;
@@ -28,7 +28,7 @@ struct Options {
   compare::Options comparison;
 };
 
-std::vector<std::optional<std::size_t>> measure_memory(const Options& options,
+std::vector<std::optional<std::size_t>> measure_memory(const CompareArguments& options,
                                                        const std::vector<compare::ModelScene>& scenes)
 {
   // What a step needs is there after the first; a few more let the sand begin to move.
@@ -59,7 +59,7 @@ void complain_of_unstable(const compare::Comparison& comparison)
   if (!lines.empty()) throw tasks::SimulationError(fmt::format("{}", fmt::join(lines, "\n")), "", -1, {});
 }
 
-void compare_models(Options& options)
+void compare_models(CompareArguments& options)
 {
   const auto scenes = compare::read_model_scenes(options.scene, options.assignments, options.models);
   options.comparison.folder = options.out.empty() ? "compare/" + scenes.front().scene.scene.name : options.out;
@@ -81,7 +81,7 @@ void compare_models(Options& options)
 CLI::App* add_compare_command(CLI::App& app)
 {
   CLI::App* command = app.add_subcommand("compare", "Run a scene with several models of the sand, and compare them");
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<CompareArguments>();
   options->comparison.n_threads = usable_cores().of_machine;
   command->add_option("SCENE", options->scene, "the scene's JSON file")->required();
   command

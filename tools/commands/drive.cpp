@@ -17,7 +17,7 @@ namespace tamp::tools
 namespace
 {
 
-struct Options {
+struct DriveArguments {
   std::string material;
   std::string path;
   std::vector<std::string> assignments;
@@ -25,7 +25,7 @@ struct Options {
   double increment = 1e-3;
 };
 
-void drive_point(const Options& options)
+void drive_point(const DriveArguments& options)
 {
   const tasks::SceneMaterial material = read_material_file(options.material, options.assignments);
   const DeformationPath path = read_path(options.path);
@@ -50,7 +50,7 @@ void drive_point(const Options& options)
 CLI::App* add_drive_command(CLI::App& app)
 {
   CLI::App* command = app.add_subcommand("drive", "Take one material point along a path of deformation, as CSV");
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<DriveArguments>();
   command->add_option("MATERIAL", options->material, "the material's JSON file")->required();
   command->add_option("PATH", options->path, "CSV (time,F11,F12,...,F33), or prescribed-deformation text")->required();
   command->add_option("--set", options->assignments, "POINTER=VALUE: replace a value of the material, may be repeated")

@@ -15,7 +15,7 @@ namespace tamp::tools
 namespace
 {
 
-struct Options {
+struct GraphArguments {
   std::string scene;
   std::vector<std::string> assignments;
   std::string format = "dot";
@@ -23,7 +23,7 @@ struct Options {
   int patch = -1;
 };
 
-void dump_graph(const Options& options)
+void dump_graph(const GraphArguments& options)
 {
   const auto simulation = tasks::Simulation::make(read_scene(options.scene, options.assignments).scene, 1);
   const runtime::TaskGraph& graph = simulation->graph();
@@ -45,7 +45,7 @@ void dump_graph(const Options& options)
 CLI::App* add_graph_command(CLI::App& app)
 {
   CLI::App* command = app.add_subcommand("graph", "Dump the task graph of a scene's time step");
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<GraphArguments>();
   command->add_option("SCENE", options->scene, "the scene's JSON file")->required();
   command->add_option("--set", options->assignments, "POINTER=VALUE: replace a value of the scene, may be repeated")
       ->allow_extra_args(false);

@@ -19,7 +19,7 @@ namespace tamp::tools
 namespace
 {
 
-struct ModulusOptions {
+struct ModulusArguments {
   std::string file;
   std::vector<std::string> at;
   std::vector<std::string> assignments;
@@ -61,7 +61,7 @@ bool is_material(const std::filesystem::path& file)
   return root.contains("type") || root.contains("file");
 }
 
-AskedModel model_of_material(const ModulusOptions& options)
+AskedModel model_of_material(const ModulusArguments& options)
 {
   if (!options.scaling.empty()) {
     throw InputError({"--scaling", "given with a material", "expected --set /modulus/scaling=[...] there"});
@@ -74,7 +74,7 @@ AskedModel model_of_material(const ModulusOptions& options)
   return {sand->parameters().modulus, options.poisson_ratio.value_or(sand->poisson_ratio())};
 }
 
-AskedModel model_of_file(const ModulusOptions& options)
+AskedModel model_of_file(const ModulusArguments& options)
 {
   if (!options.assignments.empty()) {
     throw InputError({"--set " + options.assignments.front(), "given with a model's file", "expected a material"});
@@ -87,7 +87,7 @@ AskedModel model_of_file(const ModulusOptions& options)
   return {read_model_file(options.file, scaling), options.poisson_ratio.value_or(0.189)};
 }
 
-void print_moduli(const ModulusOptions& options)
+void print_moduli(const ModulusArguments& options)
 {
   std::vector<std::vector<double>> states;
   for (const std::string& text : options.at) {
@@ -120,7 +120,7 @@ CLI::App* add_modulus_command(CLI::App& app)
 {
   CLI::App* command = app.add_subcommand(
       "modulus", "Ask a material, or a model's file by itself, for pressure and moduli at given strains, as CSV");
-  const auto options = std::make_shared<ModulusOptions>();
+  const auto options = std::make_shared<ModulusArguments>();
   command
       ->add_option("FILE", options->file,
                    "a material (JSON), or a model: unloading curves (CSV), a published table or support-vector "

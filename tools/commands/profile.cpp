@@ -14,7 +14,7 @@ namespace tamp::tools
 namespace
 {
 
-struct Options {
+struct ProfileArguments {
   std::string folder;
   std::string format = "text";
 };
@@ -36,7 +36,7 @@ nlohmann::json read_profile(const std::filesystem::path& folder)
 CLI::App* add_profile_command(CLI::App& app)
 {
   CLI::App* command = app.add_subcommand("profile", "Show where the time of a run went");
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<ProfileArguments>();
   command->add_option("RUN_DIR", options->folder, "the run's folder")->required();
   command->add_option("--format", options->format, "text or json")->check(CLI::IsMember({"text", "json"}));
   command->callback([options] {

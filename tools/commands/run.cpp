@@ -15,7 +15,7 @@ namespace tamp::tools
 namespace
 {
 
-struct Options {
+struct RunArguments {
   std::string scene;
   std::vector<std::string> assignments;
   std::string out;
@@ -76,7 +76,7 @@ void look_at_cores(int n_threads, RunOptions& run)
 CLI::App* add_run_command(CLI::App& app)
 {
   CLI::App* command = app.add_subcommand("run", "Run a scene and write its folder");
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<RunArguments>();
   options->run.communicator = runtime::Communicator::world();
   command->add_option("SCENE", options->scene, "the scene's JSON file")->required();
   CLI::Option* out =

@@ -3,6 +3,8 @@
 #include <array>
 #include <cmath>
 
+#include "components/portable_math.hpp"
+
 namespace tamp::tools
 {
 
@@ -33,7 +35,7 @@ std::vector<double> drive_values(const tasks::MaterialModel& material, double ti
 {
   std::vector<double> values{time};
   for (int i = 0; i < 9; ++i) values.push_back(point.deformation_gradient(i / 3, i % 3));
-  values.insert(values.end(), {-std::log(point.volume), point.pressure(), point.equivalent_stress()});
+  values.insert(values.end(), {-portable::log(point.volume), point.pressure(), point.equivalent_stress()});
   for (const int i : voigt) values.push_back(point.stress[i]);
 
   const components::CapState& state = point.state;

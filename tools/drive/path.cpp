@@ -2,11 +2,11 @@
 
 #include <fmt/core.h>
 
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 
 #include "components/errors.hpp"
+#include "components/geometry/rotations.hpp"
 
 namespace tamp::tools
 {
@@ -87,7 +87,7 @@ Matrix<3> DeformationPath::deformation_gradient(std::size_t segment, double frac
   const double angle = std::lerp(from.angle, to.angle, fraction);
   if (angle == 0) return unturned(segment, fraction);
   const Vector<3>& axis = to.angle != 0 ? to.axis : from.axis;
-  return Eigen::AngleAxisd(angle, axis.normalized()).toRotationMatrix() * unturned(segment, fraction);
+  return components::axis_rotation(axis, angle) * unturned(segment, fraction);
 }
 
 }  // namespace tamp::tools

@@ -8,6 +8,7 @@
 
 #include "components/errors.hpp"
 #include "components/materials/piecewise_linear.hpp"
+#include "components/portable_math.hpp"
 #include "tools/scene/csv_table.hpp"
 #include "tools/scene/file_kind.hpp"
 #include "tools/scene/published_table.hpp"
@@ -91,7 +92,7 @@ std::vector<ModulusPoint> refined(const std::vector<ModulusPoint>& points)
   std::vector<ModulusPoint> fine{points.front()};
   for (std::size_t i = 1; i < points.size(); ++i) {
     const ModulusPoint &from = points[i - 1], &to = points[i];
-    const double n = std::clamp(std::ceil(std::abs(std::log(to.modulus / from.modulus)) / 0.02), 1.0, 1000.0);
+    const double n = std::clamp(std::ceil(std::abs(portable::log(to.modulus / from.modulus)) / 0.02), 1.0, 1000.0);
     for (double k = 1; k <= n; ++k) {
       fine.push_back({std::lerp(from.x, to.x, k / n), std::lerp(from.modulus, to.modulus, k / n), to.row});
     }
@@ -105,7 +106,7 @@ std::vector<Point> integrated_over_pressure(const std::vector<ModulusPoint>& mod
   for (std::size_t i = 1; i < modulus.size(); ++i) {
     const ModulusPoint &from = modulus[i - 1], &to = modulus[i];
     const double change = (to.modulus - from.modulus) / from.modulus;
-    const double compliance = (change == 0 ? 1 : std::log1p(change) / change) / from.modulus;
+    const double compliance = (change == 0 ? 1 : portable::log1p(change) / change) / from.modulus;
     points.push_back({points.back().elastic + compliance * (to.x - from.x), to.x, to.row});
   }
   return points;

@@ -1,0 +1,28 @@
+#pragma once
+
+/// Elementary functions whose bits do not depend on the processor. The C library's own do: it chooses among several
+/// versions of exp, pow, sin and the like when a program starts, with fused multiply-add where there is one. These are
+/// SLEEF's reproducible ones, without it. Errors are below 1 unit in the last place. Angles in radians.
+///
+/// The square root is exact everywhere, and so std::sqrt will do; a test sees to it that nothing else of the C
+/// library's is called.
+namespace tamp::portable
+{
+
+double exp(double x);
+double expm1(double x);
+double log(double x);
+double log1p(double x);
+double log2(double x);
+double log10(double x);
+double pow(double base, double exponent);
+double cbrt(double x);
+double hypot(double x, double y);
+double sin(double angle);
+double cos(double angle);
+double asin(double x);
+double acos(double x);
+double atan2(double y, double x);
+double tanh(double x);
+
+}  // namespace tamp::portable
