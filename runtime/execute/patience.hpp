@@ -11,8 +11,8 @@
 namespace tamp::runtime
 {
 
-/// Waits a little longer each time it is called. Spinning helps on cores of one's own; on shared ones it holds the core
-/// that the awaited thread needs, so there a waiter soon sleeps.
+/// Waits a little longer each time it is called: it spins, then yields, then sleeps. Spinning helps on cores of one's
+/// own; on shared ones it holds the core that the awaited thread needs, so there a waiter sleeps soon.
 class Patience
 {
  public:
@@ -25,7 +25,7 @@ class Patience
 #if defined(__x86_64__)
       _mm_pause();
 #endif
-    } else if (cores_are_shared_ && n_waits_ > n_spins + n_yields_before_sleep) {
+    } else if (is_worn_out()) {
       std::this_thread::sleep_for(std::chrono::microseconds(50));
     } else {
       std::this_thread::yield();
@@ -40,7 +40,7 @@ class Patience
   /// Whether it has waited long enough to block until it is woken.
   bool is_worn_out() const
   {
-    return n_waits_ > (cores_are_shared_ ? n_spins + n_yields_before_sleep : 2000);
+    return n_waits_ > n_spins + (cores_are_shared_ ? 20 : 2000);
   }
   void restore()
   {
@@ -49,7 +49,6 @@ class Patience
 
  private:
   static constexpr unsigned n_spins = 200;
-  static constexpr unsigned n_yields_before_sleep = 20;
 
   bool cores_are_shared_;
   unsigned n_waits_ = 0;

@@ -1,6 +1,7 @@
 #include <catch2/catch.hpp>
 
 #include "tasks/simulation.hpp"
+#include "tests/runtime/shared_cores.hpp"
 #include "tools/scene/read_scene.hpp"
 
 using namespace tamp;
@@ -15,8 +16,8 @@ TEST_CASE("every shipped scene has the same digest on any ranks and threads", "[
       GENERATE(Shipped{"quick.json", 60}, Shipped{"table.json", 12}, Shipped{"svr.json", 12}, Shipped{"mlp.json", 12});
   const auto checked = tools::read_scene(std::filesystem::path(TAMP_SOURCE_DIR) / "inputs/punch" / file, {});
   const auto digest = [&](int n_threads, const runtime::Communicator& communicator) {
-    const auto simulation =
-        tasks::Simulation::make(checked.scene, std::make_shared<runtime::Executor>(n_threads), communicator);
+    const auto simulation = tasks::Simulation::make(
+        checked.scene, std::make_shared<runtime::Executor>(n_threads, test::on_shared_cores()), communicator);
     for (int n = 0; n < n_steps; ++n) simulation->advance(1);
     return simulation->digest();
   };

@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "tasks/simulation.hpp"
+#include "tests/runtime/shared_cores.hpp"
 #include "tests/scenes/history.hpp"
 #include "tests/tools/program.hpp"
 #include "tools/run.hpp"
@@ -114,8 +115,8 @@ TEST_CASE("every scene of the projectile has the same digest on any ranks and th
   if (name == "quick.json") assignments.push_back(by_regression);
   const auto checked = read_scene(shipped(name), assignments);
   const auto digest = [&](int n_threads, const runtime::Communicator& communicator) {
-    const auto simulation =
-        tasks::Simulation::make(checked.scene, std::make_shared<runtime::Executor>(n_threads), communicator);
+    const auto simulation = tasks::Simulation::make(
+        checked.scene, std::make_shared<runtime::Executor>(n_threads, test::on_shared_cores()), communicator);
     for (int n = 0; n < 5; ++n) simulation->advance(1);
     return simulation->digest();
   };
@@ -125,7 +126,8 @@ TEST_CASE("every scene of the projectile has the same digest on any ranks and th
   for (const int n_threads : {1, 2}) CHECK(digest(n_threads, runtime::Communicator::world()) == alone);
 }
 
-TEST_CASE("a projectile's run that goes on in mid-flight ends with the bits and the history of a straight one")
+TEST_CASE("a projectile's run that goes on in mid-flight ends with the bits and the history of a straight one",
+          "[mpiexec]")
 {
   const test::TemporaryFolder folder;
   const auto straight = folder.path() / "straight", broken = folder.path() / "broken";

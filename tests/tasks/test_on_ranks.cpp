@@ -1,6 +1,7 @@
 #include <catch2/catch.hpp>
 
 #include "tasks/simulation_error.hpp"
+#include "tests/runtime/shared_cores.hpp"
 #include "tests/tasks/scenes.hpp"
 
 using namespace tamp;
@@ -47,7 +48,8 @@ Ending alone(const Scene& scene, double end)
 
 std::unique_ptr<Simulation> on_all_ranks(const Scene& scene, int n_threads)
 {
-  return Simulation::make(scene, std::make_shared<runtime::Executor>(n_threads), runtime::Communicator::world());
+  return Simulation::make(scene, std::make_shared<runtime::Executor>(n_threads, on_shared_cores()),
+                          runtime::Communicator::world());
 }
 
 }  // namespace

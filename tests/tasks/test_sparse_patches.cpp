@@ -1,5 +1,6 @@
 #include <catch2/catch.hpp>
 
+#include "tests/runtime/shared_cores.hpp"
 #include "tests/tasks/scenes.hpp"
 
 using namespace tamp;
@@ -21,7 +22,8 @@ Scene lone_disk()
 
 std::unique_ptr<Simulation> on_all_ranks(const Scene& scene)
 {
-  return Simulation::make(scene, std::make_shared<runtime::Executor>(2), runtime::Communicator::world());
+  return Simulation::make(scene, std::make_shared<runtime::Executor>(2, on_shared_cores()),
+                          runtime::Communicator::world());
 }
 
 /// Mass and momentum that the nodes of all ranks show.

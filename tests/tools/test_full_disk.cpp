@@ -15,7 +15,8 @@ std::string digest_of(const std::filesystem::path& run)
 
 }  // namespace
 
-TEST_CASE("a disk that fills while a checkpoint is written ends the run with 4, and the one before still restarts")
+TEST_CASE("a disk that fills while a checkpoint is written ends the run with 4, and the one before still restarts",
+          "[mpiexec]")
 {
   const int n_ranks = GENERATE(1, 2);
   const TemporaryFolder folder;

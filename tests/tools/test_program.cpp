@@ -32,7 +32,7 @@ TEST_CASE("help is given for the program and for its commands")
   CHECK_THAT(tamp_with("check --help").out, Catch::Contains("--set"));
 }
 
-TEST_CASE("a command that no ranks share is the first rank's alone")
+TEST_CASE("a command that no ranks share is the first rank's alone", "[mpiexec]")
 {
   const TemporaryFolder folder;
   const auto file = folder.write("small.json", small_scene);

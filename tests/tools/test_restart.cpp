@@ -81,7 +81,7 @@ void flip_a_byte(const fs::path& file)
 
 }  // namespace
 
-TEST_CASE("a run that goes on, on other ranks and threads, ends with the bits of a straight one")
+TEST_CASE("a run that goes on, on other ranks and threads, ends with the bits of a straight one", "[mpiexec]")
 {
   struct Crew {
     int ranks;
@@ -170,7 +170,7 @@ TEST_CASE("SIGTERM and SIGINT have a run keep its state and leave with 128 and t
   CHECK(summary_of(run)["restarted_at_step"] == summary["steps"]);
 }
 
-TEST_CASE("SIGUSR2, which mpiexec hands on, stops a run on ranks with its state kept")
+TEST_CASE("SIGUSR2, which mpiexec hands on, stops a run on ranks with its state kept", "[mpiexec]")
 {
   const TemporaryFolder folder;
   const auto run = folder.path() / "run";
@@ -187,7 +187,7 @@ TEST_CASE("SIGUSR2, which mpiexec hands on, stops a run on ranks with its state 
   CHECK(summary_of(run)["restarted_at_step"] == summary["steps"]);
 }
 
-TEST_CASE("when one rank is killed all are gone within ten seconds, and the run can be gone on with")
+TEST_CASE("when one rank is killed all are gone within ten seconds, and the run can be gone on with", "[mpiexec]")
 {
   const TemporaryFolder folder;
   const auto run = folder.path() / "run";

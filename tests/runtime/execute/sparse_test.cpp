@@ -6,6 +6,7 @@
 #include "runtime/execute/bound_graph.hpp"
 #include "runtime/execute/executor.hpp"
 #include "runtime/profile/profiler.hpp"
+#include "tests/runtime/shared_cores.hpp"
 
 namespace tamp::runtime
 {
@@ -37,7 +38,7 @@ struct Row {
         warehouse(std::vector<const TaskGraph*>{&graph}, all.rank()),
         bound(graph, warehouse, all),
         schedule(bound, n_threads),
-        executor(n_threads)
+        executor(n_threads, test::on_shared_cores())
   {
     add(0, 0.5);
     add(1, n_patches * cells_per_patch - 0.5);

@@ -7,6 +7,7 @@
 #include "runtime/execute/move_patches.hpp"
 #include "runtime/grid/curve_order.hpp"
 #include "runtime/ranks/deal_patches.hpp"
+#include "tests/runtime/shared_cores.hpp"
 
 namespace tamp::runtime
 {
@@ -120,7 +121,7 @@ struct World {
         warehouse(std::vector<const TaskGraph*>{&graph}, communicator.rank()),
         bound(graph, warehouse, communicator),
         schedule(bound, n_threads),
-        executor(n_threads)
+        executor(n_threads, test::on_shared_cores())
   {
   }
 
@@ -275,7 +276,7 @@ TEST_CASE("a task that throws on one rank stops the others, which hear why", "[r
   Warehouse warehouse(std::vector<const TaskGraph*>{&graph}, all.rank());
   BoundGraph bound(graph, warehouse, all);
   Schedule schedule(bound, 2);
-  Executor executor(2);
+  Executor executor(2, test::on_shared_cores());
 
   std::string heard;
   try {

@@ -28,7 +28,7 @@ TEST_CASE("the benchmark of tasks compares schedulers in one table and one file"
   CHECK(schedulers.count("tbb flow graph") == 1);
 }
 
-TEST_CASE("on several ranks the benchmark of tasks compares the exchange of halos with plain MPI")
+TEST_CASE("on several ranks the benchmark of tasks compares the exchange of halos with plain MPI", "[mpiexec]")
 {
   const int n_ranks = GENERATE(2, 3);
   const TemporaryFolder folder;
@@ -51,7 +51,7 @@ TEST_CASE("on several ranks the benchmark of tasks compares the exchange of halo
   CHECK_THAT(outcome.out, Catch::Contains("plain MPI"));
 }
 
-TEST_CASE("other benchmarks on several ranks are refused")
+TEST_CASE("other benchmarks on several ranks are refused", "[mpiexec]")
 {
   const Outcome outcome = tamp_on_ranks(2, "bench tasks punch");
 
