@@ -85,7 +85,7 @@ Exchange::~Exchange()
   for (Line& line : lines_) {
     if (line.request == MPI_REQUEST_NULL) continue;
     // After a failure nobody may be there to take the message.
-    if (!failed_) MPI_Wait(&line.request, MPI_STATUS_IGNORE);
+    if (!failed_) wait_for(line.request);
     if (line.request != MPI_REQUEST_NULL) MPI_Request_free(&line.request);
   }
 }
@@ -96,7 +96,7 @@ void Exchange::send(int message)
   {
     // Of the step before. Its receiver may be a step behind, but waits for nothing that this rank has not sent.
     const std::lock_guard lock(mutex_);
-    MPI_Wait(&line.request, MPI_STATUS_IGNORE);
+    wait_for(line.request);
   }
   pack(line);
   const std::uint64_t now = ticks();

@@ -11,8 +11,9 @@
 namespace tamp::runtime
 {
 
-/// Waits a little longer each time it is called: it spins, then yields, then sleeps. Spinning helps on cores of one's
-/// own; on shared ones it holds the core that the awaited thread needs, so there a waiter sleeps soon.
+/// Waits: it spins, on cores of one's own for a millisecond, on shared ones for some microseconds, as it holds the core
+/// that the awaited thread needs; then it sleeps. It never yields: where other programs keep the cores busy a thread
+/// that has slept is back at once, and one that has yielded only after milliseconds.
 class Patience
 {
  public:
@@ -21,37 +22,40 @@ class Patience
   void wait()
   {
     ++n_waits_;
-    if (n_waits_ < n_spins) {
-#if defined(__x86_64__)
-      _mm_pause();
-#endif
-    } else if (is_worn_out()) {
-      std::this_thread::sleep_for(std::chrono::microseconds(50));
-    } else {
-      std::this_thread::yield();
+    if (n_waits_ < n_spins) return spin();
+    if (!cores_are_shared_) {
+      const auto now = std::chrono::steady_clock::now();
+      if (n_waits_ == n_spins) spinning_since_ = now;
+      if (now - spinning_since_ < std::chrono::milliseconds(1)) return spin();
     }
+    worn_out_ = true;
+    std::this_thread::sleep_for(std::chrono::microseconds(50));
   }
   /// Whether to look for work elsewhere: not at once and ever less often, as looking at what others are about to do
   /// slows them down.
-  bool is_tried() const
-  {
-    return n_waits_ >= 8 && (n_waits_ >= n_spins || std::has_single_bit(n_waits_));
-  }
+  bool is_tried() const { return n_waits_ >= n_spins || (n_waits_ >= 8 && std::has_single_bit(n_waits_)); }
   /// Whether it has waited long enough to block until it is woken.
-  bool is_worn_out() const
-  {
-    return n_waits_ > n_spins + (cores_are_shared_ ? 20 : 2000);
-  }
+  bool is_worn_out() const { return worn_out_; }
   void restore()
   {
     n_waits_ = 0;
+    worn_out_ = false;
   }
 
  private:
+  static void spin()
+  {
+#if defined(__x86_64__)
+    _mm_pause();
+#endif
+  }
+
   static constexpr unsigned n_spins = 200;
 
   bool cores_are_shared_;
+  std::chrono::steady_clock::time_point spinning_since_;
   unsigned n_waits_ = 0;
+  bool worn_out_ = false;
 };
 
 }  // namespace tamp::runtime

@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <array>
+#include <chrono>
 #include <cstdlib>
 #include <cstring>
 #include <numeric>
 #include <stdexcept>
+#include <thread>
 
 namespace tamp::runtime
 {
@@ -47,6 +49,15 @@ std::vector<std::vector<std::byte>> cut(const std::vector<std::byte>& together, 
 
 }  // namespace
 
+void wait_for(MPI_Request& request)
+{
+  constexpr int n_before_sleep = 100;
+  int done = 0;
+  for (int n = 0; MPI_Test(&request, &done, MPI_STATUS_IGNORE), done == 0; ++n) {
+    if (n >= n_before_sleep) std::this_thread::sleep_for(std::chrono::microseconds(50));
+  }
+}
+
 MpiSession::MpiSession(int& argc, char**& argv)
 {
   if (!launched()) return;
@@ -75,7 +86,9 @@ Communicator Communicator::duplicate() const
   Communicator copy = *this;
   if (handle_ == nullptr) return copy;
   MPI_Comm fresh = MPI_COMM_NULL;
-  MPI_Comm_dup(*handle_, &fresh);
+  MPI_Request request = MPI_REQUEST_NULL;
+  MPI_Comm_idup(*handle_, &fresh, &request);
+  wait_for(request);
   copy.handle_ = std::shared_ptr<MPI_Comm>(new MPI_Comm(fresh), [](MPI_Comm* comm) {
     if (running()) MPI_Comm_free(comm);
     delete comm;
@@ -85,7 +98,10 @@ Communicator Communicator::duplicate() const
 
 void Communicator::barrier() const
 {
-  if (handle_ != nullptr) MPI_Barrier(*handle_);
+  if (handle_ == nullptr) return;
+  MPI_Request request = MPI_REQUEST_NULL;
+  MPI_Ibarrier(*handle_, &request);
+  wait_for(request);
 }
 
 void Communicator::gather_bytes(const void* own, void* all, std::size_t n) const
@@ -93,7 +109,9 @@ void Communicator::gather_bytes(const void* own, void* all, std::size_t n) const
   if (handle_ == nullptr) {
     std::memcpy(all, own, n);
   } else {
-    MPI_Allgather(own, static_cast<int>(n), MPI_BYTE, all, static_cast<int>(n), MPI_BYTE, *handle_);
+    MPI_Request request = MPI_REQUEST_NULL;
+    MPI_Iallgather(own, static_cast<int>(n), MPI_BYTE, all, static_cast<int>(n), MPI_BYTE, *handle_, &request);
+    wait_for(request);
   }
 }
 
@@ -105,8 +123,10 @@ std::vector<std::vector<std::byte>> Communicator::gather(std::span<const std::by
   if (handle_ == nullptr) {
     std::copy(own.begin(), own.end(), together.begin());
   } else {
-    MPI_Allgatherv(own.data(), counts[static_cast<std::size_t>(rank_)], MPI_BYTE, together.data(), counts.data(),
-                   firsts.data(), MPI_BYTE, *handle_);
+    MPI_Request request = MPI_REQUEST_NULL;
+    MPI_Iallgatherv(own.data(), counts[static_cast<std::size_t>(rank_)], MPI_BYTE, together.data(), counts.data(),
+                    firsts.data(), MPI_BYTE, *handle_, &request);
+    wait_for(request);
   }
   return cut(together, firsts);
 }
@@ -120,11 +140,14 @@ std::vector<std::vector<std::byte>> Communicator::exchange(const std::vector<std
     given.push_back(static_cast<int>(bytes.size()));
     out.insert(out.end(), bytes.begin(), bytes.end());
   }
-  MPI_Alltoall(given.data(), 1, MPI_INT, taken.data(), 1, MPI_INT, *handle_);
+  MPI_Request request = MPI_REQUEST_NULL;
+  MPI_Ialltoall(given.data(), 1, MPI_INT, taken.data(), 1, MPI_INT, *handle_, &request);
+  wait_for(request);
   const std::vector<int> given_at = starts(given), taken_at = starts(taken);
   std::vector<std::byte> in(static_cast<std::size_t>(taken_at.back()));
-  MPI_Alltoallv(out.data(), given.data(), given_at.data(), MPI_BYTE, in.data(), taken.data(), taken_at.data(), MPI_BYTE,
-                *handle_);
+  MPI_Ialltoallv(out.data(), given.data(), given_at.data(), MPI_BYTE, in.data(), taken.data(), taken_at.data(),
+                 MPI_BYTE, *handle_, &request);
+  wait_for(request);
   return cut(in, taken_at);
 }
 

@@ -24,6 +24,10 @@ class MpiSession
   MpiSession& operator=(const MpiSession&) = delete;
 };
 
+/// Until a request is done. MPI's own waiting spins or yields; on cores that ranks share with each other or with other
+/// programs, who waits long is to sleep.
+void wait_for(MPI_Request& request);
+
 /// The ranks that work on one thing together. Without MPI, or by default, this process alone: rank 0 of 1.
 ///
 /// The calls below are collective: all ranks make the same ones in the same order, from one thread.

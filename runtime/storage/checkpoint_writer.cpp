@@ -19,7 +19,7 @@ namespace tamp::runtime
 namespace
 {
 
-constexpr const char* doing = "cannot be written";
+constexpr const char* write_failure = "cannot be written";
 
 StoredType words()
 {
@@ -36,7 +36,7 @@ class ContentWriter
 {
  public:
   ContentWriter(hid_t file, const std::filesystem::path& name, const Communicator& communicator)
-      : file_(file), name_(name), communicator_(communicator), datasets_(name, doing, communicator)
+      : file_(file), name_(name), communicator_(communicator), datasets_(name, write_failure, communicator)
   {
   }
 
@@ -90,7 +90,7 @@ class ContentWriter
   void agree() const { datasets_.agree(); }
 
  private:
-  hid_t checked(hid_t result) const { return hdf5::checked(result, name_, doing); }
+  hid_t checked(hid_t result) const { return hdf5::checked(result, name_, write_failure); }
 
   /// Of a fixed length, with a zero at its end.
   hdf5::Type text_type(const std::string& text) const
@@ -152,10 +152,10 @@ void begin(const std::filesystem::path& file)
 {
   const hdf5::Quiet quiet;
   const hdf5::Properties access = hdf5::file_access({}, file);
-  const hdf5::Properties creation(hdf5::checked(H5Pcreate(H5P_FILE_CREATE), file, doing));
-  hdf5::checked(H5Pset_userblock(creation, seal_bytes), file, doing);
-  hdf5::File opened(hdf5::checked(H5Fcreate(file.c_str(), H5F_ACC_TRUNC, creation, access), file, doing));
-  hdf5::checked(opened.close(), file, doing);
+  const hdf5::Properties creation(hdf5::checked(H5Pcreate(H5P_FILE_CREATE), file, write_failure));
+  hdf5::checked(H5Pset_userblock(creation, seal_bytes), file, write_failure);
+  hdf5::File opened(hdf5::checked(H5Fcreate(file.c_str(), H5F_ACC_TRUNC, creation, access), file, write_failure));
+  hdf5::checked(opened.close(), file, write_failure);
 }
 
 std::array<std::int64_t, 3> as_numbers(const Index& index)
@@ -179,7 +179,7 @@ void write_checkpoint_file(const std::filesystem::path& file, const CheckpointHe
   hdf5::File opened;
   together(communicator, [&] {
     const hdf5::Properties access = hdf5::file_access(communicator, file);
-    opened = hdf5::File(hdf5::checked(H5Fopen(file.c_str(), H5F_ACC_RDWR, access), file, doing));
+    opened = hdf5::File(hdf5::checked(H5Fopen(file.c_str(), H5F_ACC_RDWR, access), file, write_failure));
   });
   {
     ContentWriter content(opened, file, communicator);
@@ -195,8 +195,8 @@ void write_checkpoint_file(const std::filesystem::path& file, const CheckpointHe
     for (std::size_t t = 0; t < tables.size(); ++t) content.write_table(tables[t], entries[t]);
     content.agree();
   }
-  together(communicator, [&] { hdf5::checked(H5Fflush(opened, H5F_SCOPE_GLOBAL), file, doing); });
-  together(communicator, [&] { hdf5::checked(opened.close(), file, doing); });
+  together(communicator, [&] { hdf5::checked(H5Fflush(opened, H5F_SCOPE_GLOBAL), file, write_failure); });
+  together(communicator, [&] { hdf5::checked(opened.close(), file, write_failure); });
   by_first(communicator, [&] { give_back_room(file, hdf5::used_size(file)); });
   seal(file, communicator);
 }

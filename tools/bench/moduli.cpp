@@ -30,7 +30,7 @@ using components::SupportVectorModulus;
 using components::UnloadingTable;
 
 constexpr std::size_t n_states = 4096;
-constexpr int n_rounds = 15;
+constexpr int moduli_rounds = 15;
 constexpr double least_seconds = 2e-3;  // of one measurement
 
 struct States {
@@ -130,7 +130,7 @@ Result result_of(const std::vector<Contest>& contests)
   result.json = nlohmann::ordered_json::array();
   result.text =
       fmt::format("moduli: p and K of {} states, median of {} rounds\n  {:<14}{:>10}{:>12}{:>14}{:>12}{:>12}\n",
-                  n_states, n_rounds, "model", "batch ns", "plain ns", "plain/batch", "of table", "max error");
+                  n_states, moduli_rounds, "model", "batch ns", "plain ns", "plain/batch", "of table", "max error");
   const double table_ns = median(contests.front().batch_ns);
   for (const Contest& contest : contests) {
     const double batch_ns = median(contest.batch_ns), plain_ns = median(contest.plain_ns);
@@ -167,7 +167,7 @@ Result moduli(const std::filesystem::path& material)
                                 {"compiled mlp", batch_of(compiled_mlp), plain_mlp}};
 
   const States states = states_of(table);
-  for (int round = 0; round < n_rounds; ++round) {
+  for (int round = 0; round < moduli_rounds; ++round) {
     for (Contest& contest : contests) contest.measure(states);
   }
   return result_of(contests);
