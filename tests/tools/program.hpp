@@ -31,13 +31,11 @@ inline Outcome tamp_with(const std::string& arguments)
   return outcome_of(std::string(TAMP_PROGRAM) + " " + arguments);
 }
 
-/// Tells Open MPI to take more ranks than cores, to leave them unbound, to let go of the core while it waits, and to
-/// run for root, as in a container.
+/// Tells Open MPI to take more ranks than cores, to leave them unbound, and to run for root, as in a container.
 inline void allow_ranks_anywhere()
 {
   setenv("OMPI_MCA_rmaps_base_oversubscribe", "1", 1);
   setenv("OMPI_MCA_hwloc_base_binding_policy", "none", 1);
-  setenv("OMPI_MCA_mpi_yield_when_idle", "1", 1);
   setenv("OMPI_ALLOW_RUN_AS_ROOT", "1", 1);
   setenv("OMPI_ALLOW_RUN_AS_ROOT_CONFIRM", "1", 1);
 }
