@@ -193,7 +193,7 @@ void Profiler::add_trace(Profile& profile, const Communicator& communicator, std
   for (int rank = 0; rank < communicator.size(); ++rank) {
     const auto& bytes = from_each[static_cast<std::size_t>(rank)];
     std::vector<TracedInstance> traced(bytes.size() / sizeof(TracedInstance));
-    std::memcpy(static_cast<void*>(traced.data()), bytes.data(), bytes.size());
+    if (!bytes.empty()) std::memcpy(static_cast<void*>(traced.data()), bytes.data(), bytes.size());
     const auto since_start = [&](std::uint64_t tick) { return static_cast<double>(tick - first_tick) * second; };
     for (const TracedInstance& t : traced) {
       profile.trace.push_back({rows_[t.row].name, rank, t.patch, t.group, t.record.worker, since_start(t.record.start),
