@@ -27,17 +27,9 @@ double log2(double x)
 {
   return Sleef_cinz_log2d1_u10purec(x);
 }
-double log10(double x)
-{
-  return Sleef_cinz_log10d1_u10purec(x);
-}
 double pow(double base, double exponent)
 {
   return Sleef_cinz_powd1_u10purec(base, exponent);
-}
-double cbrt(double x)
-{
-  return Sleef_cinz_cbrtd1_u10purec(x);
 }
 double hypot(double x, double y)
 {

@@ -33,10 +33,8 @@ const std::vector<Function>& functions()
       {"log", portable::log, [](L x) { return std::log(x); }, 1e-300, 1e6},
       {"log1p", portable::log1p, [](L x) { return std::log1p(x); }, -0.99, 100},
       {"log2", portable::log2, [](L x) { return std::log2(x); }, 1e-3, 1e6},
-      {"log10", portable::log10, [](L x) { return std::log10(x); }, 1e-3, 1e6},
       {"x^(-5/3)", [](double x) { return portable::pow(x, -5.0 / 3); }, [](L x) { return std::pow(x, L{-5.0 / 3}); },
        0.01, 100},
-      {"cbrt", portable::cbrt, [](L x) { return std::cbrt(x); }, -1e3, 1e3},
       {"hypot(x, 3)", [](double x) { return portable::hypot(x, 3); }, [](L x) { return std::hypot(x, L{3}); }, -10, 10},
       {"sin", portable::sin, [](L x) { return std::sin(x); }, -100, 100},
       {"cos", portable::cos, [](L x) { return std::cos(x); }, -100, 100},
@@ -92,7 +90,7 @@ TEST_CASE("portable functions have the bits that they have everywhere")
     for (const double x : arguments(f)) hash = (hash ^ std::bit_cast<std::uint64_t>(f.portable(x))) * 1099511628211U;
   }
 
-  CHECK(hash == 0xb769ffe1cdba00e4U);
+  CHECK(hash == 0x49cfb0cd7c1b3072U);
 }
 
 TEST_CASE("nothing that decides a result calls the C library's elementary functions")
