@@ -35,9 +35,10 @@ if(TAMP_SANITIZE)
   target_link_options(tamp_options INTERFACE -fsanitize=${TAMP_SANITIZE})
 endif()
 if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)
-  # gcc 12 sees overlapping and endless copies in its own std::string (gcc bug 105651), and unset values in its own AVX-512 intrinsics
-  # (gcc bug 105593) and, with sanitizers on, in inlined library code.
-  target_compile_options(tamp_options INTERFACE -Wno-restrict -Wno-stringop-overflow -Wno-uninitialized -Wno-maybe-uninitialized)
+  # gcc 12 sees overlapping and endless copies in its own std::string (gcc bug 105651), and unset values in its own
+  # AVX-512 intrinsics (gcc bug 105593) and, with sanitizers on, in inlined library code.
+  target_compile_options(tamp_options INTERFACE -Wno-restrict -Wno-stringop-overflow -Wno-uninitialized
+                                                -Wno-maybe-uninitialized)
 endif()
 
 # tamp_sources(SOURCES [LEFT_OUT...]): every source below the current folder but those whose paths match.
