@@ -87,8 +87,9 @@ inline void exponential(Pack& x)
   x = series * reinterpret_cast<const Pack&>(power_of_two);
 }
 
-/// Up to 64 of a layer's neurons: the values and, for a gradient, the derivatives by both inputs. `active` has a bit for
-/// each that may be other than zero. In a relu layer that is less than half, and the rest is not multiplied by anything.
+/// Up to 64 of a layer's neurons: the values and, for a gradient, the derivatives by both inputs. `active` has a bit
+/// for each that may be other than zero. In a relu layer that is less than half, and the rest is not multiplied by
+/// anything.
 template <std::size_t n_streams>
 struct alignas(64) Block {
   double streams[n_streams][none + pack_size];  // [none] is zero
@@ -118,8 +119,7 @@ inline void add_products(const Block<n_streams>& inputs, const Pack* kernel, std
     unrolled<n_turns>([&](auto turn) {
       const auto i = static_cast<std::size_t>(std::countr_zero(left));
       const Pack* const row = kernel + i % block_size * packs_per_row;
-      unrolled<n_streams * n>(
-          [&](auto k) { by_turns[turn].packs[k] += inputs.streams[k / n][i] * row[k % n]; });
+      unrolled<n_streams * n>([&](auto k) { by_turns[turn].packs[k] += inputs.streams[k / n][i] * row[k % n]; });
       left &= left - 1;
     });
   }
@@ -160,8 +160,7 @@ struct LayerView {
 
 /// n packs of a layer's outputs, the block's j-th and those that follow.
 template <std::size_t n_turns, std::size_t n, std::size_t n_streams>
-inline void make_packs(const LayerView& layer, const Block<n_streams>* inputs, Block<n_streams>& outputs,
-                       std::size_t j)
+inline void make_packs(const LayerView& layer, const Block<n_streams>* inputs, Block<n_streams>& outputs, std::size_t j)
 {
   Sums<n, n_streams> sums{};
   unrolled<n>([&](auto k) { sums.packs[k] = layer.bias[j + k]; });
