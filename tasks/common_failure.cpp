@@ -33,6 +33,11 @@ Failure told(const std::exception_ptr& error)
 
 }  // namespace
 
+bool is_of_simulation(const std::exception_ptr& error)
+{
+  return told(error).of_simulation;
+}
+
 void throw_common_failure(const std::exception_ptr& own, long step, const runtime::Communicator& communicator)
 {
   const Failure failure = told(own);

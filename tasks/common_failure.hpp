@@ -7,6 +7,9 @@
 namespace tamp::tasks
 {
 
+/// Whether an exception is a SimulationError.
+bool is_of_simulation(const std::exception_ptr& error);
+
 /// Throws on all ranks what the first of them that has an error of its own (`own`, else null) has: a SimulationError if
 /// it is one and all are at the same step, so that there is a common last good state; else std::runtime_error.
 /// Collective, of ranks that have stopped in the middle of a step.

@@ -101,6 +101,12 @@ struct SceneOutput {
   double near_nose = 0.01;
 };
 
+/// Beyond these a run has gone wrong, and ends.
+struct SceneLimits {
+  /// Of the total energy, relative to what the run has been given: its initial kinetic energy and the work of gravity.
+  double energy_error = 0.2;
+};
+
 /// Cells that a patch needs along an axis that is cut. Its particles reach a layer of nodes beyond each end; where
 /// those of both ends met, some nodes would lack a part of their sums.
 constexpr int least_patch_width = 3;
@@ -128,6 +134,7 @@ struct Scene {
   /// Stress updates that may fail in a run before it stops; their particles keep their stress.
   long failed_updates_allowed = 0;
   SceneOutput output;
+  SceneLimits limits;
 
   bool has_nose() const
   {

@@ -18,6 +18,7 @@
 #include "tasks/engine.hpp"
 #include "tasks/field_columns.hpp"
 #include "tasks/fill_bodies.hpp"
+#include "tasks/initial_moduli.hpp"
 #include "tasks/settled_sand.hpp"
 #include "tasks/simulation_error.hpp"
 #include "tasks/state_digest.hpp"
@@ -38,22 +39,11 @@ std::vector<std::string> material_names(const Scene& scene)
   return names;
 }
 
-/// K and G of a material without strain.
-template <class Elastic>
-components::TangentModuli initial_moduli(const Elastic& solid)
-{
-  return {solid.bulk_modulus, solid.shear_modulus};
-}
-components::TangentModuli initial_moduli(const components::TabularCap& sand)
-{
-  return {sand.initial_bulk_modulus(), sand.initial_shear_modulus()};
-}
-
 template <int D>
 components::TangentModuli greatest_initial_moduli(const Scene& scene, const SceneBody& body)
 {
   const SceneMaterial& material = scene.materials[static_cast<std::size_t>(body.material)];
-  auto moduli = std::visit([](const auto& model) { return initial_moduli(model); }, material.model);
+  components::TangentModuli moduli = initial_moduli(material);
   if (body.initial_stress) {
     const double ratio = moduli.shear_modulus / moduli.bulk_modulus;
     moduli.bulk_modulus = SettledSand<D>(scene, body).greatest_bulk_modulus();
@@ -266,8 +256,9 @@ class SimulationOf : public Simulation
       executor_->run(engine_->step_schedule, step);
       return;
     } catch (const runtime::TaskError& error) {
-      if (communicator_.size() == 1) std::rethrow_exception(error.cause);
-      own = error.cause;
+      // What is not of the simulation keeps the name of its task.
+      own = is_of_simulation(error.cause) ? error.cause : std::current_exception();
+      if (communicator_.size() == 1) std::rethrow_exception(own);
     } catch (const runtime::OtherRankFailed&) {
     }
     throw_common_failure(own, n_steps_, after_failure_);

@@ -1,14 +1,39 @@
 #pragma once
 
+#include <algorithm>
+#include <filesystem>
+#include <new>
 #include <stdexcept>
 #include <string>
+#include <system_error>
 #include <vector>
 
 namespace tamp::tools
 {
 
-/// What the program tells its caller; 1 is for what should not happen, and the number of a signal adds to 128.
-enum class ExitCode { done = 0, fault = 1, bad_input = 2, bad_simulation = 3, bad_file = 4, signal = 128 };
+/// What the program tells its caller: `no_resources` of files, memory and threads, and of what should not happen; the
+/// number of a signal adds to 128.
+enum class ExitCode { done = 0, bad_input = 2, bad_simulation = 3, no_resources = 4, signal = 128 };
+
+/// Memory or threads that the system does not give, with what they were for.
+struct ResourceError : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+/// Does the work; what the system refuses on the way is said with `purpose`, such as "laying out the particles".
+template <class Work>
+auto with_resources_for(const std::string& purpose, const Work& work)
+{
+  try {
+    return work();
+  } catch (const std::bad_alloc&) {
+    throw ResourceError("out of memory, " + purpose);
+  } catch (const std::filesystem::filesystem_error&) {
+    throw;
+  } catch (const std::system_error& error) {
+    throw ResourceError(std::string(error.what()) + ", " + purpose);
+  }
+}
 
 /// One thing that is wrong with what a person gave the program.
 struct Problem {
@@ -19,7 +44,7 @@ struct Problem {
   std::string expected;
 };
 
-/// All that is wrong with an input, at once; `what()` has a line `PLACE: FOUND; EXPECTED` for each.
+/// All that is wrong with an input, at once; `what()` has a line `PLACE: FOUND; EXPECTED` for each of the first fifty.
 struct InputError : std::runtime_error {
   explicit InputError(std::vector<Problem> found) : std::runtime_error(lines(found)), problems(std::move(found)) {}
   explicit InputError(Problem problem) : InputError(std::vector<Problem>{std::move(problem)}) {}
@@ -29,11 +54,14 @@ struct InputError : std::runtime_error {
  private:
   static std::string lines(const std::vector<Problem>& problems)
   {
+    constexpr std::size_t most = 50;
     std::string text;
-    for (const Problem& p : problems) {
-      if (!text.empty()) text += '\n';
+    for (std::size_t i = 0; i < std::min(most, problems.size()); ++i) {
+      const Problem& p = problems[i];
+      if (i > 0) text += '\n';
       text += p.place + ": " + p.found + (p.expected.empty() ? "" : "; " + p.expected);
     }
+    if (problems.size() > most) text += "\nand " + std::to_string(problems.size() - most) + " more problems";
     return text;
   }
 };

@@ -1,4 +1,5 @@
 #include <exception>
+#include <new>
 #include <string>
 
 #include "runtime/execute/exchange.hpp"
@@ -6,9 +7,10 @@
 #include "runtime/storage/file_error.hpp"
 #include "tasks/simulation_error.hpp"
 #include "tools/commands/program.hpp"
+#include "tools/console.hpp"
 #include "tools/errors.hpp"
+#include "tools/run/signals.hpp"
 #include "tools/settle.hpp"
-#include "tools/signals.hpp"
 
 namespace
 {
@@ -35,7 +37,9 @@ int run_or_settle(int argc, char** argv)
   const Communicator ranks = ranks_of(argc, argv);
   if (ranks.size() == 1 && !Communicator::world().is_first()) return 0;
   try {
-    return tamp::tools::run_program(argc, argv, ranks);
+    const int code = tamp::tools::run_program(argc, argv, ranks);
+    tamp::tools::flush_out();
+    return code;
   } catch (const tamp::tools::Interrupted& stop) {
     return settle(stop.what(), ExitCode{static_cast<int>(ExitCode::signal) + stop.signal}, ranks);
   } catch (const tamp::tools::InputError& error) {
@@ -43,11 +47,13 @@ int run_or_settle(int argc, char** argv)
   } catch (const tamp::tasks::SimulationError& error) {
     return settle(error.what(), ExitCode::bad_simulation, ranks);
   } catch (const tamp::runtime::FileError& error) {
-    return settle(error.what(), ExitCode::bad_file, ranks);
+    return settle(error.what(), ExitCode::no_resources, ranks);
   } catch (const tamp::runtime::OtherRankFailed&) {
-    return settle("", ExitCode::fault, ranks);
+    return settle("", ExitCode::no_resources, ranks);
+  } catch (const std::bad_alloc&) {
+    return settle("out of memory", ExitCode::no_resources, ranks);
   } catch (const std::exception& error) {
-    return settle(error.what(), ExitCode::fault, ranks);
+    return settle(error.what(), ExitCode::no_resources, ranks);
   }
 }
 
@@ -55,10 +61,11 @@ int run_or_settle(int argc, char** argv)
 
 int main(int argc, char** argv)
 {
+  tamp::tools::guard_console();
   try {
     const tamp::runtime::MpiSession session(argc, argv);
     return run_or_settle(argc, argv);
   } catch (const std::exception& error) {
-    return settle(error.what(), ExitCode::fault, Communicator{});
+    return settle(error.what(), ExitCode::no_resources, Communicator{});
   }
 }

@@ -9,6 +9,14 @@
 namespace tamp::components
 {
 
+template <int D>
+std::size_t n_shapes(const std::vector<Solid<D>>& parts)
+{
+  std::size_t n = 0;
+  for (const Solid<D>& part : parts) n += part.n_shapes();
+  return n;
+}
+
 /// What at least one of the parts holds.
 template <int D>
 struct Union {
@@ -17,6 +25,7 @@ struct Union {
   bool contains(const Vector<D>& x) const;
   double reach(const Vector<D>& direction) const;
   Volume volume() const;
+  std::size_t n_shapes() const { return components::n_shapes(parts); }
   void check() const;
 };
 
@@ -28,6 +37,7 @@ struct Intersection {
   bool contains(const Vector<D>& x) const;
   double reach(const Vector<D>& direction) const;
   Volume volume() const;
+  std::size_t n_shapes() const { return components::n_shapes(parts); }
   void check() const;
 };
 
@@ -40,6 +50,7 @@ struct Difference {
   bool contains(const Vector<D>& x) const;
   double reach(const Vector<D>& direction) const;
   Volume volume() const;
+  std::size_t n_shapes() const { return whole.n_shapes() + components::n_shapes(without); }
 };
 
 }  // namespace tamp::components

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <memory>
 #include <utility>
 
@@ -17,6 +18,7 @@ namespace tamp::components
 ///     double reach(const Vector<D>& direction) const;  // the greatest x . direction [m] of its points, or a bound
 ///     Volume volume() const;
 ///     void check() const;                              // if it has one: throws BadValue for what is no shape
+///     std::size_t n_shapes() const;                    // if it is made of others: how many they are in the end
 ///
 /// Solids share their shapes, which do not change. They are evaluated at set-up only, never in a step. Lengths in m.
 template <int D>
@@ -28,6 +30,7 @@ class Solid
   explicit Solid(Shape shape)
   {
     if constexpr (requires { shape.check(); }) shape.check();
+    if constexpr (requires { shape.n_shapes(); }) n_shapes_ = shape.n_shapes();
     shape_ = std::make_shared<const Held<Shape>>(std::move(shape));
   }
 
@@ -36,6 +39,9 @@ class Solid
 
   /// Volume [m^3]; in the plane the area [m^2], the volume of one metre of thickness.
   Volume volume() const { return shape_->volume(); }
+
+  /// Simple shapes that a question to the solid may have to ask.
+  std::size_t n_shapes() const { return n_shapes_; }
 
   /// An axis-aligned box around the solid, as small as the shapes' reaches are exact.
   Box<D> bounding_box() const
@@ -69,6 +75,7 @@ class Solid
   };
 
   std::shared_ptr<const AnyShape> shape_;
+  std::size_t n_shapes_ = 1;
 };
 
 }  // namespace tamp::components

@@ -117,6 +117,31 @@ std::size_t Warehouse::forecast_bytes() const
   return bytes;
 }
 
+double Warehouse::forecast_bytes(std::span<const TaskGraph* const> graphs, std::span<const std::size_t> n_particles)
+{
+  const PatchLayout& layout = graphs.front()->layout();
+  int halo = 0;
+  for (const TaskGraph* graph : graphs) halo = std::max(halo, graph->storage_halo());
+  double n_nodes = 0, n_cells = 0;
+  for (const Patch& patch : layout) {
+    n_nodes += static_cast<double>(grown(patch.nodes, halo, layout.grid().dimension).size());
+    n_cells += static_cast<double>(grown(patch.cells, halo, layout.grid().dimension).size());
+  }
+  double bytes = 0;
+  for (const LabelUse& use : merged_uses(graphs)) {
+    const Centring centring = use.label->centring();
+    if (centring == Centring::reduction) continue;
+    const bool of_particles = centring == Centring::particle;
+    const int n_buffers =
+        int{use.state} + int{use.computed || (of_particles && !use.state)} + int{use.accumulated && !of_particles};
+    const double n_values = of_particles ? static_cast<double>(n_particles[static_cast<std::size_t>(use.group)])
+                            : centring == Centring::node ? n_nodes
+                                                         : n_cells;
+    bytes += n_buffers * n_values * static_cast<double>(use.label->value_bytes());
+  }
+  return bytes;
+}
+
 std::size_t Warehouse::n_particles(int group) const
 {
   std::size_t n = 0;

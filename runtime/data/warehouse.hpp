@@ -32,6 +32,8 @@ class Warehouse
   const MemoryLedger& ledger() const { return ledger_; }
   /// Bytes that the fields need for the particles there are, before any growth by migration.
   std::size_t forecast_bytes() const;
+  /// The same of all patches, for so many particles of each group, before anything is stored.
+  static double forecast_bytes(std::span<const TaskGraph* const> graphs, std::span<const std::size_t> n_particles);
 
   /// Of this rank's patches; 0 on others.
   std::size_t n_particles(int patch, int group) const { return count(patch, group); }

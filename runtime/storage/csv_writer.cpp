@@ -7,6 +7,7 @@
 #include <cstdlib>
 #include <cstring>
 #include <fstream>
+#include <optional>
 #include <stdexcept>
 
 #include "runtime/storage/file_error.hpp"
@@ -23,19 +24,56 @@ std::string line_of(const auto& values)
   return fmt::format("{}\n", fmt::join(values, ","));
 }
 
-/// The first line and the rows up to `last_step`; what follows the last end of a line was cut off by a program's end.
-std::string kept_of(const std::filesystem::path& file, const std::string& header, std::int64_t last_step)
+/// The step of a row that holds a number for each column, and nothing else.
+std::optional<double> step_of(const std::string& line, std::size_t n_columns)
 {
-  if (!std::filesystem::exists(file)) return header;
+  const char* at = line.c_str();
+  std::optional<double> step;
+  for (std::size_t i = 0; i < n_columns; ++i) {
+    char* end = nullptr;
+    const double value = std::strtod(at, &end);
+    if (end == at || *end != (i + 1 == n_columns ? '\n' : ',')) return std::nullopt;
+    if (i == 0) step = value;
+    at = end + 1;
+  }
+  return step;
+}
+
+/// FNV-1a, 64 bits, of a text that goes on.
+std::uint64_t hash_of(const std::string& text, std::uint64_t hash = 0xcbf29ce484222325U)
+{
+  for (const char c : text) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3U;
+  return hash;
+}
+
+/// Adds the rows up to `last_step` to the header in `kept`, if the file has that header. What follows the last end of a
+/// line was cut off by a program's end.
+void add_rows_of(const std::filesystem::path& file, std::size_t n_columns, std::int64_t last_step, std::string& kept,
+                 CsvExtent& extent)
+{
   std::ifstream stream(file);
-  std::string kept, line;
-  while (std::getline(stream, line) && !stream.eof()) {
-    line += '\n';
-    if (kept.empty() && line != header) throw FileError(file.string(), "has other columns than this run writes");
-    if (kept.empty() || std::strtod(line.c_str(), nullptr) <= static_cast<double>(last_step)) kept += line;
+  std::string line;
+  if (std::getline(stream, line) && line + '\n' == kept) {
+    while (std::getline(stream, line) && !stream.eof()) {
+      line += '\n';
+      const std::optional<double> step = step_of(line, n_columns);
+      if (!step || *step > static_cast<double>(last_step)) continue;
+      kept += line;
+      extent = {extent.n_rows + 1, hash_of(line, extent.hash)};
+    }
   }
   if (stream.bad()) throw FileError(file.string(), "cannot be read");
-  return kept.empty() ? header : kept;
+}
+
+/// Keeps a file as it is under another name, and gives that.
+std::filesystem::path set_aside(const std::filesystem::path& file)
+{
+  std::filesystem::path aside = file;
+  aside += ".damaged";
+  std::error_code failed;
+  std::filesystem::copy_file(file, aside, std::filesystem::copy_options::overwrite_existing, failed);
+  if (failed) throw FileError(aside.string(), failed.message());
+  return aside.filename();
 }
 
 }  // namespace
@@ -49,14 +87,32 @@ CsvWriter::CsvWriter(const std::filesystem::path& file, std::size_t n_columns, c
 CsvWriter::CsvWriter(const std::filesystem::path& file, const std::vector<std::string>& columns)
     : CsvWriter(file, columns.size(), "wb")
 {
-  write_line(line_of(columns));
+  const std::string header = line_of(columns);
+  write_line(header);
+  extent_.hash = hash_of(header);
 }
 
 CsvWriter CsvWriter::continued(const std::filesystem::path& file, const std::vector<std::string>& columns,
-                               std::int64_t last_step)
+                               std::int64_t last_step, const CsvExtent& expected)
 {
-  write_whole_file(file, kept_of(file, line_of(columns), last_step));
-  return CsvWriter(file, columns.size(), "ab");
+  const bool missing = !std::filesystem::exists(file);
+  std::string kept = line_of(columns);
+  CsvExtent extent{0, hash_of(kept)};
+  if (!missing) add_rows_of(file, columns.size(), last_step, kept, extent);
+
+  std::string notice;
+  if (missing) {
+    notice = fmt::format("{}: is missing, with the {} rows until step {}; it was begun anew", file.string(),
+                         expected.n_rows, last_step);
+  } else if (extent != expected) {
+    notice = fmt::format("{}: is damaged: of {} rows until step {}, {} can be read and were kept; as it was it is {}",
+                         file.string(), expected.n_rows, last_step, extent.n_rows, set_aside(file).string());
+  }
+  write_whole_file(file, kept);
+  CsvWriter table(file, columns.size(), "ab");
+  table.extent_ = extent;
+  table.notice_ = notice;
+  return table;
 }
 
 void CsvWriter::write_row(std::span<const double> values)
@@ -64,7 +120,9 @@ void CsvWriter::write_row(std::span<const double> values)
   if (values.size() != n_columns_) {
     throw std::invalid_argument(fmt::format("{} values for {} columns", values.size(), n_columns_));
   }
-  write_line(line_of(values));
+  const std::string line = line_of(values);
+  write_line(line);
+  extent_ = {extent_.n_rows + 1, hash_of(line, extent_.hash)};
 }
 
 void CsvWriter::write_line(const std::string& line)

@@ -11,6 +11,14 @@
 namespace tamp::runtime
 {
 
+/// How much of a table there is: its rows, and a hash of its header and of them.
+struct CsvExtent {
+  std::int64_t n_rows = 0;
+  std::uint64_t hash = 0;
+
+  bool operator==(const CsvExtent&) const = default;
+};
+
 /// Writes a table of numbers row by row, each row complete in the file when `write_row` returns, so that an interrupted
 /// run leaves a readable table. Numbers are written with as many digits as it takes to read the same number back.
 class CsvWriter
@@ -20,14 +28,19 @@ class CsvWriter
   CsvWriter(const std::filesystem::path& file, const std::vector<std::string>& columns);
 
   /// Goes on with the table of a run that is resumed after `last_step`: keeps the rows whose first column, the step, is
-  /// no later. Starts it anew where there is none. Throws FileError, for a table of other columns too.
+  /// no later. They should be what `expected` tells; where they are not, those that can be read stay, the file as it
+  /// was is set aside as FILE.damaged, and `notice` says so. Throws FileError.
   static CsvWriter continued(const std::filesystem::path& file, const std::vector<std::string>& columns,
-                             std::int64_t last_step);
+                             std::int64_t last_step, const CsvExtent& expected);
 
   /// As many values as there are columns. Throws FileError, for a full disk too.
   void write_row(std::span<const double> values);
 
   std::size_t n_columns() const { return n_columns_; }
+  /// What is in the file now.
+  const CsvExtent& extent() const { return extent_; }
+  /// What the user should know of the table that was to be continued; nothing if all was well.
+  const std::string& notice() const { return notice_; }
 
  private:
   struct Close {
@@ -40,6 +53,8 @@ class CsvWriter
   std::filesystem::path file_;
   std::size_t n_columns_;
   std::unique_ptr<std::FILE, Close> stream_;
+  CsvExtent extent_;
+  std::string notice_;
 };
 
 }  // namespace tamp::runtime

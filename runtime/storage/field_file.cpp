@@ -47,11 +47,11 @@ FieldFile::FieldFile(const std::filesystem::path& folder, const Communicator& co
   by_first(communicator_, [&] { begin(); });
 }
 
-FieldFile FieldFile::continued(const std::filesystem::path& folder, std::int64_t last_step,
+FieldFile FieldFile::continued(const std::filesystem::path& folder, std::int64_t last_step, std::size_t n_expected,
                                const Communicator& communicator)
 {
   FieldFile file(Unopened{}, folder, communicator);
-  by_first(communicator, [&] { file.begin_or_continue(last_step); });
+  by_first(communicator, [&] { file.begin_or_continue(last_step, n_expected); });
   return file;
 }
 
@@ -65,15 +65,20 @@ void FieldFile::begin() const
   write_whole_file(xdmf_file_, xdmf_text({}));
 }
 
-void FieldFile::begin_or_continue(std::int64_t last_step)
+void FieldFile::begin_or_continue(std::int64_t last_step, std::size_t n_expected)
 {
   if (!std::filesystem::exists(hdf5_file_)) {
-    notice_ = fmt::format("{}: is missing and was begun anew", hdf5_file_.string());
+    notice_ = fmt::format("{}: is missing, with the {} outputs until step {}; it was begun anew", hdf5_file_.string(),
+                          n_expected, last_step);
     return begin();
   }
   try {
     steps_ = cut_to_step(hdf5_file_, last_step);
     write_whole_file(xdmf_file_, xdmf_text(steps_));
+    if (steps_.size() != n_expected) {
+      notice_ = fmt::format("{}: has {} outputs until step {}, of {} that were written; they were kept",
+                            hdf5_file_.string(), steps_.size(), last_step, n_expected);
+    }
   } catch (const FileError& error) {
     if (error.file != hdf5_file_) throw;
     std::filesystem::path aside = hdf5_file_;

@@ -32,15 +32,19 @@ class FieldFile
   /// Starts both files anew in a folder that exists. Throws FileError.
   explicit FieldFile(const std::filesystem::path& folder, const Communicator& communicator = {});
 
-  /// Goes on with the files of a run that is resumed after `last_step`, without what they have of later steps. A file
-  /// that cannot be read is set aside as `fields.h5.damaged`, and `notice` says so. Throws FileError.
-  static FieldFile continued(const std::filesystem::path& folder, std::int64_t last_step,
+  /// Goes on with the files of a run that is resumed after `last_step`, without what they have of later steps. There
+  /// should be `n_expected` output times; a file that cannot be read is set aside as `fields.h5.damaged`. Of either,
+  /// `notice` tells. Throws FileError.
+  static FieldFile continued(const std::filesystem::path& folder, std::int64_t last_step, std::size_t n_expected,
                              const Communicator& communicator = {});
 
   /// Adds one output time; steps must not repeat. Throws FileError, for a full disk too, and std::invalid_argument for
   /// columns whose lengths do not agree.
   void write_step(std::int64_t step, double time, std::span<const ParticleBlock> particles,
                   const std::optional<NodeBlock>& nodes = std::nullopt);
+
+  /// Output times in the file. On the first rank.
+  std::size_t n_steps() const { return steps_.size(); }
 
   /// What the user should know of the file that was to be continued; nothing if all was well. On the first rank.
   const std::string& notice() const { return notice_; }
@@ -50,7 +54,7 @@ class FieldFile
   };
   FieldFile(Unopened, const std::filesystem::path& folder, const Communicator& communicator);
   void begin() const;
-  void begin_or_continue(std::int64_t last_step);
+  void begin_or_continue(std::int64_t last_step, std::size_t n_expected);
 
   std::filesystem::path hdf5_file_;
   std::filesystem::path xdmf_file_;

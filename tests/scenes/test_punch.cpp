@@ -6,7 +6,7 @@
 #include "tasks/simulation.hpp"
 #include "tests/scenes/history.hpp"
 #include "tests/tools/temporary_folder.hpp"
-#include "tools/run.hpp"
+#include "tools/run/run.hpp"
 #include "tools/scene/read_scene.hpp"
 
 namespace tamp::tools

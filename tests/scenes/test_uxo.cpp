@@ -10,7 +10,7 @@
 #include "tests/runtime/shared_cores.hpp"
 #include "tests/scenes/history.hpp"
 #include "tests/tools/program.hpp"
-#include "tools/run.hpp"
+#include "tools/run/run.hpp"
 #include "tools/scene/read_scene.hpp"
 
 namespace tamp::tools

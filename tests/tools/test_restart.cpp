@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <chrono>
+#include <csignal>
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <thread>
@@ -126,7 +127,12 @@ TEST_CASE("a folder without a whole checkpoint, or of another scene, cannot be g
   const auto run = folder.path() / "run";
   const Outcome nothing = tamp_with(restart_of(run, ""));
   CHECK(nothing.exit_code == 2);
-  CHECK_THAT(nothing.err, Catch::Contains("checkpoints: no whole checkpoint"));
+  CHECK_THAT(nothing.err, Catch::Contains("run: no such folder"));
+  fs::create_directory(run);
+  const Outcome empty = tamp_with(restart_of(run, ""));
+  CHECK(empty.exit_code == 2);
+  CHECK_THAT(empty.err, Catch::Contains("checkpoints: no whole checkpoint"));
+  fs::remove_all(run);
 
   REQUIRE(tamp_with(run_of(run, "--steps 20 --checkpoint-steps 20")).exit_code == 0);
   const Outcome other = tamp_with(restart_of(run, "--set /gravity=[0,-1]"));
@@ -153,9 +159,98 @@ TEST_CASE("a run that is restarted at its end ends again as it did")
   CHECK(read_text(run / "history.csv") == history);
 }
 
-TEST_CASE("SIGTERM and SIGINT have a run keep its state and leave with 128 and their number")
+namespace
 {
-  const int signal = GENERATE(SIGTERM, SIGINT);
+
+/// The inputs in a folder of their own, where they may be changed.
+std::string own_inputs(const TemporaryFolder& folder, const std::string& name)
+{
+  fs::copy(TAMP_SOURCE_DIR "/inputs", folder.path() / name, fs::copy_options::recursive);
+  return (folder.path() / name / "punch/quick.json").string();
+}
+
+void replace_in(const fs::path& file, const std::string& old_text, const std::string& new_text)
+{
+  std::string text = read_text(file);
+  REQUIRE(text.find(old_text) != std::string::npos);
+  text.replace(text.find(old_text), old_text.size(), new_text);
+  std::ofstream(file) << text;
+}
+
+}  // namespace
+
+TEST_CASE("a run does not go on with data that have changed, and names the file; a copy elsewhere will do")
+{
+  const TemporaryFolder folder;
+  const auto run = folder.path() / "run";
+  const std::string first = own_inputs(folder, "first");
+  REQUIRE(tamp_with("run " + first + " --quiet --steps 4 --checkpoint-steps 2 --out " + run.string()).exit_code == 0);
+  const std::string second = own_inputs(folder, "second");
+  const std::string go_on = " --quiet --steps 6 --restart " + run.string();
+
+  CHECK(tamp_with("run " + second + go_on).exit_code == 0);
+  const fs::path strengths = folder.path() / "second/materials/concrete-sand/yield.csv";
+  std::ofstream(strengths, std::ios::app) << "# one more line\n";
+  const Outcome changed = tamp_with("run " + second + go_on);
+  const Outcome other = tamp_with("run " + first + " --set /grid/patches=[1,1]" + go_on);
+
+  CHECK(changed.exit_code == 2);
+  CHECK_THAT(changed.err, Catch::Contains(strengths.string() + ": its content has changed since the checkpoint"));
+  CHECK(other.exit_code == 2);
+  CHECK_THAT(other.err, Catch::Contains("a checkpoint of another scene, which differs at /grid/patches"));
+  bool told = false;
+  for (const auto& input : summary_of(run)["inputs"]) told |= input["file"].get<std::string>().ends_with("yield.csv");
+  CHECK(told);
+}
+
+TEST_CASE("a run that goes on tells what is missing of its history and fields, and keeps the rest")
+{
+  const TemporaryFolder folder;
+  const auto run = folder.path() / "run";
+  const std::string outputs = " --set /output/history_interval=1e-5 --set /output/fields_interval=1e-5 ";
+  REQUIRE(tamp_with(run_of(run, "--steps 20 --checkpoint-steps 10" + outputs)).exit_code == 0);
+  const std::string history = read_text(run / "history.csv");
+
+  SECTION("nothing is missing")
+  {
+    const Outcome outcome = tamp_with(restart_of(run, "--steps 25" + outputs));
+    CHECK(outcome.exit_code == 0);
+    CHECK(outcome.err.empty());
+    CHECK(summary_of(run)["status"] == "completed");
+    CHECK(read_text(run / "history.csv").starts_with(history.substr(0, history.size() / 2)));
+  }
+  SECTION("rows of the history")
+  {
+    replace_in(run / "history.csv", history.substr(history.find('\n'), 200), "\n");
+    const Outcome outcome = tamp_with(restart_of(run, "--steps 30 --checkpoint-steps 10" + outputs));
+    CHECK(outcome.exit_code == 0);
+    CHECK_THAT(outcome.err, Catch::Contains("history.csv: is damaged: of "));
+    CHECK(summary_of(run)["status"] == "completed with warnings");
+    CHECK(summary_of(run)["warnings"].size() == 1);
+    CHECK(tamp_with(restart_of(run, "--strict --steps 31" + outputs)).exit_code == 0);
+  }
+  SECTION("all of the history, with --strict")
+  {
+    fs::remove(run / "history.csv");
+    const Outcome outcome = tamp_with(restart_of(run, "--strict --steps 25" + outputs));
+    CHECK(outcome.exit_code == 3);
+    CHECK_THAT(outcome.err, Catch::Contains("history.csv: is missing, with the "));
+  }
+  SECTION("all of the fields")
+  {
+    fs::copy_file(run / "fields.h5", run / "other.h5");
+    REQUIRE(tamp_with(run_of(folder.path() / "empty", "--steps 1")).exit_code == 0);
+    fs::copy_file(folder.path() / "empty/fields.h5", run / "fields.h5", fs::copy_options::overwrite_existing);
+    const Outcome outcome = tamp_with(restart_of(run, "--steps 25" + outputs));
+    CHECK(outcome.exit_code == 0);
+    CHECK_THAT(outcome.err,
+               Catch::Contains("fields.h5: has 2 outputs until step") && Catch::Contains("that were written"));
+  }
+}
+
+TEST_CASE("signals have a run keep its state and leave with 128 and their number")
+{
+  const int signal = GENERATE(SIGTERM, SIGINT, SIGHUP, SIGXCPU);
   const TemporaryFolder folder;
   const auto run = folder.path() / "run";
   BackgroundProgram program(TAMP_PROGRAM, run_of(run, "--checkpoint-steps 5 --threads 1"));
@@ -168,6 +263,90 @@ TEST_CASE("SIGTERM and SIGINT have a run keep its state and leave with 128 and t
   CHECK(summary["status"] == "interrupted");
   REQUIRE(tamp_with(restart_of(run, "--steps " + std::to_string(summary["steps"].get<long>() + 1))).exit_code == 0);
   CHECK(summary_of(run)["restarted_at_step"] == summary["steps"]);
+}
+
+TEST_CASE("a hangup that is ignored, as under nohup, stays ignored")
+{
+  const TemporaryFolder folder;
+  const auto run = folder.path() / "run";
+  const auto before = std::signal(SIGHUP, SIG_IGN);
+  BackgroundProgram program(TAMP_PROGRAM, run_of(run, "--steps 60 --checkpoint-steps 5 --threads 1"));
+  std::signal(SIGHUP, before);
+  REQUIRE(keeps_its_state(run));
+
+  program.send(SIGHUP);
+
+  CHECK(program.exit_code() == 0);
+  CHECK(summary_of(run)["steps"] == 60);
+}
+
+TEST_CASE("a run leaves at its wall limit as at SIGTERM, and is gone on with")
+{
+  const TemporaryFolder folder;
+  const auto run = folder.path() / "run";
+
+  const Outcome outcome = tamp_with(run_of(run, "--wall-limit 0.3 --threads 1"));
+
+  CHECK(outcome.exit_code == 128 + SIGTERM);
+  CHECK_THAT(outcome.err, Catch::Contains("stopped at its wall limit") && Catch::Contains("--restart"));
+  const long steps = summary_of(run)["steps"];
+  CHECK(tamp_with(restart_of(run, "--steps " + std::to_string(steps + 1))).exit_code == 0);
+  CHECK(summary_of(run)["restarted_at_step"] == steps);
+}
+
+TEST_CASE("of runs that start at once in one folder, one has it, and the others say whose it is")
+{
+  const TemporaryFolder folder;
+  const auto run = folder.path() / "run";
+  const std::string arguments = run_of(run, "--steps 60 --threads 1");
+  BackgroundProgram first(TAMP_PROGRAM, arguments), second(TAMP_PROGRAM, arguments), third(TAMP_PROGRAM, arguments);
+
+  std::vector<int> codes{first.exit_code(), second.exit_code(), third.exit_code()};
+
+  std::sort(codes.begin(), codes.end());
+  CHECK(codes == std::vector<int>{0, 2, 2});
+  CHECK(summary_of(run)["steps"] == 60);
+  CHECK_FALSE(fs::exists(run / "run.lock"));
+}
+
+TEST_CASE("a run is not replaced or gone on with while it runs; killed, it is, and that is told")
+{
+  const TemporaryFolder folder;
+  const auto run = folder.path() / "run";
+  {
+    BackgroundProgram program(TAMP_PROGRAM, run_of(run, "--checkpoint-steps 5 --threads 1"));
+    REQUIRE(keeps_its_state(run));
+    for (const std::string& other : {run_of(run, "--force"), restart_of(run, "")}) {
+      const Outcome outcome = tamp_with(other);
+      CHECK(outcome.exit_code == 2);
+      CHECK_THAT(outcome.err, Catch::Contains("run.lock: in use by process"));
+    }
+  }  // kill -9
+
+  const Outcome outcome = tamp_with(restart_of(run, "--steps 40"));
+
+  CHECK_THAT(outcome.err, Catch::Contains("the lock of a run that has ended was taken over"));
+  CHECK(outcome.exit_code == 0);
+}
+
+TEST_CASE("a run that was stopped for so long that another took its folder leaves it alone")
+{
+  const TemporaryFolder folder;
+  const auto run = folder.path() / "run";
+  BackgroundProgram program(TAMP_PROGRAM, run_of(run, "--checkpoint-steps 5 --threads 1"));
+  REQUIRE(keeps_its_state(run));
+  program.send(SIGSTOP);
+  const auto stopped = std::chrono::steady_clock::now();
+  fs::last_write_time(run / "run.lock", fs::file_time_type::clock::now() - std::chrono::minutes(2));
+
+  const Outcome other = tamp_with(run_of(run, "--steps 20 --force"));
+  // The stopped one looks at its lock every ten seconds.
+  std::this_thread::sleep_until(stopped + std::chrono::seconds(11));
+  program.send(SIGCONT);
+
+  CHECK(other.exit_code == 0);
+  CHECK(program.exit_code() == 4);
+  CHECK(summary_of(run)["steps"] == 20);
 }
 
 TEST_CASE("SIGUSR2, which mpiexec hands on, stops a run on ranks with its state kept", "[mpiexec]")

@@ -1,23 +1,35 @@
-#include <unistd.h>
-
 #include <catch2/catch.hpp>
 
 #include "runtime/storage/file_error.hpp"
 #include "tests/tools/temporary_folder.hpp"
 #include "tools/errors.hpp"
-#include "tools/run_folder.hpp"
+#include "tools/run/run_folder.hpp"
 
 using namespace tamp;
 using test::TemporaryFolder;
-using tools::prepare_run_folder;
+using tools::RunFolder;
 
-TEST_CASE("a new folder for a run is made, with those above it")
+namespace
+{
+
+namespace fs = std::filesystem;
+
+void use(const fs::path& folder, RunFolder::Use purpose, const std::vector<fs::path>& inputs = {})
+{
+  const RunFolder run(folder, purpose, inputs);
+}
+
+constexpr auto begin = RunFolder::Use::begin, replace = RunFolder::Use::replace, go_on = RunFolder::Use::go_on;
+
+}  // namespace
+
+TEST_CASE("a new folder for a run is made, with those above it, and marked")
 {
   const TemporaryFolder folder;
 
-  prepare_run_folder(folder.path() / "runs/punch", false);
+  use(folder.path() / "runs/punch", begin);
 
-  CHECK(std::filesystem::is_directory(folder.path() / "runs/punch"));
+  CHECK(fs::exists(folder.path() / "runs/punch/.tamp-run"));
 }
 
 TEST_CASE("a folder that holds anything is refused, and left as it was")
@@ -25,32 +37,66 @@ TEST_CASE("a folder that holds anything is refused, and left as it was")
   const TemporaryFolder folder;
   folder.write("history.csv", "step\n");
 
-  CHECK_THROWS_AS(prepare_run_folder(folder.path(), false), tools::InputError);
-  CHECK(std::filesystem::exists(folder.path() / "history.csv"));
+  CHECK_THROWS_WITH(use(folder.path(), begin), Catch::Contains("the folder is not empty"));
+  CHECK(fs::exists(folder.path() / "history.csv"));
+  CHECK_FALSE(fs::exists(folder.path() / ".tamp-run"));
 }
 
-TEST_CASE("force removes what a run writes and nothing else")
+TEST_CASE("replacing a run removes what runs write and nothing else")
 {
   const TemporaryFolder folder;
+  use(folder.path(), begin);
   folder.write("history.csv", "step\n");
-  folder.write("checkpoints/1.h5", "");
+  folder.write("checkpoints/step_00000100.h5", "");
+  folder.write("checkpoints/mymodel.pt", "mine");
   folder.write("notes.txt", "mine");
 
-  prepare_run_folder(folder.path(), true);
+  use(folder.path(), replace);
 
-  CHECK_FALSE(std::filesystem::exists(folder.path() / "history.csv"));
-  CHECK_FALSE(std::filesystem::exists(folder.path() / "checkpoints"));
+  CHECK_FALSE(fs::exists(folder.path() / "history.csv"));
+  CHECK_FALSE(fs::exists(folder.path() / "checkpoints/step_00000100.h5"));
+  CHECK(test::read_text(folder.path() / "checkpoints/mymodel.pt") == "mine");
   CHECK(test::read_text(folder.path() / "notes.txt") == "mine");
+}
+
+TEST_CASE("a folder that no run has marked is not replaced, and left as it was")
+{
+  const TemporaryFolder folder;
+  folder.write("profile.json", "mine");
+
+  CHECK_THROWS_WITH(use(folder.path(), replace), Catch::Contains("no run has marked as its own"));
+  CHECK(test::read_text(folder.path() / "profile.json") == "mine");
+}
+
+TEST_CASE("a folder in which lies what the run reads is not replaced")
+{
+  const TemporaryFolder folder;
+  use(folder.path() / "run", begin);
+  const fs::path scene = folder.write("run/scene.json", "{}"), table = folder.write("run/data/yield.csv", "1");
+
+  CHECK_THROWS_WITH(use(folder.path() / "run", replace, {scene}), Catch::Contains("a folder with scene.json in it"));
+  CHECK_THROWS_WITH(use(folder.path() / "run", replace, {table}), Catch::Contains("data/yield.csv"));
+  CHECK(fs::exists(scene));
+  use(folder.path() / "run", replace, {folder.write("run2/scene.json", "{}")});
+}
+
+TEST_CASE("a folder in use is refused, whatever it is wanted for")
+{
+  const auto purpose = GENERATE(begin, replace, go_on);
+  const TemporaryFolder folder;
+  const RunFolder first(folder.path(), begin, {});
+
+  CHECK_THROWS_WITH(use(folder.path(), purpose), Catch::Contains("run.lock: in use by process"));
 }
 
 TEST_CASE("a file in the place of a run's folder is refused")
 {
   const TemporaryFolder folder;
 
-  CHECK_THROWS_AS(prepare_run_folder(folder.write("run", ""), true), tools::InputError);
+  CHECK_THROWS_AS(use(folder.write("run", ""), replace), tools::InputError);
 }
 
 TEST_CASE("a folder that cannot be made is an error of files")
 {
-  CHECK_THROWS_AS(prepare_run_folder("/proc/no/such", false), runtime::FileError);
+  CHECK_THROWS_AS(use("/proc/no/such", begin), runtime::FileError);
 }

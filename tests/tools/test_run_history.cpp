@@ -1,4 +1,4 @@
-#include "tools/run_history.hpp"
+#include "tools/run/run_history.hpp"
 
 #include <catch2/catch.hpp>
 

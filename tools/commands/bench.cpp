@@ -9,6 +9,7 @@
 #include "runtime/ranks/communicator.hpp"
 #include "runtime/storage/whole_file.hpp"
 #include "tools/commands/commands.hpp"
+#include "tools/console.hpp"
 #include "tools/errors.hpp"
 #include "tools/shipped_inputs.hpp"
 
@@ -56,7 +57,7 @@ void run_benchmarks(const BenchArguments& options)
   nlohmann::ordered_json json;
   for (const std::string& name : names_of(options, ranks.size())) {
     const bench::Result result = benchmarks().at(name)(options);
-    if (ranks.is_first()) fmt::print("{}", result.text);
+    if (ranks.is_first()) print_out("{}", result.text);
     json[name] = result.json;
   }
   if (ranks.is_first() && !options.json.empty()) runtime::write_whole_file(options.json, json.dump(2) + "\n");

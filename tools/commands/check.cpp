@@ -5,9 +5,11 @@
 #include <variant>
 
 #include "components/portable_math.hpp"
-#include "tasks/simulation.hpp"
 #include "tools/commands/commands.hpp"
+#include "tools/console.hpp"
+#include "tools/run/forecast.hpp"
 #include "tools/scene/compiled_moduli.hpp"
+#include "tools/scene/plausibility.hpp"
 #include "tools/scene/print_json.hpp"
 #include "tools/scene/read_scene.hpp"
 
@@ -46,24 +48,24 @@ void check(const CheckArguments& options)
 {
   const CheckedScene checked = read_scene(options.scene, options.assignments);
   const tasks::Scene& scene = checked.scene;
-  fmt::print("{}\n", printed(checked.resolved));
+  print_out("{}\n", printed(checked.resolved));
 
   const runtime::Index& n = scene.grid.n_cells;
   const runtime::Index& patches = scene.n_patches;
   fmt::print(stderr, "{}: {} cells, {} patches\n", options.scene, scene.grid.cells().size(),
              patches[0] * patches[1] * patches[2]);
   fmt::print(stderr, "  grid  {} x {} x {} cells of {} m\n", n[0], n[1], n[2], scene.grid.cell_size);
-  std::size_t total = 0;
   for (const tasks::SceneBody& body : scene.bodies) {
-    total += body.n_particles;
     const std::string& material = scene.materials[static_cast<std::size_t>(body.material)].name;
     fmt::print(stderr, "  body  {}: {} particles of {}\n", body.name, body.n_particles, material);
     print_volumes(scene, body);
   }
   for (const std::string& line : compiled_moduli(checked)) fmt::print(stderr, "  {}\n", line);
-  const auto simulation = tasks::Simulation::make(scene, 1);
-  const double forecast = static_cast<double>(simulation->forecast_bytes()) / (1 << 20);
-  fmt::print(stderr, "  in all {} particles; fields and particles take {:.2f} MiB at the start\n", total, forecast);
+  for (const std::string& line : plausibility_warnings(checked)) fmt::print(stderr, "tamp: warning: {}\n", line);
+  constexpr double calibration = 0.7;
+  const Forecast forecast = tools::forecast(scene, 1, calibration);
+  fmt::print(stderr, "  {}\n", told(forecast));
+  expect_room(checked, forecast, 1);
 }
 
 }  // namespace

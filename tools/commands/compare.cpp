@@ -12,6 +12,7 @@
 #include "tools/compare/comparison_report.hpp"
 #include "tools/compare/peak_memory.hpp"
 #include "tools/compare/report_page.hpp"
+#include "tools/console.hpp"
 #include "tools/usable_cores.hpp"
 
 namespace tamp::tools
@@ -63,7 +64,7 @@ void compare_models(CompareArguments& options)
 {
   const auto scenes = compare::read_model_scenes(options.scene, options.assignments, options.models);
   options.comparison.folder = options.out.empty() ? "compare/" + scenes.front().scene.scene.name : options.out;
-  prepare_folder(options.comparison, scenes);
+  const auto folders = prepare_folders(options.comparison, scenes);
   const auto memory = measure_memory(options, scenes);
 
   compare::Comparison comparison = compare::compare(scenes, options.comparison);
@@ -71,7 +72,7 @@ void compare_models(CompareArguments& options)
 
   write(comparison, options.comparison.folder);
   if (!options.comparison.quiet) {
-    fmt::print("{}  written to {}\n", to_text(comparison), options.comparison.folder.string());
+    print_out("{}  written to {}\n", to_text(comparison), options.comparison.folder.string());
   }
   complain_of_unstable(comparison);
 }

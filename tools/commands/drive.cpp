@@ -6,6 +6,7 @@
 
 #include "runtime/storage/csv_writer.hpp"
 #include "tools/commands/commands.hpp"
+#include "tools/console.hpp"
 #include "tools/drive/columns.hpp"
 #include "tools/drive/drive.hpp"
 #include "tools/drive/read_path.hpp"
@@ -31,7 +32,7 @@ void drive_point(const DriveArguments& options)
   const DeformationPath path = read_path(options.path);
   std::optional<runtime::CsvWriter> file;
   if (options.out.empty()) {
-    fmt::print("{}\n", fmt::join(drive_columns(), ","));
+    print_out("{}\n", fmt::join(drive_columns(), ","));
   } else {
     file.emplace(options.out, drive_columns());
   }
@@ -40,7 +41,7 @@ void drive_point(const DriveArguments& options)
     if (file) {
       file->write_row(values);
     } else {
-      fmt::print("{}\n", fmt::join(values, ","));
+      print_out("{}\n", fmt::join(values, ","));
     }
   });
 }

@@ -6,6 +6,7 @@
 #include "runtime/storage/whole_file.hpp"
 #include "tasks/simulation.hpp"
 #include "tools/commands/commands.hpp"
+#include "tools/console.hpp"
 #include "tools/errors.hpp"
 #include "tools/scene/read_scene.hpp"
 
@@ -34,7 +35,7 @@ void dump_graph(const GraphArguments& options)
   const std::string text = options.format == "json" ? to_json(graph, simulation->forecast_bytes()).dump(1) + "\n"
                                                     : to_dot(graph, options.patch);
   if (options.out.empty()) {
-    fmt::print("{}", text);
+    print_out("{}", text);
   } else {
     runtime::write_whole_file(options.out, text);
   }

@@ -6,6 +6,7 @@
 
 #include "components/materials/tabular_cap.hpp"
 #include "tools/commands/commands.hpp"
+#include "tools/console.hpp"
 #include "tools/errors.hpp"
 #include "tools/scene/file_kind.hpp"
 #include "tools/scene/parse_json.hpp"
@@ -100,15 +101,15 @@ void print_moduli(const ModulusArguments& options)
   }
   const double shear_ratio = 1.5 * (1 - 2 * nu) / (1 + nu);
 
-  fmt::print("elastic_v[-],plastic_v[-],p[Pa],K[Pa],G[Pa],dK_dplastic[Pa],in_range\n");
+  print_out("elastic_v[-],plastic_v[-],p[Pa],K[Pa],G[Pa],dK_dplastic[Pa],in_range\n");
   for (const std::vector<double>& state : states) {
     const double elastic = state[0], plastic = state[1];
     std::visit(
         [&](const auto& modulus) {
           const components::ElasticPoint point = modulus.at(elastic, plastic);
-          fmt::print("{:.17g},{:.17g},{:.17g},{:.17g},{:.17g},{:.17g},{:d}\n", elastic, plastic, point.pressure,
-                     point.bulk_modulus, shear_ratio * point.bulk_modulus, modulus.modulus_by_plastic(elastic, plastic),
-                     modulus.in_range(elastic, plastic));
+          print_out("{:.17g},{:.17g},{:.17g},{:.17g},{:.17g},{:.17g},{:d}\n", elastic, plastic, point.pressure,
+                    point.bulk_modulus, shear_ratio * point.bulk_modulus, modulus.modulus_by_plastic(elastic, plastic),
+                    modulus.in_range(elastic, plastic));
         },
         model.modulus);
   }

@@ -1,12 +1,13 @@
 #include <fmt/core.h>
 
 #include <filesystem>
-#include <fstream>
 #include <memory>
 
 #include "runtime/profile/report.hpp"
 #include "runtime/storage/file_error.hpp"
 #include "tools/commands/commands.hpp"
+#include "tools/console.hpp"
+#include "tools/scene/parse_json.hpp"
 
 namespace tamp::tools
 {
@@ -19,15 +20,18 @@ struct ProfileArguments {
   std::string format = "text";
 };
 
-nlohmann::json read_profile(const std::filesystem::path& folder)
+/// The profile of a run, as it was written or as text.
+std::string told(const ProfileArguments& options)
 {
-  const std::filesystem::path file = folder / "profile.json";
-  std::ifstream stream(file);
-  if (!stream) throw runtime::FileError(file, "cannot be opened; is this the folder of a run?");
+  const std::filesystem::path file = std::filesystem::path(options.folder) / "profile.json";
+  if (!std::filesystem::exists(file)) throw runtime::FileError(file, "no such file; is this the folder of a run?");
   try {
-    return nlohmann::json::parse(stream);
+    const nlohmann::json profile = parse_json(file);
+    return options.format == "json" ? profile.dump(1) + "\n" : runtime::to_text(profile);
+  } catch (const InputError& error) {
+    throw runtime::FileError(file, std::string("is damaged: ") + error.what());
   } catch (const nlohmann::json::exception& error) {
-    throw runtime::FileError(file, error.what());
+    throw runtime::FileError(file, std::string("is damaged: ") + error.what());
   }
 }
 
@@ -39,10 +43,7 @@ CLI::App* add_profile_command(CLI::App& app)
   const auto options = std::make_shared<ProfileArguments>();
   command->add_option("RUN_DIR", options->folder, "the run's folder")->required();
   command->add_option("--format", options->format, "text or json")->check(CLI::IsMember({"text", "json"}));
-  command->callback([options] {
-    const nlohmann::json profile = read_profile(options->folder);
-    fmt::print("{}", options->format == "json" ? profile.dump(1) + "\n" : runtime::to_text(profile));
-  });
+  command->callback([options] { print_out("{}", told(*options)); });
   return command;
 }
 

@@ -1,6 +1,9 @@
 #include "tools/commands/program.hpp"
 
+#include <sstream>
+
 #include "tools/commands/commands.hpp"
+#include "tools/console.hpp"
 #include "tools/settle.hpp"
 #include "tools/version.hpp"
 
@@ -25,7 +28,11 @@ int run_program(int argc, char** argv, const runtime::Communicator& ranks)
   try {
     app.parse(argc, argv);
   } catch (const CLI::Success& asked) {  // --help, --version
-    return runtime::Communicator::world().is_first() ? app.exit(asked) : 0;
+    if (!runtime::Communicator::world().is_first()) return 0;
+    std::ostringstream text;
+    const int code = app.exit(asked, text);
+    write_out(text.str());
+    return code;
   } catch (const CLI::ParseError& error) {
     return settle(error.what(), ExitCode::bad_input, ranks);
   }

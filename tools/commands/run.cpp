@@ -1,4 +1,4 @@
-#include "tools/run.hpp"
+#include "tools/run/run.hpp"
 
 #include <fmt/core.h>
 
@@ -58,6 +58,16 @@ void add_checkpoint_options(CLI::App& command, CheckpointPolicy& policy)
       ->check(CLI::Range(1, 1000));
 }
 
+void expect_few_checkpoints(const CheckpointPolicy& policy, double end)
+{
+  constexpr double most = 1e5;
+  const double n = end / policy.simulated;
+  if (n <= most) return;
+  throw InputError({"--checkpoint-time",
+                    fmt::format("{} s: {:.3g} checkpoints until the end, {} s", policy.simulated, n, end),
+                    fmt::format("expected at most {:.3g}", most)});
+}
+
 /// Ranks that share cores are slow, and slower still if those who wait do not let go of them.
 void look_at_cores(int n_threads, RunOptions& run)
 {
@@ -110,9 +120,16 @@ CLI::App* add_run_command(CLI::App& app)
       ->add_option("--stall-limit", options->run.executor.stall.limit,
                    "seconds in which nothing completes, after which the run tells what it waits for, and ends")
       ->check(CLI::PositiveNumber);
+  command
+      ->add_option("--wall-limit", options->run.wall_limit,
+                   "stop after so many seconds of the clock, with the state kept for --restart")
+      ->check(CLI::PositiveNumber)
+      ->default_str("no limit");
+  command->add_flag("--strict", options->run.strict, "let a run that completes with warnings end with exit code 3");
   command->add_flag("--quiet", options->run.quiet, "print no progress and no table");
   command->callback([options] {
     const CheckedScene scene = read_scene(options->scene, options->assignments);
+    expect_few_checkpoints(options->run.checkpoints, scene.scene.time.end);
     options->run.restart = !options->restart.empty();
     options->run.folder = options->run.restart   ? options->restart
                           : options->out.empty() ? "runs/" + scene.scene.name

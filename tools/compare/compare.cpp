@@ -4,8 +4,7 @@
 #include <memory>
 
 #include "tools/compare/model_run.hpp"
-#include "tools/progress.hpp"
-#include "tools/run_folder.hpp"
+#include "tools/run/progress.hpp"
 
 namespace tamp::tools::compare
 {
@@ -127,13 +126,19 @@ class Race
 
 }  // namespace
 
-void prepare_folder(const Options& options, const std::vector<ModelScene>& scenes)
+std::vector<std::unique_ptr<RunFolder>> prepare_folders(const Options& options, const std::vector<ModelScene>& scenes)
 {
-  prepare_run_folder(options.folder, options.force);
-  for (const char* name : {"compare.csv", "compare.json", "report.html"}) {
-    std::filesystem::remove(options.folder / name);
+  const auto use = options.force ? RunFolder::Use::replace : RunFolder::Use::begin;
+  std::vector<std::filesystem::path> inputs;
+  for (const ModelScene& scene : scenes) {
+    for (const InputFile& input : scene.scene.inputs) inputs.push_back(input.file);
   }
-  for (const ModelScene& scene : scenes) prepare_run_folder(options.folder / scene.name, options.force);
+  std::vector<std::unique_ptr<RunFolder>> folders;
+  folders.push_back(std::make_unique<RunFolder>(options.folder, use, inputs));
+  for (const ModelScene& scene : scenes) {
+    folders.push_back(std::make_unique<RunFolder>(options.folder / scene.name, use, inputs));
+  }
+  return folders;
 }
 
 Comparison compare(const std::vector<ModelScene>& scenes, const Options& options)

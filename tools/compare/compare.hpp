@@ -2,10 +2,12 @@
 
 #include <filesystem>
 #include <limits>
+#include <memory>
 #include <vector>
 
 #include "tools/compare/comparison.hpp"
 #include "tools/compare/model_scenes.hpp"
+#include "tools/run/run_folder.hpp"
 
 namespace tamp::tools::compare
 {
@@ -21,9 +23,9 @@ struct Options {
   bool quiet = false;
 };
 
-/// Makes the folder of a comparison, and one in it for each model. One that holds anything is refused (InputError)
-/// unless `options.force`, which then removes what an earlier comparison of these models left.
-void prepare_folder(const Options& options, const std::vector<ModelScene>& scenes);
+/// Makes the folder of a comparison, and one in it for each model, to be kept as long as something is written into
+/// them. Throws what RunFolder throws; with `options.force` an earlier comparison is replaced.
+std::vector<std::unique_ptr<RunFolder>> prepare_folders(const Options& options, const std::vector<ModelScene>& scenes);
 
 /// Runs the scenes side by side in one process, in rounds. In each round every model goes through the same simulated
 /// time: one leads with some steps and the others follow to where it arrived; leader and order change from round to

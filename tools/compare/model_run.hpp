@@ -8,7 +8,7 @@
 #include "tools/compare/comparison.hpp"
 #include "tools/compare/model_scenes.hpp"
 #include "tools/compare/modulus_timing.hpp"
-#include "tools/run_history.hpp"
+#include "tools/run/run_history.hpp"
 
 namespace tamp::tools::compare
 {

@@ -3,15 +3,14 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <fstream>
 #include <iterator>
 #include <numbers>
 #include <optional>
 #include <sstream>
 
 #include "components/errors.hpp"
-#include "runtime/storage/file_error.hpp"
 #include "tools/scene/csv_table.hpp"
+#include "tools/scene/input_file.hpp"
 
 namespace tamp::tools
 {
@@ -36,11 +35,9 @@ bool is_data(const std::string& line)
 
 std::vector<std::string> lines_of(const std::filesystem::path& file)
 {
-  std::ifstream stream(file);
-  if (!stream) throw runtime::FileError(file.string(), "cannot be read");
+  std::istringstream stream(read_input_file(file));
   std::vector<std::string> lines;
   for (std::string line; std::getline(stream, line);) lines.push_back(line);
-  if (stream.bad()) throw runtime::FileError(file.string(), "cannot be read");
   return lines;
 }
 

@@ -6,11 +6,11 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <fstream>
 #include <optional>
+#include <sstream>
 #include <string_view>
 
-#include "runtime/storage/file_error.hpp"
+#include "tools/scene/input_file.hpp"
 
 namespace tamp::tools
 {
@@ -122,14 +122,28 @@ class TableReader
 
 }  // namespace
 
+std::vector<std::pair<std::string, double>> greatest_of_columns(const std::filesystem::path& file)
+{
+  std::vector<std::pair<std::string, double>> columns;
+  std::istringstream stream(read_input_file(file));
+  for (std::string line; std::getline(stream, line);) {
+    const std::string_view content = trimmed(line);
+    if (content.empty() || content.front() == '#') continue;
+    const std::vector<std::string_view> parts = split(content);
+    const bool first = columns.empty();
+    for (std::size_t i = 0; first && i < parts.size(); ++i) columns.emplace_back(parts[i], -HUGE_VAL);
+    for (std::size_t i = 0; !first && i < std::min(parts.size(), columns.size()); ++i) {
+      columns[i].second = std::max(columns[i].second, finite_number(parts[i]).value_or(columns[i].second));
+    }
+  }
+  return columns;
+}
+
 Table read_csv_table(const std::filesystem::path& file, const std::vector<std::string>& columns)
 {
-  std::ifstream stream(file);
-  if (!stream) throw runtime::FileError(file.string(), "cannot be read");
+  std::istringstream stream(read_input_file(file));
   TableReader reader(file, columns);
-  std::string line;
-  while (std::getline(stream, line)) reader.read(line);
-  if (stream.bad()) throw runtime::FileError(file.string(), "cannot be read");
+  for (std::string line; std::getline(stream, line);) reader.read(line);
   return reader.finished();
 }
 

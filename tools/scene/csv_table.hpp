@@ -1,5 +1,10 @@
 #pragma once
 
+#include <filesystem>
+#include <string>
+#include <utility>
+#include <vector>
+
 #include "tools/scene/table.hpp"
 
 namespace tamp::tools
@@ -10,5 +15,8 @@ namespace tamp::tools
 /// asked for, in any order. Throws InputError, all problems with file and line at once, for other columns, missing or
 /// unreadable or infinite numbers, NaN, and a table without rows; FileError for a file that cannot be read.
 Table read_csv_table(const std::filesystem::path& file, const std::vector<std::string>& columns);
+
+/// Each column of such a file by its name, with the largest of its numbers; what is no number is passed over.
+std::vector<std::pair<std::string, double>> greatest_of_columns(const std::filesystem::path& file);
 
 }  // namespace tamp::tools

@@ -2,6 +2,8 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
+#include <charconv>
 #include <set>
 
 #include "tools/scene/parse_json.hpp"
@@ -20,10 +22,19 @@ bool lies_below(const std::string& pointer, const std::string& above)
   return pointer.starts_with(above) && (pointer.size() == above.size() || pointer[above.size()] == '/');
 }
 
-Json parsed_or_text(const std::string& text)
+/// Whether the pointer names a key, or an item that is there or would be the next.
+bool has_room(const Json& root, const JsonPointer& pointer)
 {
-  Json value = Json::parse(text, nullptr, false);
-  return value.is_discarded() ? Json(text) : value;
+  if (pointer.empty()) return true;
+  const JsonPointer above = pointer.parent_pointer();
+  if (!has_room(root, above)) return false;
+  const bool is_new = !root.contains(above) || root.at(above).is_null();
+  if (!is_new && !root.at(above).is_array()) return true;
+  std::size_t item = 0;
+  const std::string& text = pointer.back();
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), item);
+  if (error != std::errc() || end != text.data() + text.size()) return is_new || text == "-";
+  return item <= (is_new ? 0 : root.at(above).size());
 }
 
 /// As RFC 7386, but that a null stays: it may remove a key of a file that comes in later.
@@ -43,6 +54,7 @@ void lay_over(Json& base, const Json& patch)
 Document::Document(const std::filesystem::path& file) : root(parse_json(file)), file_(file)
 {
   if (!root.is_object()) throw InputError({file.string() + "#", root.type_name(), "expected an object"});
+  add_input(file);
 }
 
 void Document::set(const std::string& assignment)
@@ -53,10 +65,15 @@ void Document::set(const std::string& assignment)
     throw InputError({place, "not an assignment", "expected /POINTER=VALUE, such as /grid/cell_size=0.01"});
   }
   const std::string pointer = assignment.substr(0, equals);
+  const InputError no_place(
+      {place, "there is no such place in the scene", "expected a pointer to a key or to an item"});
+  const std::string value = assignment.substr(equals + 1);
   try {
-    root[JsonPointer(pointer)] = parsed_or_text(assignment.substr(equals + 1));
+    const JsonPointer at(pointer);
+    if (std::count(pointer.begin(), pointer.end(), '/') > most_json_levels || !has_room(root, at)) throw no_place;
+    root[at] = json_of(value).value_or(Json(value));
   } catch (const Json::exception&) {
-    throw InputError({place, "there is no such place in the scene", "expected a pointer to a key or to an item"});
+    throw no_place;
   }
   origins_.push_back({pointer, command_line, pointer});
 }
@@ -104,6 +121,7 @@ Json Document::object_of(const std::filesystem::path& path, const JsonPointer& n
 {
   try {
     Json value = parse_json(path);
+    add_input(path);
     if (value.is_object()) return value;
     add_problem(named_at, fmt::format("{} holds no object", path.string()), "expected the path of a JSON object");
   } catch (const InputError& error) {
@@ -146,6 +164,17 @@ void Document::keep_origins(const Json& base, const Json& patch, const JsonPoint
   }
 }
 
+Json to_json(const std::vector<InputFile>& inputs)
+{
+  Json all = Json::array();
+  for (const InputFile& input : inputs) {
+    if (input.hash.empty()) continue;
+    const std::string file = std::filesystem::absolute(input.file).lexically_normal().string();
+    all.push_back({{"file", file}, {"key", input.pointer}, {"hash", input.hash}});
+  }
+  return all;
+}
+
 Document::Origin Document::origin(const std::string& pointer) const
 {
   Origin found{"", file_.string(), ""};
@@ -167,6 +196,17 @@ std::filesystem::path Document::folder(const JsonPointer& pointer) const
   const Origin from = origin(pointer.to_string());
   if (from.file == command_line) return ".";
   return std::filesystem::path(from.file).parent_path();
+}
+
+void Document::add_input(const std::filesystem::path& file, const std::string& pointer)
+{
+  const auto is_same = [&](const InputFile& input) { return input.file == file && input.pointer == pointer; };
+  if (std::none_of(inputs.begin(), inputs.end(), is_same)) inputs.push_back({pointer, file, content_hash(file)});
+}
+
+void Document::add_unread(const std::filesystem::path& file, const std::string& pointer)
+{
+  inputs.push_back({pointer, file, ""});
 }
 
 void Document::add_problem(const JsonPointer& pointer, std::string found, std::string expected)

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "tools/errors.hpp"
+#include "tools/scene/input_file.hpp"
 
 namespace tamp::tools
 {
@@ -20,8 +21,7 @@ using JsonPointer = Json::json_pointer;
 class Document
 {
  public:
-  /// Reads a file. Throws FileError if it cannot be opened, InputError for text that is not JSON or an object that has
-  /// a key twice.
+  /// Reads a file. Throws FileError if it cannot be opened, InputError for what `parse_json` refuses.
   explicit Document(const std::filesystem::path& file);
 
   /// Applies `POINTER=VALUE`: the value is JSON, or else a string; objects on the way are made. Throws InputError for
@@ -41,10 +41,19 @@ class Document
 
   void add_problem(const JsonPointer& pointer, std::string found, std::string expected);
 
+  /// Notes that `file`, named at `pointer` (none for the scene itself and what is merged into it), is read for it.
+  void add_input(const std::filesystem::path& file, const std::string& pointer = "");
+  /// The same for a file that is named, and not read.
+  void add_unread(const std::filesystem::path& file, const std::string& pointer);
+
   const std::filesystem::path& file() const { return file_; }
 
   Json root;
   std::vector<Problem> problems;
+  /// Every file that has been read for it, in the order in which they were named.
+  std::vector<InputFile> inputs;
+  /// Solids that have been read so far.
+  std::size_t n_solids = 0;
 
  private:
   /// All below `pointer` stands in `file`, below `pointer_there`. The longest match counts, of two alike the last.
@@ -66,6 +75,9 @@ class Document
   std::filesystem::path file_;
   std::vector<Origin> origins_;
 };
+
+/// The files that were read, each with its key (none for the scene itself and what is merged into it) and its hash.
+Json to_json(const std::vector<InputFile>& inputs);
 
 /// What `read` gives, or nothing if it throws InputError, whose problems are then the document's.
 template <class Read>

@@ -4,17 +4,15 @@
 #include <fstream>
 #include <string_view>
 
-#include "runtime/storage/file_error.hpp"
+#include "tools/scene/input_file.hpp"
 
 namespace tamp::tools
 {
 
 FileKind file_kind(const std::filesystem::path& file)
 {
+  expect_input_file(file);
   std::ifstream stream(file, std::ios::binary);
-  if (!stream || std::filesystem::is_directory(file)) {
-    throw runtime::FileError(file.string(), std::filesystem::exists(file) ? "cannot be read" : "no such file");
-  }
   const std::string ending = file.extension().string();
   if (ending == ".json") return FileKind::json;
   if (ending == ".h5" || ending == ".hdf5" || ending == ".keras") return FileKind::hdf5;

@@ -4,10 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 
-#include "runtime/storage/file_error.hpp"
 #include "tools/errors.hpp"
+#include "tools/scene/input_file.hpp"
 
 namespace tamp::tools
 {
@@ -96,9 +95,7 @@ std::vector<std::string> read_fixed_texts(hid_t attribute, hid_t type, std::size
 
 hid_t opened(const std::filesystem::path& file)
 {
-  if (!std::ifstream(file) || std::filesystem::is_directory(file)) {
-    throw runtime::FileError(file.string(), std::filesystem::exists(file) ? "cannot be read" : "no such file");
-  }
+  expect_input_file(file);
   const bool is_hdf5 = H5Fis_hdf5(file.c_str()) > 0;
   return sound(H5Fopen(file.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), file.string(),
                is_hdf5 ? "a damaged or truncated HDF5 file" : "no HDF5 file", "expected an HDF5 file");

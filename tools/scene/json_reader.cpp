@@ -226,6 +226,12 @@ std::string JsonReader::text(const std::string& key, const std::string& default_
   return default_value;
 }
 
+bool JsonReader::is_text(const std::string& key, const std::string& word)
+{
+  const Json* value = find(key);
+  return value != nullptr && *value == word;
+}
+
 bool JsonReader::flag(const std::string& key, bool default_value)
 {
   if (!has(key)) write(key, default_value);
@@ -267,6 +273,11 @@ std::filesystem::path JsonReader::existing_file(const std::string& key)
     add_problem(key, fmt::format("there is no file {}", file.string()), expected);
     return {};
   }
+  const auto read = noting_problems(*document_, [&] {
+    document_->add_input(file, (pointer_ / key).to_string());
+    return true;
+  });
+  if (!read) return {};
   write_path(key, file);
   return file;
 }
@@ -274,7 +285,10 @@ std::filesystem::path JsonReader::existing_file(const std::string& key)
 void JsonReader::allow_file(const std::string& key)
 {
   const Json* value = find(key);
-  if (value != nullptr && value->is_string()) write_path(key, path(key, value->get<std::string>()));
+  if (value == nullptr || !value->is_string()) return;
+  const std::filesystem::path file = path(key, value->get<std::string>());
+  document_->add_unread(file, (pointer_ / key).to_string());
+  write_path(key, file);
 }
 
 std::filesystem::path JsonReader::path(const std::string& key, const std::string& text) const

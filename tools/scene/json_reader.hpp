@@ -53,6 +53,8 @@ class JsonReader
   std::vector<std::vector<double>> rows(const std::string& key, std::size_t n);
   std::vector<int> integers(const std::string& key, std::size_t n, int least, int default_value);
   bool flag(const std::string& key, bool default_value);
+  /// Whether this word stands there instead of what the key usually has.
+  bool is_text(const std::string& key, const std::string& word);
   std::string text(const std::string& key, const std::string& default_value);
   /// One of `choices`, or empty if it is none; the first is the default where `has_default`.
   std::string choice(const std::string& key, const std::vector<std::string>& choices, bool has_default = false);

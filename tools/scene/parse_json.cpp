@@ -3,11 +3,9 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <fstream>
 #include <set>
-#include <sstream>
 
-#include "runtime/storage/file_error.hpp"
+#include "tools/scene/input_file.hpp"
 
 namespace tamp::tools
 {
@@ -90,30 +88,31 @@ Problem not_json(const std::filesystem::path& file, const std::string& text, std
   return {fmt::format("{}:{}:{}", file.string(), line, column), cause, "expected JSON"};
 }
 
-std::string whole_text(const std::filesystem::path& file)
+struct TooDeep {
+};
+
+/// Throws TooDeep for too many levels, so that none is ever made.
+Json parsed(const std::string& text, KeyWatch& watch)
 {
-  std::ifstream stream(file, std::ios::binary);
-  if (!stream || std::filesystem::is_directory(file)) {
-    const bool exists = std::filesystem::exists(file);
-    throw runtime::FileError(file.string(), exists ? "cannot be read" : "no such file");
-  }
-  std::ostringstream text;
-  text << stream.rdbuf();
-  return text.str();
+  return Json::parse(text, [&watch](int depth, Json::parse_event_t event, Json& value) {
+    if (depth > most_json_levels) throw TooDeep();
+    watch(event, value);
+    return true;
+  });
 }
 
 }  // namespace
 
 Json parse_json(const std::filesystem::path& file)
 {
-  const std::string text = whole_text(file);
+  const std::string text = read_input_file(file);
   KeyWatch watch;
   Json value;
   try {
-    value = Json::parse(text, [&watch](int, Json::parse_event_t event, Json& parsed) {
-      watch(event, parsed);
-      return true;
-    });
+    value = parsed(text, watch);
+  } catch (const TooDeep&) {
+    throw InputError(
+        {file.string(), fmt::format("more than {} levels of lists and objects", most_json_levels), "expected fewer"});
   } catch (const Json::parse_error& error) {
     throw InputError(not_json(file, text, error.byte, cause_of(error)));
   } catch (const Json::exception& error) {  // a number too large to be one
@@ -127,6 +126,18 @@ Json parse_json(const std::filesystem::path& file)
     throw InputError(std::move(problems));
   }
   return value;
+}
+
+std::optional<Json> json_of(const std::string& text)
+{
+  KeyWatch watch;
+  try {
+    return parsed(text, watch);
+  } catch (const TooDeep&) {
+    return std::nullopt;
+  } catch (const Json::exception&) {
+    return std::nullopt;
+  }
 }
 
 }  // namespace tamp::tools

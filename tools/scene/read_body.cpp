@@ -3,9 +3,11 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "components/errors.hpp"
 #include "tasks/settled_sand.hpp"
+#include "tools/machine_room.hpp"
 #include "tools/scene/body_sites.hpp"
 #include "tools/scene/read_solid.hpp"
 
@@ -89,6 +91,24 @@ void check_settled(const tasks::Scene& scene, const tasks::SceneBody& body, cons
   }
 }
 
+/// Whether there is memory for the particles of a solid, before they are laid out and counted.
+template <int D>
+bool has_room_for(const components::Solid<D>& solid, const tasks::Scene& scene, int material, Document& document)
+{
+  constexpr double least_bytes_of_particle = 400;
+  const double n = solid.volume().value / tasks::lattice_of<D>(scene, material).particle_volume();
+  const MemoryRoom room = memory_room();
+  const double needed = least_bytes_of_particle * n;
+  if (needed <= room.bytes) return true;
+  const double fitting = scene.grid.cell_size * std::pow(needed / room.bytes, 1.0 / D);
+  document.add_problem(JsonPointer("/grid/cell_size"),
+                       fmt::format("{} m: {:.2g} particles in a body, more than {} of memory", scene.grid.cell_size, n,
+                                   in_bytes(needed)),
+                       fmt::format("expected at most the {} that {}, as with cells of {:.2g} m", in_bytes(room.bytes),
+                                   room.why, 2 * fitting));
+  return false;
+}
+
 template <int D>
 std::optional<tasks::SceneBody> read(const std::string& name, JsonReader& reader, const tasks::Scene& scene,
                                      const std::vector<std::string>& material_names, bool grid_is_good)
@@ -112,6 +132,7 @@ std::optional<tasks::SceneBody> read(const std::string& name, JsonReader& reader
   }
   const auto at = std::find(material_names.begin(), material_names.end(), material) - material_names.begin();
   const int number = static_cast<int>(at);
+  if (!has_room_for(*solid, scene, number, reader.document())) return std::nullopt;
   const std::size_t n_particles = sites(*solid, scene, number).size();
   if (n_particles == 0) {
     reader.add_problem("geometry", "holds no particle",

@@ -11,6 +11,7 @@
 
 #include "tools/scene/document.hpp"
 #include "tools/scene/hdf5_input.hpp"
+#include "tools/scene/parse_json.hpp"
 
 namespace tamp::tools
 {
@@ -96,7 +97,7 @@ class KerasReader
       throw InputError({input_.place("/"), "no attribute model_config", "expected a model saved by Keras"});
     }
     const std::vector<std::string> texts = input_.texts("/", config_name);
-    config_ = Json::parse(texts.empty() ? "" : texts.front(), nullptr, false);
+    config_ = json_of(texts.empty() ? "" : texts.front()).value_or(nullptr);
     if (!config_.is_object()) fail(JsonPointer(), "no JSON object", "expected the model's description");
     const JsonPointer class_name = JsonPointer() / "class_name";
     if (text(class_name) != "Sequential") fail(class_name, text(class_name), "expected Sequential");

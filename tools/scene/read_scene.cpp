@@ -46,6 +46,8 @@ class SceneReader
     read_contacts();
     scene_.failed_updates_allowed = root_.integer("failed_updates_allowed", 0, 1'000'000'000, 0);
     read_output();
+    read_limits();
+    root_.allow("inputs");
     root_.finish();
     return std::move(scene_);
   }
@@ -80,6 +82,11 @@ class SceneReader
       grid.n_cells[axis] = count_cells(reader, grid.lower[axis], upper[axis], axis);
       scene_.n_patches[axis] = patches[axis];
       check_patches(reader, patches[axis], grid.n_cells[axis], axis);
+    }
+    constexpr double most_patches = 1e5;
+    const double n_patches = 1.0 * scene_.n_patches[0] * scene_.n_patches[1] * scene_.n_patches[2];
+    if (n_patches > most_patches) {
+      reader.add_problem("patches", fmt::format("{:.3g} in all", n_patches), "expected at most 100000");
     }
   }
 
@@ -150,8 +157,10 @@ class SceneReader
     if (std::any_of(n.begin(), n.end(), [&](int i) { return i != n[0]; })) {
       root_.add_problem("particles_per_cell", "unequal numbers", "expected the same number along every axis");
     }
-    if (n[0] > 16)
-      root_.add_problem("particles_per_cell", fmt::format("{}", n[0]), "expected at most 16 along an axis");
+    if (n[0] <= 16) return;
+    root_.add_problem("particles_per_cell", fmt::format("{}", n[0]), "expected at most 16 along an axis");
+    // The rest of the scene is still checked, with what it can be filled with.
+    scene_.particles_per_axis = 16;
   }
 
   void read_loads()
@@ -280,9 +289,33 @@ class SceneReader
   void read_output()
   {
     JsonReader reader = root_.object_or_empty("output");
-    scene_.output.fields_interval = reader.number("fields_interval", above_zero, scene_.time.end / 50);
-    scene_.output.history_interval = reader.number("history_interval", above_zero, scene_.time.end / 1000);
+    scene_.output.fields_interval = read_interval(reader, "fields_interval", 50, 1e5);
+    scene_.output.history_interval = read_interval(reader, "history_interval", 1000, 1e7);
     scene_.output.near_nose = reader.number("near_nose", above_zero, scene_.output.near_nose);
+    reader.finish();
+  }
+
+  /// Between outputs; by default `n` of them, and at most `most`.
+  double read_interval(JsonReader& reader, const std::string& key, double n, double most)
+  {
+    const double end = scene_.time.end;
+    const double interval = reader.number(key, above_zero, end / n);
+    if (end / interval > most) {
+      reader.add_problem(key, fmt::format("{:.3g} outputs until the end, {} s", end / interval, end),
+                         fmt::format("expected at most {:.3g}", most));
+    }
+    return interval;
+  }
+
+  void read_limits()
+  {
+    JsonReader reader = root_.object_or_empty("limits");
+    const std::string energy_error = "energy_error";
+    if (reader.is_text(energy_error, "off")) {
+      scene_.limits.energy_error = std::numeric_limits<double>::infinity();
+    } else {
+      scene_.limits.energy_error = reader.number(energy_error, above_zero, scene_.limits.energy_error);
+    }
     reader.finish();
   }
 
@@ -304,7 +337,8 @@ CheckedScene read_scene(const std::filesystem::path& file, const std::vector<std
   for (const std::string& assignment : assignments) document.set(assignment);
   tasks::Scene scene = SceneReader(document).read();
   if (!document.problems.empty()) throw InputError(std::move(document.problems));
-  return {std::move(scene), std::move(document.root)};
+  document.root["inputs"] = to_json(document.inputs);
+  return {std::move(scene), std::move(document.root), std::move(document.inputs)};
 }
 
 }  // namespace tamp::tools

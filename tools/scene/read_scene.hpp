@@ -14,6 +14,7 @@ namespace tamp::tools
 struct CheckedScene {
   tasks::Scene scene;
   Json resolved;
+  std::vector<InputFile> inputs;
 };
 
 /// Reads a scene's file, applies `assignments` (POINTER=VALUE) in order, and checks all of it. The keys are those of

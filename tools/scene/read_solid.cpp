@@ -3,9 +3,9 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <fstream>
 #include <functional>
 #include <numbers>
+#include <sstream>
 
 #include "components/errors.hpp"
 #include "components/geometry/ball.hpp"
@@ -17,6 +17,7 @@
 #include "components/geometry/rotations.hpp"
 #include "components/geometry/set_operations.hpp"
 #include "components/geometry/transformed.hpp"
+#include "tools/scene/input_file.hpp"
 
 namespace tamp::tools
 {
@@ -131,7 +132,7 @@ Make<3> read_mesh(JsonReader& reader)
   const std::filesystem::path file = reader.existing_file("stl");
   const double scale = reader.number("scale", above_zero, 1.0);
   return [=] {
-    std::ifstream stl(file, std::ios::binary);
+    std::istringstream stl(read_input_file(file));
     try {
       return Solid<3>(components::ClosedMesh(stl, scale));
     } catch (const components::BadValue& bad) {
@@ -240,6 +241,10 @@ std::vector<Kind<D>> kinds()
   return all;
 }
 
+/// What a scene may be made of: each particle site asks the solids of its body.
+constexpr std::size_t most_shapes = 10'000;
+const std::string expected_shapes = fmt::format("expected at most {} in a body", most_shapes);
+
 /// Solids within solids, and a file that names itself on the way down, come to an end.
 bool is_too_deep(const JsonPointer& pointer)
 {
@@ -252,6 +257,12 @@ std::optional<Solid<D>> read_at(Document& document, const JsonPointer& pointer)
 {
   if (is_too_deep(pointer)) {
     document.add_problem(pointer, "too many solids, one within the other", "expected a file that does not name itself");
+    return std::nullopt;
+  }
+  constexpr std::size_t most_solids = 1000;
+  if (document.n_solids == most_solids) return std::nullopt;
+  if (++document.n_solids == most_solids) {
+    document.add_problem(pointer, fmt::format("the {}th solid of the scene", most_solids), "expected fewer");
     return std::nullopt;
   }
   const std::size_t n_before = document.problems.size();
@@ -269,7 +280,10 @@ std::optional<Solid<D>> read_at(Document& document, const JsonPointer& pointer)
   reader.finish();
   if (document.problems.size() > n_before) return std::nullopt;
   try {
-    return make();
+    const Solid<D> solid = make();
+    if (solid.n_shapes() <= most_shapes) return solid;
+    document.add_problem(pointer, fmt::format("made of {} solids", solid.n_shapes()), expected_shapes);
+    return std::nullopt;
   } catch (const components::BadValue& bad) {
     const JsonPointer place = bad.row < 0 ? pointer : pointer / kind.rows / static_cast<std::size_t>(bad.row);
     document.add_problem(place, bad.found, "expected " + bad.expected);

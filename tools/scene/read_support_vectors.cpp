@@ -18,6 +18,8 @@ const Json& unwrapped(const Json& value)
   return value.is_array() && value.size() == 1 ? unwrapped(value.front()) : value;
 }
 
+constexpr std::size_t most_vectors = 20'000;
+
 class SupportVectorReader
 {
  public:
@@ -89,6 +91,11 @@ class SupportVectorReader
   {
     const Json* const rows = list("support_vectors");
     std::vector<std::array<double, 2>> vectors;
+    if (rows != nullptr && rows->size() > most_vectors) {
+      reader_.add_problem("support_vectors", fmt::format("{} of them", rows->size()),
+                          fmt::format("expected at most {}, as each is asked in every update", most_vectors));
+      return vectors;
+    }
     for (std::size_t i = 0; rows != nullptr && i < rows->size(); ++i) {
       const Json& row = rows->at(i);
       if (!row.is_array() || row.size() != 2 || !row[0].is_number() || !row[1].is_number()) {

@@ -42,50 +42,88 @@ TEST_CASE("a table in a folder that does not exist is an error that says so")
   CHECK_THROWS_WITH(CsvWriter("/no/such/history.csv", {"step"}), "/no/such/history.csv: No such file or directory");
 }
 
+namespace
+{
+
+const std::vector<std::string> step_and_time{"step", "time[s]"};
+
+/// A table with a row for each step, and what of it there is up to and with step 20.
+CsvExtent written(const fs::path& file, const std::vector<double>& steps)
+{
+  CsvWriter table(file, step_and_time);
+  CsvExtent until_20 = table.extent();
+  for (const double step : steps) {
+    table.write_row(std::array{step, step / 100});
+    if (step <= 20) until_20 = table.extent();
+  }
+  return until_20;
+}
+
+}  // namespace
+
 TEST_CASE("a table goes on after the last step that is kept")
 {
   const TemporaryFolder folder;
   const fs::path file = folder.path / "history.csv";
-  write_text(file, "step,time[s]\n0,0\n10,0.1\n20,0.2\n30,0.3\n");
+  const CsvExtent until_20 = written(file, {0, 10, 20, 30});
 
-  CsvWriter::continued(file, {"step", "time[s]"}, 20).write_row(std::array{25.0, 0.25});
+  CsvWriter table = CsvWriter::continued(file, step_and_time, 20, until_20);
+  table.write_row(std::array{25.0, 0.25});
 
+  CHECK(table.notice().empty());
+  CHECK(table.extent().n_rows == 4);
   CHECK(read_text(file) == "step,time[s]\n0,0\n10,0.1\n20,0.2\n25,0.25\n");
+  CHECK_FALSE(fs::exists(folder.path / "history.csv.damaged"));
 }
 
 TEST_CASE("a row that was cut off by the end of a program is not kept")
 {
   const TemporaryFolder folder;
   const fs::path file = folder.path / "history.csv";
+  const CsvExtent until_20 = written(file, {0});
   write_text(file, "step,time[s]\n0,0\n1");
 
-  CsvWriter::continued(file, {"step", "time[s]"}, 20).write_row(std::array{5.0, 0.05});
+  CsvWriter table = CsvWriter::continued(file, step_and_time, 20, until_20);
+  table.write_row(std::array{5.0, 0.05});
 
+  CHECK(table.notice().empty());
   CHECK(read_text(file) == "step,time[s]\n0,0\n5,0.05\n");
 }
 
-TEST_CASE("a table that is missing or has not even its first row is begun anew where one is to go on")
+TEST_CASE("a table that is missing is begun anew where one is to go on, and told of")
 {
   const TemporaryFolder folder;
   const fs::path file = folder.path / "history.csv";
-  write_text(folder.path / "cut.csv", "step,ti");
 
-  CsvWriter::continued(file, {"step", "time[s]"}, 20);
-  CsvWriter::continued(folder.path / "cut.csv", {"step", "time[s]"}, 20);
+  const CsvWriter table = CsvWriter::continued(file, step_and_time, 20, {3, 1});
 
+  CHECK_THAT(table.notice(), Catch::EndsWith("is missing, with the 3 rows until step 20; it was begun anew"));
   CHECK(read_text(file) == "step,time[s]\n");
-  CHECK(read_text(folder.path / "cut.csv") == "step,time[s]\n");
 }
 
-TEST_CASE("a table of other columns is not gone on with, and is left as it was")
+TEST_CASE("of a damaged table the rows that can be read are kept, the file is set aside, and both are told of")
 {
+  struct Damage {
+    std::string text;
+    std::string kept;
+  };
+  const std::string header = "step,time[s]\n";
+  const Damage damage = GENERATE_COPY(Damage{header + "0,0\n20,0.2\n", "0,0\n20,0.2\n"},          // a row is gone
+                                      Damage{header + "0,0\n10,0.x\n20,0.2\n", "0,0\n20,0.2\n"},  // no number
+                                      Damage{header + "0,0\n10,0.1,0.2\n", "0,0\n"},              // two lines in one
+                                      Damage{header + "0,0\n10,0.7\n20,0.2\n", "0,0\n10,0.7\n20,0.2\n"},
+                                      Damage{"step,ti", ""}, Damage{"", ""}, Damage{"step,depth[m]\n0,0\n", ""});
   const TemporaryFolder folder;
   const fs::path file = folder.path / "history.csv";
-  write_text(file, "step,depth[m]\n0,0\n");
+  const CsvExtent until_20 = written(file, {0, 10, 20});
+  write_text(file, damage.text);
 
-  CHECK_THROWS_WITH(CsvWriter::continued(file, {"step", "time[s]"}, 20),
-                    Catch::EndsWith("history.csv: has other columns than this run writes"));
-  CHECK(read_text(file) == "step,depth[m]\n0,0\n");
+  const CsvWriter table = CsvWriter::continued(file, step_and_time, 20, until_20);
+
+  CHECK_THAT(table.notice(),
+             Catch::Contains("is damaged: of 3 rows until step 20") && Catch::EndsWith("history.csv.damaged"));
+  CHECK(read_text(file) == header + damage.kept);
+  CHECK(read_text(folder.path / "history.csv.damaged") == damage.text);
 }
 
 TEST_CASE("a file written whole replaces the old one and leaves nothing beside it")

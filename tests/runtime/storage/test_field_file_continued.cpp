@@ -44,7 +44,7 @@ TEST_CASE("a field file that goes on after a step holds what one holds that neve
   written(straight.path, {0, 10, 20, 30});
   written(folder.path, {0, 10, 20, 25});
 
-  FieldFile file = FieldFile::continued(folder.path, 10);
+  FieldFile file = FieldFile::continued(folder.path, 10, 2);
   for (const int step : {20, 30}) write(file, step);
 
   CHECK(file.notice().empty());
@@ -59,7 +59,7 @@ TEST_CASE("a field file that goes on before its first step is empty")
   written(folder.path, {5});
   written(fresh.path, {});
 
-  FieldFile::continued(folder.path, 4);
+  FieldFile::continued(folder.path, 4, 0);
 
   CHECK(all_datasets(folder.path / "fields.h5").empty());
   CHECK(read_text(folder.path / "fields.xdmf") == read_text(fresh.path / "fields.xdmf"));
@@ -72,7 +72,7 @@ TEST_CASE("a damaged field file is set aside and told of, and a new one begun")
   written(folder.path, {0, 10});
   write_text(folder.path / "fields.h5", text);
 
-  FieldFile file = FieldFile::continued(folder.path, 10);
+  FieldFile file = FieldFile::continued(folder.path, 10, 2);
   write(file, 20);
 
   CHECK_THAT(file.notice(), Catch::Contains("fields.h5: cannot be opened") &&
@@ -86,11 +86,23 @@ TEST_CASE("a field file that is missing is begun anew and told of")
 {
   const TemporaryFolder folder;
 
-  FieldFile file = FieldFile::continued(folder.path, 10);
+  FieldFile file = FieldFile::continued(folder.path, 10, 2);
   write(file, 20);
 
-  CHECK_THAT(file.notice(), Catch::EndsWith("fields.h5: is missing and was begun anew"));
+  CHECK_THAT(file.notice(),
+             Catch::EndsWith("fields.h5: is missing, with the 2 outputs until step 10; it was begun anew"));
   CHECK(all_datasets(folder.path / "fields.h5").size() == 7);
+}
+
+TEST_CASE("a field file that lacks outputs keeps those it has, and tells how many were written")
+{
+  const TemporaryFolder folder;
+  written(folder.path, {0, 10});
+
+  const FieldFile file = FieldFile::continued(folder.path, 10, 3);
+
+  CHECK_THAT(file.notice(), Catch::Contains("has 2 outputs until step 10, of 3 that were written"));
+  CHECK(file.n_steps() == 2);
 }
 
 TEST_CASE("what a killed program had written of a step does not keep a field file from going on")
@@ -103,7 +115,7 @@ TEST_CASE("what a killed program had written of a step does not keep a field fil
 
   // All but the file's old part, in which the step is linked.
   write_text(folder.path / "fields.h5", before + after.substr(before.size()));
-  FieldFile file = FieldFile::continued(folder.path, 10);
+  FieldFile file = FieldFile::continued(folder.path, 10, 2);
   write(file, 20);
 
   CHECK(file.notice().empty());
@@ -116,13 +128,13 @@ TEST_CASE("a field file that was shortened before it noted its new length goes o
   const fs::path file = folder.path / "fields.h5";
   written(folder.path, {0, 10, 20, 30});
   const std::string long_before = read_text(file).substr(0, 96);
-  FieldFile::continued(folder.path, 10);
+  FieldFile::continued(folder.path, 10, 2);
   const std::string shortened = read_text(file);
 
   // The first 96 bytes, which HDF5 writes last, say how long the file is.
   write_text(file, long_before + shortened.substr(96));
   REQUIRE(H5Fopen(file.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT) < 0);
-  FieldFile fields = FieldFile::continued(folder.path, 10);
+  FieldFile fields = FieldFile::continued(folder.path, 10, 2);
   write(fields, 20);
 
   CHECK(fields.notice().empty());
@@ -138,7 +150,7 @@ TEST_CASE("a field file that was cut in half is set aside as it was")
   const std::uintmax_t n_bytes = fs::file_size(file);
 
   fs::resize_file(file, n_bytes / 2);
-  const FieldFile fields = FieldFile::continued(folder.path, 10);
+  const FieldFile fields = FieldFile::continued(folder.path, 10, 2);
 
   CHECK_THAT(fields.notice(), Catch::Contains("it was set aside"));
   CHECK(all_datasets(file).empty());

@@ -138,7 +138,7 @@ TEST_CASE("a field file is continued by all ranks", "[ranks]")
     for (const int step : {0, 10, 20}) file.write_step(step, 0.1 * step, own.particles(), own.nodes());
   }
 
-  FieldFile file = FieldFile::continued(folder.path, 10, world);
+  FieldFile file = FieldFile::continued(folder.path, 10, 2, world);
   file.write_step(15, 1.5, own.particles(), own.nodes());
   world.barrier();
 

@@ -83,7 +83,7 @@ TEST_CASE("a model that is compared with itself ends in the same state, that of 
   tools::compare::Options options;
   options.folder = folder.path() / "out";
   options.quiet = true;
-  prepare_folder(options, scenes);
+  const auto folders = prepare_folders(options, scenes);
 
   const tools::compare::Comparison comparison = tools::compare::compare(scenes, options);
 

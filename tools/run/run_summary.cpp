@@ -1,4 +1,4 @@
-#include "tools/run_summary.hpp"
+#include "tools/run/run_summary.hpp"
 
 #include <fmt/format.h>
 #include <sys/resource.h>
@@ -73,6 +73,14 @@ Json materials(const tasks::Simulation& simulation, const RunHistory& history)
   return all;
 }
 
+Json to_json(const Forecast& forecast)
+{
+  Json json{{"memory_bytes", forecast.memory}, {"disk_bytes", forecast.disk}};
+  json["steps"] = forecast.pace ? Json(forecast.pace->n_steps) : Json(nullptr);
+  json["core_seconds"] = forecast.pace ? Json(forecast.pace->core_seconds) : Json(nullptr);
+  return json;
+}
+
 Json rebalances(const tasks::Simulation& simulation)
 {
   Json all = Json::array();
@@ -99,6 +107,7 @@ Json run_summary(tasks::Simulation& simulation, const RunHistory& history, const
   const double n_total = counts["total"].get<double>();
   return {{"status", outcome.status},
           {"reason", outcome.reason},
+          {"warnings", outcome.warnings},
           {"scene", scene.name},
           {"version", version()},
           {"ranks", simulation.communicator().size()},
@@ -124,6 +133,8 @@ Json run_summary(tasks::Simulation& simulation, const RunHistory& history, const
             {"contact", e.contact},
             {"external", e.external},
             {"total", e.total}}},
+          {"forecast", to_json(outcome.forecast)},
+          {"inputs", to_json(outcome.inputs)},
           {"state_digest", simulation.digest()},
           {"bodies", bodies(simulation, history)},
           {"materials", materials(simulation, history)},

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cmath>
+
 namespace tamp::tools
 {
 
@@ -20,12 +22,19 @@ class Every
   void skip_to(double time)
   {
     // The tolerance keeps round-off in the sum of steps from making a moment come twice.
-    while (next_ <= time * (1 + 1e-12)) next_ = interval_ * static_cast<double>(++n_);
+    const double reached = time * (1 + 1e-12);
+    if (next_ > reached) return;
+    n_ = std::floor(reached / interval_) + 1;
+    next_ = interval_ * n_;
+    // The quotient may have been rounded up or down to a whole number.
+    if (interval_ * (n_ - 1) > reached) next_ = interval_ * --n_;
+    if (next_ <= reached) next_ = interval_ * ++n_;
   }
 
  private:
   double interval_;
-  long n_ = 0;
+  /// A whole number, which may be larger than an integer.
+  double n_ = 0;
   double next_ = 0;
 };
 

@@ -2,16 +2,19 @@
 
 #include <nlohmann/json.hpp>
 #include <string>
+#include <vector>
 
 #include "tasks/simulation.hpp"
-#include "tools/run_history.hpp"
+#include "tools/run/forecast.hpp"
+#include "tools/run/run_history.hpp"
+#include "tools/scene/document.hpp"
 
 namespace tamp::tools
 {
 
 /// How a run went, besides what its simulation and history know.
 struct RunOutcome {
-  /// completed, unstable or interrupted, and why.
+  /// completed, completed with warnings, unstable or interrupted, and why.
   std::string status;
   std::string reason;
   /// [s]; a step's is the median.
@@ -19,6 +22,9 @@ struct RunOutcome {
   double wall_per_step = 0;
   /// Where a restarted run went on; -1 for one from the start.
   long restarted_at = -1;
+  Forecast forecast;
+  std::vector<InputFile> inputs;
+  std::vector<std::string> warnings;
 };
 
 /// The content of `summary.json`. Collective.

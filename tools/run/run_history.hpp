@@ -31,8 +31,11 @@ class RunHistory
 
   /// Begins `history.csv` in a folder anew; the first rank writes it.
   void begin(const std::filesystem::path& folder);
-  /// Goes on with it after the row of step `kept_until`: later ones are taken out.
-  void go_on(const std::filesystem::path& folder, long kept_until);
+  /// Goes on with it after the row of step `kept_until`: later ones are taken out. What the user should know of it, on
+  /// the first rank; nothing if it is as `expected`.
+  std::string go_on(const std::filesystem::path& folder, long kept_until, const runtime::CsvExtent& expected);
+  /// What is written so far; on the first rank.
+  runtime::CsvExtent extent() const { return csv_ ? csv_->extent() : runtime::CsvExtent{}; }
   /// Takes in the state now.
   void measure();
   /// The same, and writes it as a row.
@@ -41,6 +44,9 @@ class RunHistory
   /// The error of the total energy, of the initial kinetic energy (of the largest energy if that is nothing), and that
   /// of the momentum that the grid has given to the particles, of the bodies' initial momenta.
   double energy_error() const { return energy_error_; }
+  /// Says so if energy has come or gone by more than `limit` times what the run has been given so far: its initial
+  /// kinetic energy and the work of gravity; empty otherwise. Of the last measured state.
+  std::string energy_problem(double limit) const;
   double momentum_error() const { return momentum_error_; }
   const EnergyBalance& energies() const { return energies_; }
   const tasks::ParticleReport& report() const { return report_; }
@@ -57,6 +63,9 @@ class RunHistory
 
  private:
   std::vector<std::string> columns() const;
+  /// That of all mass at a millionth of the fastest wave's speed [J]: what is at rest has no other energy to compare
+  /// with.
+  double negligible_energy() const;
   void add_body(std::size_t body, const std::vector<Eigen::Vector3d>& forces, std::vector<double>& row) const;
   void add_peaks(std::size_t material, const tasks::MaterialPeaks& peaks, std::vector<double>& row) const;
 
@@ -67,6 +76,8 @@ class RunHistory
   tasks::NoseReport near_noses_;
   tasks::LostParticles lost_;
   EnergyBalance energies_{};
+  /// The largest of the work of gravity so far, without its sign [J].
+  double given_by_gravity_ = 0;
   double energy_error_ = 0;
   double momentum_error_ = 0;
   /// On the first rank only.

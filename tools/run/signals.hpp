@@ -8,14 +8,15 @@
 namespace tamp::tools
 {
 
-/// A run that ended early because a signal asked it to, with its state kept.
+/// A run that ended early because a signal or a limit asked it to, with its state kept.
 struct Interrupted : std::runtime_error {
   Interrupted(const std::string& what, int signal_) : std::runtime_error(what), signal(signal_) {}
   int signal;
 };
 
-/// While it lives, SIGTERM and SIGINT are noted instead of ending the program, SIGUSR2, which mpirun hands on at once,
-/// counts as SIGTERM, and SIGUSR1 has the executor say what it is at. One at a time.
+/// While it lives, SIGTERM, SIGINT, SIGHUP and SIGXCPU are noted instead of ending the program, SIGUSR2, which mpirun
+/// hands on at once, counts as SIGTERM, and SIGUSR1 has the executor say what it is at. A SIGHUP that was ignored, as
+/// under nohup, stays ignored. One at a time.
 class SignalWatch
 {
  public:

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "runtime/storage/checkpoint.hpp"
-#include "tools/moments.hpp"
+#include "tools/run/moments.hpp"
 #include "tools/scene/read_scene.hpp"
 
 namespace tamp::tools
@@ -47,11 +47,12 @@ class CheckpointClock
   Clock::time_point last_ = Clock::now();
 };
 
-/// What of a scene must be the same for a run to go on: all but its title, its end and its output.
+/// What of a scene must be the same for a run to go on, as JSON: a hash of all but its title, its end, its limits and
+/// its output, and one of each file that it reads.
 std::string fingerprint(const CheckedScene& scene);
 
 /// The newest whole checkpoint of a run. Says on stderr which were refused, and renames them. Throws InputError if
-/// there is none, or if it is of another scene. Collective.
+/// there is none, or if it is of another scene or other data, and then names what differs. Collective.
 runtime::FoundCheckpoint checkpoint_to_restart(const std::filesystem::path& run_folder, const CheckedScene& scene,
                                                const runtime::Communicator& communicator);
 

@@ -1,4 +1,4 @@
-#include "tools/signals.hpp"
+#include "tools/run/signals.hpp"
 
 #include <atomic>
 #include <csignal>
@@ -28,15 +28,15 @@ SignalWatch::SignalWatch(runtime::Executor& executor)
 {
   noted_signal = 0;
   watched = &executor;
-  std::signal(SIGTERM, note);
-  std::signal(SIGINT, note);
-  std::signal(SIGUSR2, note);
+  for (const int signal : {SIGTERM, SIGINT, SIGXCPU, SIGUSR2}) std::signal(signal, note);
+  if (std::signal(SIGHUP, note) == SIG_IGN) std::signal(SIGHUP, SIG_IGN);
   std::signal(SIGUSR1, ask_for_report);
 }
 
 SignalWatch::~SignalWatch()
 {
-  for (const int signal : {SIGTERM, SIGINT}) std::signal(signal, SIG_DFL);
+  for (const int signal : {SIGTERM, SIGINT, SIGXCPU}) std::signal(signal, SIG_DFL);
+  if (std::signal(SIGHUP, SIG_DFL) == SIG_IGN) std::signal(SIGHUP, SIG_IGN);
   // What is asked for too late is no reason to end the program, which these signals would by default.
   for (const int signal : {SIGUSR1, SIGUSR2}) std::signal(signal, SIG_IGN);
   watched = nullptr;

@@ -1,4 +1,4 @@
-#include "tools/run_history.hpp"
+#include "tools/run/run_history.hpp"
 
 #include <fmt/core.h>
 
@@ -10,6 +10,7 @@
 
 #include "components/portable_math.hpp"
 #include "runtime/ranks/together.hpp"
+#include "tasks/initial_moduli.hpp"
 
 namespace tamp::tools
 {
@@ -70,10 +71,12 @@ void RunHistory::begin(const std::filesystem::path& folder)
   runtime::by_first(simulation_.communicator(), [&] { csv_.emplace(folder / "history.csv", columns()); });
 }
 
-void RunHistory::go_on(const std::filesystem::path& folder, long kept_until)
+std::string RunHistory::go_on(const std::filesystem::path& folder, long kept_until, const runtime::CsvExtent& expected)
 {
-  runtime::by_first(simulation_.communicator(),
-                    [&] { csv_ = runtime::CsvWriter::continued(folder / "history.csv", columns(), kept_until); });
+  runtime::by_first(simulation_.communicator(), [&] {
+    csv_ = runtime::CsvWriter::continued(folder / "history.csv", columns(), kept_until, expected);
+  });
+  return csv_ ? csv_->notice() : "";
 }
 
 std::vector<std::string> RunHistory::columns() const
@@ -126,6 +129,7 @@ void RunHistory::measure()
       std::max({e.kinetic, std::abs(e.elastic), e.plastic, e.viscous, e.contact, std::abs(e.external)});
   const double energy_scale = initial_.kinetic > 0 ? initial_.kinetic : largest;
   energy_error_ = energy_scale > 0 ? std::abs(e.total - initial_.kinetic) / energy_scale : 0;
+  given_by_gravity_ = std::max(given_by_gravity_, std::abs(e.external));
 
   double momentum_scale = 0;
   for (std::size_t b = 0; b < simulation_.scene().bodies.size(); ++b) {
@@ -134,6 +138,30 @@ void RunHistory::measure()
   const Eigen::Vector3d given(simulation_.impulse().value.data());
   const Eigen::Vector3d change = report_.momentum() + lost_.momentum - initial_.momentum();
   momentum_error_ = momentum_scale > 0 ? (change - given).norm() / momentum_scale : 0;
+}
+
+std::string RunHistory::energy_problem(double limit) const
+{
+  const double given = initial_.kinetic + given_by_gravity_;
+  const double error = std::abs(energies_.total - initial_.kinetic);
+  if (error <= limit * given || error <= negligible_energy()) return "";
+  return fmt::format(
+      "the energy is wrong by {:.3g} J, {:.3g} times the {:.3g} J that the run has been given, more than "
+      "/limits/energy_error, {:.3g}",
+      error, error / given, given, limit);
+}
+
+double RunHistory::negligible_energy() const
+{
+  const tasks::Scene& scene = simulation_.scene();
+  double mass = 0;
+  for (const tasks::BodySums& body : initial_.bodies) mass += body.mass;
+  const auto fastest = std::max_element(
+      scene.materials.begin(), scene.materials.end(),
+      [](const auto& a, const auto& b) { return tasks::initial_wave_speed(a) < tasks::initial_wave_speed(b); });
+  constexpr double part_of_wave_speed = 1e-6;
+  const double speed = part_of_wave_speed * tasks::initial_wave_speed(*fastest);
+  return 0.5 * mass * speed * speed;
 }
 
 double RunHistory::depth(std::size_t body) const

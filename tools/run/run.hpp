@@ -8,7 +8,7 @@
 
 #include "runtime/execute/executor.hpp"
 #include "runtime/ranks/communicator.hpp"
-#include "tools/checkpointing.hpp"
+#include "tools/run/checkpointing.hpp"
 #include "tools/scene/read_scene.hpp"
 
 namespace tamp::tools
@@ -30,16 +30,20 @@ struct RunOptions {
   double until = std::numeric_limits<double>::infinity();
   /// Stop after so many steps, counted from the scene's start.
   long max_steps = std::numeric_limits<long>::max();
+  /// Stop after so many seconds of the clock, counted from the run's start, with the state kept.
+  double wall_limit = std::numeric_limits<double>::infinity();
   CheckpointPolicy checkpoints{};
   /// Steps between two looks at the load of the ranks; 0: patches stay where they are.
   long balance_interval = 200;
   /// No progress, no table at the end.
   bool quiet = false;
+  /// A run that completes with warnings counts as one that has gone wrong.
+  bool strict = false;
 };
 
 /// Runs a scene over the ranks of the communicator and fills its folder. A simulation that goes wrong leaves its last
-/// good state there, and its SimulationError passes on with the step and time; a run that SIGTERM or SIGINT stops
-/// leaves a checkpoint, and throws Interrupted. Throws FileError and InputError too. Collective.
+/// good state there, and its SimulationError passes on with the step and time; a run that a signal or the wall limit
+/// stops leaves a checkpoint, and throws Interrupted. Throws FileError and InputError too. Collective.
 void run(const CheckedScene& scene, const RunOptions& options);
 
 }  // namespace tamp::tools

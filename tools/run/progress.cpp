@@ -1,4 +1,4 @@
-#include "tools/progress.hpp"
+#include "tools/run/progress.hpp"
 
 #include <fmt/core.h>
 #include <unistd.h>

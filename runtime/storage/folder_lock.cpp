@@ -1,0 +1,165 @@
+#include "runtime/storage/folder_lock.hpp"
+
+#include <fcntl.h>
+#include <fmt/chrono.h>
+#include <fmt/format.h>
+#include <sys/file.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <array>
+#include <cerrno>
+#include <chrono>
+#include <csignal>
+#include <cstring>
+#include <ctime>
+#include <fstream>
+#include <system_error>
+#include <utility>
+
+#include "runtime/storage/file_error.hpp"
+
+namespace tamp::runtime
+{
+
+namespace
+{
+
+constexpr std::chrono::seconds touched_every{10};
+/// [s]
+constexpr double stale_after = 60;
+
+/// A descriptor that is closed in the end, and with it the flock on it released.
+class Descriptor
+{
+ public:
+  explicit Descriptor(int descriptor) : descriptor_(descriptor) {}
+  ~Descriptor()
+  {
+    if (descriptor_ >= 0) ::close(descriptor_);
+  }
+  Descriptor(const Descriptor&) = delete;
+  Descriptor& operator=(const Descriptor&) = delete;
+
+  bool good() const { return descriptor_ >= 0; }
+  int get() const { return descriptor_; }
+  int release() { return std::exchange(descriptor_, -1); }
+
+ private:
+  int descriptor_;
+};
+
+std::string host_name()
+{
+  std::array<char, 256> name{};
+  gethostname(name.data(), name.size() - 1);
+  return name.data();
+}
+
+std::string text_of_own_lock()
+{
+  const auto now = std::chrono::time_point_cast<std::chrono::seconds>(std::chrono::system_clock::now());
+  return fmt::format("host {}\nprocess {}\nsince {:%Y-%m-%dT%H:%M:%SZ}\n", host_name(), getpid(), fmt::gmtime(now));
+}
+
+/// What a lock file says; what it does not say, because it was not written to its end, stays empty.
+LockHolder holder_in(const std::filesystem::path& file)
+{
+  LockHolder holder;
+  std::ifstream stream(file);
+  for (std::string word; stream >> word;) {
+    if (word == "host") stream >> holder.host;
+    if (word == "process") stream >> holder.process;
+    if (word == "since") stream >> holder.since;
+  }
+  struct stat found {
+  };
+  if (stat(file.c_str(), &found) == 0) holder.untouched = std::difftime(std::time(nullptr), found.st_mtime);
+  return holder;
+}
+
+/// Whether the process that wrote a lock is known to have ended. Where the file system has flock, its flock tells;
+/// otherwise, whether there is such a process.
+bool has_ended(const LockHolder& holder, int descriptor)
+{
+  if (holder.host != host_name()) return false;
+  if (::flock(descriptor, LOCK_EX | LOCK_NB) == 0) return true;
+  if (errno == EWOULDBLOCK) return false;
+  return kill(static_cast<pid_t>(holder.process), 0) != 0 && errno == ESRCH;
+}
+
+}  // namespace
+
+std::string LockHolder::told() const
+{
+  return fmt::format("process {} on {} since {}, last heard of {:.0f} s ago", process,
+                     host.empty() ? "an unknown machine" : host, since.empty() ? "an unknown time" : since, untouched);
+}
+
+FolderLock::FolderLock(const std::filesystem::path& folder) : folder_(folder), file_(folder / file_name)
+{
+  take();
+  try {
+    toucher_ = std::thread([this] { touch_until_stopped(); });
+  } catch (const std::system_error& error) {
+    ::unlink(file_.c_str());
+    ::close(descriptor_);
+    throw FileError(file_.string(), fmt::format("no thread can be started that touches it: {}", error.what()));
+  }
+}
+
+FolderLock::~FolderLock()
+{
+  {
+    const std::lock_guard lock(mutex_);
+    stopped_ = true;
+  }
+  stop_.notify_all();
+  toucher_.join();
+  if (is_own()) ::unlink(file_.c_str());
+  ::close(descriptor_);
+}
+
+void FolderLock::take()
+{
+  // Who looks at a lock and takes it over does so alone, as far as the file system knows flock.
+  const Descriptor gate(::open(folder_.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
+  if (!gate.good()) throw FileError(folder_.string(), std::strerror(errno));
+  ::flock(gate.get(), LOCK_EX);
+
+  const Descriptor old(::open(file_.c_str(), O_RDONLY | O_CLOEXEC));
+  if (old.good()) {
+    former_ = holder_in(file_);
+    if (!has_ended(*former_, old.get()) && former_->untouched < stale_after) throw FolderInUse(*former_);
+    ::unlink(file_.c_str());
+  }
+  Descriptor own(::open(file_.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0644));
+  if (!own.good() && errno == EEXIST) throw FolderInUse(holder_in(file_));
+  const std::string text = text_of_own_lock();
+  if (!own.good() || ::write(own.get(), text.data(), text.size()) != static_cast<ssize_t>(text.size())) {
+    const int cause = errno;
+    if (own.good()) ::unlink(file_.c_str());
+    throw FileError(file_.string(), std::strerror(cause));
+  }
+  ::flock(own.get(), LOCK_EX | LOCK_NB);
+  descriptor_ = own.release();
+}
+
+bool FolderLock::is_own() const
+{
+  struct stat own {
+  }, there{};
+  return fstat(descriptor_, &own) == 0 && stat(file_.c_str(), &there) == 0 && own.st_ino == there.st_ino &&
+         own.st_dev == there.st_dev;
+}
+
+void FolderLock::touch_until_stopped()
+{
+  std::unique_lock lock(mutex_);
+  while (!stop_.wait_for(lock, touched_every, [this] { return stopped_; })) {
+    if (!is_own()) lost_ = true;
+    if (!lost_) futimens(descriptor_, nullptr);
+  }
+}
+
+}  // namespace tamp::runtime

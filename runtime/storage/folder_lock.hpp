@@ -1,0 +1,70 @@
+#pragma once
+
+#include <atomic>
+#include <condition_variable>
+#include <filesystem>
+#include <mutex>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <thread>
+
+namespace tamp::runtime
+{
+
+/// The program that holds a folder, as its lock file tells.
+struct LockHolder {
+  std::string host;
+  long process = 0;
+  /// When it took the folder, UTC, such as 2026-11-22T16:40:00Z.
+  std::string since;
+  /// Seconds since it last touched its lock.
+  double untouched = 0;
+
+  /// Such as "process 12 on HOST since TIME, last heard of 3 s ago".
+  std::string told() const;
+};
+
+/// The folder is another program's.
+struct FolderInUse : std::runtime_error {
+  explicit FolderInUse(const LockHolder& holder) : std::runtime_error("in use by " + holder.told()) {}
+};
+
+/// Keeps a folder for one program, by the file `run.lock` in it, which is touched every ten seconds. The lock of a
+/// program that has gone, on this machine, or has not touched it for a minute, on any, is taken over. A program that
+/// was stopped for so long and goes on finds its folder `lost`.
+class FolderLock
+{
+ public:
+  static constexpr const char* file_name = "run.lock";
+
+  /// Throws FolderInUse, and FileError if the file cannot be written or the thread that touches it not be started.
+  explicit FolderLock(const std::filesystem::path& folder);
+  /// Removes the file, if it is still this program's.
+  ~FolderLock();
+  FolderLock(const FolderLock&) = delete;
+  FolderLock& operator=(const FolderLock&) = delete;
+
+  /// Whose lock was taken over.
+  const std::optional<LockHolder>& former_holder() const { return former_; }
+  /// Another program has taken the folder over. Cheap.
+  bool lost() const { return lost_; }
+
+ private:
+  void take();
+  bool is_own() const;
+  void touch_until_stopped();
+
+  std::filesystem::path folder_;
+  std::filesystem::path file_;
+  /// Held open with an flock of its own, which ends with the process in whatever way that ends.
+  int descriptor_ = -1;
+  std::optional<LockHolder> former_;
+  std::atomic<bool> lost_{false};
+  std::mutex mutex_;
+  std::condition_variable stop_;
+  bool stopped_ = false;
+  std::thread toucher_;
+};
+
+}  // namespace tamp::runtime

@@ -1,0 +1,14 @@
+#pragma once
+
+#include "tasks/scene.hpp"
+
+namespace tamp::tasks
+{
+
+/// K and G of a material without strain [Pa].
+components::TangentModuli initial_moduli(const SceneMaterial& material);
+
+/// Of waves of compression in it, without strain [m/s].
+double initial_wave_speed(const SceneMaterial& material);
+
+}  // namespace tamp::tasks

@@ -1,0 +1,96 @@
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <catch2/catch.hpp>
+#include <chrono>
+
+#include "runtime/storage/file_error.hpp"
+#include "runtime/storage/folder_lock.hpp"
+#include "tests/runtime/storage/stored_data.hpp"
+#include "tests/runtime/storage/temporary_folder.hpp"
+
+using namespace tamp::runtime;
+using namespace tamp::test;
+
+namespace
+{
+
+namespace fs = std::filesystem;
+
+void let_it_be_old(const fs::path& file, std::chrono::seconds age)
+{
+  fs::last_write_time(file, fs::file_time_type::clock::now() - age);
+}
+
+std::string own_host()
+{
+  std::array<char, 256> name{};
+  gethostname(name.data(), name.size() - 1);
+  return name.data();
+}
+
+/// The number of a process that has ended.
+pid_t ended_process()
+{
+  const pid_t child = fork();
+  if (child == 0) _exit(0);
+  waitpid(child, nullptr, 0);
+  return child;
+}
+
+}  // namespace
+
+TEST_CASE("a folder has one lock at a time, which says whose it is, and is gone with its holder")
+{
+  const TemporaryFolder folder;
+  {
+    const FolderLock lock(folder.path);
+    CHECK_FALSE(lock.former_holder());
+    CHECK_FALSE(lock.lost());
+    CHECK_THAT(read_text(folder.path / "run.lock"),
+               Catch::Contains("host " + own_host()) && Catch::Contains("process " + std::to_string(getpid())));
+    CHECK_THROWS_WITH(FolderLock(folder.path), Catch::Contains("in use by process " + std::to_string(getpid())));
+  }
+  CHECK_FALSE(fs::exists(folder.path / "run.lock"));
+}
+
+TEST_CASE("the lock of a process of this machine that has ended is taken over at once")
+{
+  const TemporaryFolder folder;
+  const pid_t ended = ended_process();
+  write_text(folder.path / "run.lock", "host " + own_host() + "\nprocess " + std::to_string(ended) + "\nsince then\n");
+
+  const FolderLock lock(folder.path);
+
+  REQUIRE(lock.former_holder());
+  CHECK(lock.former_holder()->process == ended);
+  CHECK(lock.former_holder()->since == "then");
+}
+
+TEST_CASE("the lock of another machine is taken over when it has not been touched for a minute")
+{
+  const TemporaryFolder folder;
+  const fs::path file = folder.path / "run.lock";
+  write_text(file, "host elsewhere\nprocess 12\nsince then\n");
+
+  let_it_be_old(file, std::chrono::seconds(30));
+  CHECK_THROWS_AS(FolderLock(folder.path), FolderInUse);
+  let_it_be_old(file, std::chrono::seconds(70));
+  const FolderLock lock(folder.path);
+
+  CHECK(lock.former_holder()->host == "elsewhere");
+}
+
+TEST_CASE("a lock that was not written to its end counts as one")
+{
+  const TemporaryFolder folder;
+  write_text(folder.path / "run.lock", "");
+
+  CHECK_THROWS_WITH(FolderLock(folder.path), Catch::Contains("on an unknown machine since an unknown time"));
+}
+
+TEST_CASE("a folder that cannot be locked is an error of files")
+{
+  CHECK_THROWS_AS(FolderLock("/no/such/folder"), FileError);
+  CHECK_THROWS_AS(FolderLock("/proc"), FileError);
+}

@@ -1,0 +1,39 @@
+#include <catch2/catch.hpp>
+#include <regex>
+
+#include "tests/tools/program.hpp"
+#include "tests/tools/scene/small_scene.hpp"
+
+using namespace tamp::test;
+
+TEST_CASE("a run goes on when nobody listens")
+{
+  const std::string closed = GENERATE(as<std::string>(), ">&-", ">&- 2>&-", "<&- >&- 2>&-", "| true");
+  const TemporaryFolder folder;
+  const std::string out = (folder.path() / "run").string(), code = (folder.path() / "code").string();
+  const std::string run = TAMP_PROGRAM " run " TAMP_SOURCE_DIR "/inputs/punch/quick.json --steps 3 --out " + out;
+
+  outcome_of("sh -c '{ " + run + "; echo $? >" + code + "; } " + closed + "'");
+
+  CHECK(read_text(code) == "0\n");
+  CHECK_THAT(read_text(folder.path() / "run/summary.json"), Catch::Contains("\"steps\": 3"));
+  CHECK_THAT(read_text(folder.path() / "run/history.csv"), Catch::StartsWith("step,") && !Catch::Contains("forecast"));
+}
+
+TEST_CASE("a command that prints ends quietly when its reader has gone, and with 4 when stdout is full")
+{
+  const TemporaryFolder folder;
+  const std::string scene = folder.write("small.json", small_scene).string(), code = folder.path().string() + "/code";
+  const std::string words =
+      GENERATE(as<std::string>(), "check SCENE", "graph SCENE --format json", "--version", "run --help");
+  const std::string command = std::regex_replace(words, std::regex("SCENE"), scene);
+
+  const Outcome gone =
+      outcome_of("sh -c '{ sleep 0.2; " TAMP_PROGRAM " " + command + "; echo $? >" + code + "; } | true'");
+  const Outcome full = outcome_of("sh -c '" TAMP_PROGRAM " " + command + " >/dev/full'");
+
+  CHECK(read_text(code) == "0\n");
+  CHECK_THAT(gone.err, !Catch::Contains("tamp: standard output"));
+  CHECK(full.exit_code == 4);
+  CHECK_THAT(full.err, Catch::Contains("tamp: standard output: No space left on device"));
+}

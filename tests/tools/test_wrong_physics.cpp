@@ -1,0 +1,77 @@
+#include <catch2/catch.hpp>
+#include <nlohmann/json.hpp>
+
+#include "tests/tools/program.hpp"
+
+/// A run that ends in nonsense does not say "completed".
+using namespace tamp::test;
+
+namespace
+{
+
+const std::string punch = TAMP_SOURCE_DIR "/inputs/punch/quick.json";
+
+struct Run {
+  Outcome outcome;
+  nlohmann::json summary;
+};
+
+Run run_with(const std::string& arguments)
+{
+  const TemporaryFolder folder;
+  const auto out = folder.path() / "run";
+  Outcome outcome = tamp_with("run " + punch + " --quiet --out " + out.string() + " " + arguments);
+  nlohmann::json summary;
+  if (std::filesystem::exists(out / "summary.json")) summary = nlohmann::json::parse(read_text(out / "summary.json"));
+  return {outcome, summary};
+}
+
+bool warns(const std::string& assignment, const std::string& words)
+{
+  const Outcome outcome = tamp_with("check " + punch + " --set " + assignment);
+  INFO(outcome.err);
+  CHECK(outcome.exit_code == 0);
+  return outcome.err.find("tamp: warning: ") != std::string::npos && outcome.err.find(words) != std::string::npos;
+}
+
+}  // namespace
+
+TEST_CASE("a run whose energy is wrong by more than its limit ends with 3, with its state kept")
+{
+  const std::string bound = " --set /limits/energy_error=0.001";
+  const Run wrong = run_with("--steps 100" + bound), off = run_with("--steps 20 --set /limits/energy_error=off");
+
+  CHECK(wrong.outcome.exit_code == 3);
+  CHECK_THAT(wrong.outcome.err, Catch::Contains("the energy is wrong by") && Catch::Contains("/limits/energy_error"));
+  CHECK(wrong.summary["status"] == "unstable");
+  CHECK(off.outcome.exit_code == 0);
+}
+
+TEST_CASE("what is hardly ever meant is warned of")
+{
+  const TemporaryFolder folder;
+  const auto mega = folder.write("yield.csv", "pressure[Pa],sqrt_J2[Pa]\n-0.001,0\n100,50\n");
+
+  CHECK(warns("/materials/sand/density=1e-320", "no known matter"));
+  CHECK(warns("/gravity=[0,-1e6]", "/gravity: "));
+  CHECK(warns("/bodies/punch/velocity=[0,-20000]", "faster than the fastest wave"));
+  CHECK(
+      warns("'/materials/extra={\"type\":\"hypoelastic\",\"density\":7800,\"bulk_modulus\":1e9,\"shear_modulus\":1e9}'",
+            "/materials/extra: no body is of this material"));
+  CHECK(warns("/materials/sand/yield/file=" + mega.string(), "look like MPa"));
+  CHECK(warns("'/bodies/punch/geometry={\"type\":\"ball\",\"centre\":[0.5,0.6],\"radius\":0.0401}'", "of its mass"));
+  CHECK_FALSE(warns("/title=as-it-is", ""));
+}
+
+TEST_CASE("a run with warnings says so at its end, and with --strict ends with 3")
+{
+  const std::string arguments = "--steps 2 --set /bodies/punch/velocity=[0,-6500]";
+
+  const Run run = run_with(arguments), strict = run_with(arguments + " --strict");
+
+  CHECK(run.outcome.exit_code == 0);
+  CHECK(run.summary["status"] == "completed with warnings");
+  CHECK(run.summary["warnings"].size() == 1);
+  CHECK(strict.outcome.exit_code == 3);
+  CHECK_THAT(strict.outcome.err, Catch::Contains("--strict"));
+}

@@ -1,0 +1,49 @@
+#include "tools/console.hpp"
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <csignal>
+#include <cstdio>
+#include <cstring>
+
+#include "runtime/storage/file_error.hpp"
+
+namespace tamp::tools
+{
+
+namespace
+{
+
+void expect_written(bool written)
+{
+  const int cause = errno;
+  if (written) return;
+  std::clearerr(stdout);
+  if (cause != EPIPE) throw runtime::FileError("standard output", std::strerror(cause));
+}
+
+}  // namespace
+
+void guard_console()
+{
+  // Then the write fails, and says where.
+  for (const int signal : {SIGPIPE, SIGXFSZ}) std::signal(signal, SIG_IGN);
+  for (const int descriptor : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
+    // The lowest free number is taken, which is this one.
+    if (fcntl(descriptor, F_GETFD) < 0) open("/dev/null", O_RDWR);
+  }
+}
+
+void write_out(std::string_view text)
+{
+  expect_written(std::fwrite(text.data(), 1, text.size(), stdout) == text.size());
+}
+
+void flush_out()
+{
+  expect_written(std::fflush(stdout) == 0);
+}
+
+}  // namespace tamp::tools

@@ -1,0 +1,26 @@
+#pragma once
+
+#include <fmt/format.h>
+
+#include <string_view>
+#include <utility>
+
+namespace tamp::tools
+{
+
+/// To be called before anything is opened: a closed stdin, stdout or stderr becomes /dev/null, so that no file gets its
+/// number; and a reader that goes away, or a file that reaches its limit, no longer ends the program by a signal.
+void guard_console();
+
+/// Writes on stdout. Nobody has to listen: to a pipe that is closed nothing is written. Throws FileError if stdout is
+/// full.
+void write_out(std::string_view text);
+void flush_out();
+
+template <class... Args>
+void print_out(fmt::format_string<Args...> format, Args&&... args)
+{
+  write_out(fmt::format(format, std::forward<Args>(args)...));
+}
+
+}  // namespace tamp::tools

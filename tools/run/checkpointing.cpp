@@ -1,0 +1,132 @@
+#include "tools/run/checkpointing.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <cstdint>
+
+#include "runtime/ranks/together.hpp"
+#include "tools/errors.hpp"
+#include "tools/scene/parse_json.hpp"
+
+namespace tamp::tools
+{
+
+namespace
+{
+
+/// FNV-1a, 64 bits.
+std::uint64_t hash_of(const std::string& text)
+{
+  std::uint64_t hash = 0xcbf29ce484222325U;
+  for (const char c : text) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3U;
+  return hash;
+}
+
+/// What of a resolved scene must be the same for a run to go on. Files count by their content, wherever they lie.
+Json essence(Json resolved, const std::vector<InputFile>& inputs)
+{
+  for (const char* key : {"title", "output", "limits", "inputs"}) resolved.erase(key);
+  if (resolved.contains("time")) resolved["time"].erase("end");
+  for (const InputFile& input : inputs) {
+    const JsonPointer pointer(input.pointer);
+    if (!input.pointer.empty() && resolved.contains(pointer)) resolved[pointer] = nullptr;
+  }
+  return resolved;
+}
+
+/// The first keys of two scenes that differ, as far as the one that the run began with can be read.
+std::string differing_keys(const std::filesystem::path& scene_of_run, const CheckedScene& scene)
+{
+  Json then;
+  try {
+    then = essence(parse_json(scene_of_run), scene.inputs);
+  } catch (const std::exception&) {
+    return "";
+  }
+  constexpr std::size_t most = 5;
+  std::vector<std::string> keys;
+  for (const auto& difference : Json::diff(then, essence(scene.resolved, scene.inputs))) {
+    if (keys.size() < most) keys.push_back(difference["path"].get<std::string>());
+  }
+  return keys.empty() ? "" : fmt::format(", which differs at {}", fmt::join(keys, ", "));
+}
+
+/// Throws unless the run may go on: each file that changed is named.
+void expect_same_scene(const runtime::FoundCheckpoint& found, const CheckedScene& scene,
+                       const std::filesystem::path& run_folder)
+{
+  const std::string own = fingerprint(scene);
+  if (found.header.fingerprint == own) return;
+  const Json then = json_of(found.header.fingerprint).value_or(Json());
+  std::vector<Problem> changed;
+  for (const InputFile& input : scene.inputs) {
+    if (!then.is_object() || !then.contains("inputs") || !then["inputs"].contains(input.pointer)) continue;
+    if (then["inputs"][input.pointer] == input.hash) continue;
+    changed.push_back({input.file.string(), "its content has changed since the checkpoint was written",
+                       fmt::format("expected the content that the run began with ({})", input.pointer)});
+  }
+  if (!changed.empty()) throw InputError(std::move(changed));
+  throw InputError({found.file.string(),
+                    "a checkpoint of another scene" + differing_keys(run_folder / "scene.json", scene),
+                    "expected one of this scene, of which only the title, /time/end, /limits and /output may have "
+                    "changed"});
+}
+
+/// Those that were refused are newer than the one that was found; under their names they would count as kept.
+void set_aside_newer(const std::filesystem::path& found)
+{
+  std::vector<std::filesystem::path> newer;
+  for (const auto& entry : std::filesystem::directory_iterator(found.parent_path())) {
+    if (entry.path().extension() == ".h5" && entry.path() > found) newer.push_back(entry.path());
+  }
+  for (const auto& file : newer) std::filesystem::rename(file, file.string() + ".damaged");
+}
+
+}  // namespace
+
+CheckpointClock::CheckpointClock(const CheckpointPolicy& policy) : policy_(policy), simulated_(policy.simulated)
+{
+  simulated_.skip_to(0);
+}
+
+bool CheckpointClock::due(long step, double time)
+{
+  const bool by_time = simulated_.due(time);
+  return by_time || (policy_.steps > 0 && step % policy_.steps == 0);
+}
+
+bool CheckpointClock::wall_time_over() const
+{
+  return std::chrono::duration<double>(Clock::now() - last_).count() > policy_.wall;
+}
+
+std::string fingerprint(const CheckedScene& scene)
+{
+  Json inputs = Json::object();
+  for (const InputFile& input : scene.inputs) {
+    if (!input.pointer.empty() && !input.hash.empty()) inputs[input.pointer] = input.hash;
+  }
+  return Json{{"scene", fmt::format("{:016x}", hash_of(essence(scene.resolved, scene.inputs).dump()))},
+              {"inputs", inputs}}
+      .dump();
+}
+
+runtime::FoundCheckpoint checkpoint_to_restart(const std::filesystem::path& run_folder, const CheckedScene& scene,
+                                               const runtime::Communicator& communicator)
+{
+  const std::filesystem::path folder = run_folder / "checkpoints";
+  std::vector<std::string> refused;
+  auto found = runtime::newest_checkpoint(folder, refused, communicator);
+  if (communicator.is_first()) {
+    for (const std::string& line : refused) fmt::print(stderr, "tamp: refused a checkpoint: {}\n", line);
+  }
+  if (!found) {
+    throw InputError({folder.string(), "no whole checkpoint", "expected the folder of a run that has written one"});
+  }
+  expect_same_scene(*found, scene, run_folder);
+  runtime::by_first(communicator, [&] { set_aside_newer(found->file); });
+  return *std::move(found);
+}
+
+}  // namespace tamp::tools

@@ -1,0 +1,67 @@
+#include "tools/run/forecast.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "tools/errors.hpp"
+#include "tools/machine_room.hpp"
+
+namespace tamp::tools
+{
+
+namespace
+{
+
+/// What a process takes besides fields and output, when its first particles have been laid out [bytes].
+constexpr double of_libraries = 6.5e6;
+/// The profile and trace of a run, and the text of its history [bytes].
+constexpr double of_reports = 2e6;
+
+/// In words that leave no doubt: 12 s, 5 min, 3 h.
+std::string in_time(double seconds)
+{
+  if (seconds < 90) return fmt::format("{:.0f} core-seconds", seconds);
+  if (seconds < 5400) return fmt::format("{:.0f} core-seconds ({:.0f} min of one core)", seconds, seconds / 60);
+  return fmt::format("{:.3g} core-seconds ({:.3g} h of one core)", seconds, seconds / 3600);
+}
+
+}  // namespace
+
+Forecast forecast(const tasks::Scene& scene, int n_ranks, double calibration)
+{
+  const tasks::Demand demand = demand_of(scene);
+  constexpr double n_checkpoints = 2;
+  const double n_outputs = std::ceil(scene.time.end / scene.output.fields_interval) + 1;
+  Forecast all;
+  all.n_particles = demand.n_particles;
+  all.memory = n_ranks * (resident_bytes() + of_libraries) + demand.fields + demand.output_room;
+  all.disk = n_outputs * demand.output_file + n_checkpoints * demand.checkpoint_file + of_reports;
+  if (calibration > 0) all.pace = tasks::pace_of(scene, calibration);
+  return all;
+}
+
+void expect_room(const CheckedScene& checked, const Forecast& forecast, int n_ranks)
+{
+  const tasks::Scene& scene = checked.scene;
+  const MemoryRoom room = memory_room(n_ranks);
+  if (forecast.memory <= room.bytes) return;
+  const double fitting = scene.grid.cell_size * std::pow(forecast.memory / room.bytes, 1.0 / scene.grid.dimension);
+  throw InputError({checked.inputs.front().file.string() + "#/grid/cell_size",
+                    fmt::format("{} m: {} particles, {} of memory", scene.grid.cell_size, forecast.n_particles,
+                                in_bytes(forecast.memory)),
+                    fmt::format("expected at most the {} that {}, as with cells of {:.2g} m", in_bytes(room.bytes),
+                                room.why, 1.05 * fitting)});
+}
+
+std::string told(const Forecast& forecast)
+{
+  std::string text = fmt::format("forecast: {} particles, {} of memory, {} on the disk", forecast.n_particles,
+                                 in_bytes(forecast.memory), in_bytes(forecast.disk));
+  if (forecast.pace) {
+    text += fmt::format(", about {:.2g} steps, {}", forecast.pace->n_steps, in_time(forecast.pace->core_seconds));
+  }
+  return text;
+}
+
+}  // namespace tamp::tools

@@ -1,0 +1,395 @@
+#include "tools/run/run.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <csignal>
+#include <vector>
+
+#include "runtime/data/byte_stream.hpp"
+#include "runtime/profile/report.hpp"
+#include "runtime/ranks/together.hpp"
+#include "runtime/storage/field_file.hpp"
+#include "runtime/storage/file_error.hpp"
+#include "runtime/storage/whole_file.hpp"
+#include "tasks/simulation.hpp"
+#include "tasks/simulation_error.hpp"
+#include "tools/console.hpp"
+#include "tools/run/forecast.hpp"
+#include "tools/run/moments.hpp"
+#include "tools/run/progress.hpp"
+#include "tools/run/run_folder.hpp"
+#include "tools/run/run_history.hpp"
+#include "tools/run/run_summary.hpp"
+#include "tools/run/signals.hpp"
+#include "tools/scene/compiled_moduli.hpp"
+#include "tools/scene/plausibility.hpp"
+
+namespace tamp::tools
+{
+
+namespace
+{
+
+using Clock = std::chrono::steady_clock;
+
+double seconds_since(Clock::time_point start)
+{
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+/// What one rank may ask of all with a step, as bits.
+constexpr unsigned write_checkpoint = 1, folder_is_lost = 2;
+
+/// Why a run stops early, and with the exit code of which signal.
+struct StopReason {
+  unsigned request;
+  int signal;
+  const char* words;
+};
+constexpr StopReason wall_limit_reached{1U << 2, SIGTERM, "stopped at its wall limit"};
+constexpr std::array stop_reasons{wall_limit_reached, StopReason{1U << 3, SIGTERM, "stopped by SIGTERM"},
+                                  StopReason{1U << 4, SIGINT, "stopped by SIGINT"},
+                                  StopReason{1U << 5, SIGHUP, "stopped by SIGHUP, as its terminal was lost"},
+                                  StopReason{1U << 6, SIGXCPU, "stopped by SIGXCPU, at its limit of processor time"}};
+
+/// One of these was asked for; null if none.
+const StopReason* stop_reason(unsigned requests)
+{
+  for (const StopReason& reason : stop_reasons) {
+    if ((requests & reason.request) != 0) return &reason;
+  }
+  return nullptr;
+}
+
+std::shared_ptr<runtime::Executor> executor_of(const RunOptions& options)
+{
+  return with_resources_for("starting threads", [&]() -> std::shared_ptr<runtime::Executor> {
+    if (options.shuffle_seed) return runtime::Executor::shuffled(*options.shuffle_seed, options.executor);
+    return std::make_shared<runtime::Executor>(options.n_threads, options.executor);
+  });
+}
+
+std::unique_ptr<tasks::Simulation> simulation_of(const tasks::Scene& scene, std::shared_ptr<runtime::Executor> executor,
+                                                 const RunOptions& options)
+{
+  return with_resources_for("laying out the particles",
+                            [&] { return tasks::Simulation::make(scene, executor, options.communicator); });
+}
+
+/// The last steps with output, and how much of it there is until then.
+struct Outputs {
+  long history = -1;
+  long fields = -1;
+  runtime::CsvExtent rows;
+  std::size_t n_fields = 0;
+};
+
+class Runner
+{
+ public:
+  Runner(const CheckedScene& checked, const RunOptions& options, const Forecast& forecast)
+      : checked_(checked),
+        options_(options),
+        forecast_(forecast),
+        folder_(own_folder()),
+        executor_(executor_of(options)),
+        signals_(*executor_),
+        simulation_(simulation_of(checked.scene, executor_, options)),
+        history_(*simulation_),
+        fields_moment_(checked.scene.output.fields_interval),
+        history_moment_(checked.scene.output.history_interval),
+        checkpoint_clock_(options.checkpoints),
+        end_(std::min(checked.scene.time.end, options.until))
+  {
+    simulation_->balance_every(options.balance_interval);
+    warn_all(plausibility_warnings(checked));
+    if (options.restart) {
+      restart();
+    } else {
+      fields_.emplace(options.folder, options.communicator);
+      history_.begin(options.folder);
+    }
+    by_first([&] { runtime::write_whole_file(options_.folder / "scene.json", checked_.resolved.dump(2) + "\n"); });
+  }
+
+  void run()
+  {
+    const std::size_t n = n_particles();
+    Progress progress(options_.quiet || !is_first(), end_, options_.max_steps, n);
+    write_due();
+    while (simulation_->time() < end_ && simulation_->n_steps() < options_.max_steps) {
+      try {
+        with_resources_for(fmt::format("after step {}", simulation_->n_steps()), [&] { advance(); });
+      } catch (const tasks::SimulationError& error) {
+        progress.finish();
+        fail(error);
+      }
+      if (const StopReason* reason = stop_reason(simulation_->asked())) {
+        progress.finish();
+        leave(*reason);
+      }
+      progress.show(simulation_->n_steps(), simulation_->time(), simulation_->last_step_size());
+    }
+    progress.finish();
+    write_last_state();
+    complete();
+  }
+
+ private:
+  /// One step, with what is to be written after it.
+  void advance()
+  {
+    const Clock::time_point begin = Clock::now();
+    ask_for_what_is_wanted();
+    simulation_->advance(end_);
+    step_seconds_.push_back(static_cast<float>(seconds_since(begin)));
+    expect_own_folder();
+    write_due();
+    keep_state();
+  }
+
+  bool is_first() const { return options_.communicator.is_first(); }
+
+  template <class Work>
+  void by_first(const Work& work) const
+  {
+    runtime::by_first(options_.communicator, work);
+  }
+
+  std::size_t n_particles() const
+  {
+    std::size_t n = 0;
+    for (std::size_t m = 0; m < simulation_->scene().materials.size(); ++m) {
+      n += simulation_->n_particles(static_cast<int>(m));
+    }
+    return n;
+  }
+
+  void restart()
+  {
+    const auto found = checkpoint_to_restart(options_.folder, checked_, options_.communicator);
+    const std::vector<std::byte> own = simulation_->restart(found);
+    runtime::ByteReader(own).read(due_);
+    written_ = due_;
+    restarted_at_ = simulation_->n_steps();
+    warn(history_.go_on(options_.folder, due_.history, due_.rows));
+    fields_.emplace(runtime::FieldFile::continued(options_.folder, due_.fields, due_.n_fields, options_.communicator));
+    warn(fields_->notice());
+    history_moment_.skip_to(simulation_->time());
+    fields_moment_.skip_to(simulation_->time());
+    checkpoint_clock_.skip_to(simulation_->time());
+    if (options_.quiet || !is_first()) return;
+    print_out("going on from {}, step {}, time {:.6g} s\n", found.file.string(), restarted_at_, simulation_->time());
+  }
+
+  /// The first rank's alone, who writes it.
+  std::unique_ptr<RunFolder> own_folder() const
+  {
+    std::unique_ptr<RunFolder> folder;
+    by_first([&] {
+      const auto use = options_.restart ? RunFolder::Use::go_on
+                       : options_.force ? RunFolder::Use::replace
+                                        : RunFolder::Use::begin;
+      std::vector<std::filesystem::path> inputs;
+      for (const InputFile& input : checked_.inputs) inputs.push_back(input.file);
+      folder = std::make_unique<RunFolder>(options_.folder, use, inputs);
+      if (!folder->notice().empty()) fmt::print(stderr, "tamp: {}\n", folder->notice());
+    });
+    return folder;
+  }
+
+  /// To be told now and in the summary; nothing if empty.
+  void warn(const std::string& warning)
+  {
+    if (warning.empty()) return;
+    if (is_first()) fmt::print(stderr, "tamp: warning: {}\n", warning);
+    warnings_.push_back(warning);
+  }
+
+  void warn_all(const std::vector<std::string>& warnings)
+  {
+    for (const std::string& warning : warnings) warn(warning);
+  }
+
+  void write_due()
+  {
+    if (history_moment_.due(simulation_->time())) {
+      write_history();
+      due_.history = simulation_->n_steps();
+      due_.rows = history_.extent();
+      expect_energy();
+    }
+    if (fields_moment_.due(simulation_->time())) {
+      write_fields();
+      due_.fields = simulation_->n_steps();
+      ++due_.n_fields;
+    }
+  }
+
+  void expect_energy()
+  {
+    const std::string problem = history_.energy_problem(checked_.scene.limits.energy_error);
+    if (!problem.empty()) throw tasks::SimulationError(problem, "", -1, {});
+  }
+
+  void write_history()
+  {
+    history_.write_row();
+    written_.history = simulation_->n_steps();
+  }
+
+  void write_fields()
+  {
+    const auto watch = executor_->watch("writing fields");
+    const auto particles = simulation_->particle_columns();
+    // What is on the grid is no state: after a restart there is nothing there before the first step.
+    std::optional<runtime::NodeBlock> nodes;
+    if (simulation_->n_steps() != restarted_at_) nodes = simulation_->node_columns();
+    fields_->write_step(simulation_->n_steps(), simulation_->time(), particles, nodes);
+    written_.fields = simulation_->n_steps();
+  }
+
+  void write_last_state()
+  {
+    if (written_.history != simulation_->n_steps()) write_history();
+    if (written_.fields != simulation_->n_steps()) write_fields();
+  }
+
+  /// What this rank alone knows, all learn with the next step.
+  void ask_for_what_is_wanted()
+  {
+    const int signal = signals_.noted();
+    for (const StopReason& reason : stop_reasons) {
+      if (signal == reason.signal && reason.request != wall_limit_reached.request) simulation_->ask(reason.request);
+    }
+    if (!is_first()) return;
+    if (checkpoint_clock_.wall_time_over()) simulation_->ask(write_checkpoint);
+    if (seconds_since(start_) > options_.wall_limit) simulation_->ask(wall_limit_reached.request);
+    if (folder_->lost()) simulation_->ask(folder_is_lost);
+  }
+
+  /// Nothing more may be written into a folder that is another program's.
+  void expect_own_folder() const
+  {
+    if ((simulation_->asked() & folder_is_lost) == 0) return;
+    throw runtime::FileError(options_.folder.string(),
+                             fmt::format("was taken over by another program while this one was stopped, at step {}",
+                                         simulation_->n_steps()));
+  }
+
+  void keep_state()
+  {
+    const bool due = checkpoint_clock_.due(simulation_->n_steps(), simulation_->time());
+    if (!due && simulation_->asked() == 0) return;
+    const auto watch = executor_->watch("writing a checkpoint");
+    runtime::ByteWriter own;
+    own.add(due_);
+    simulation_->write_checkpoint(options_.folder / "checkpoints", fingerprint(checked_), own.bytes(),
+                                  options_.checkpoints.keep);
+    checkpoint_clock_.written();
+  }
+
+  /// When asked to; the state has been kept.
+  [[noreturn]] void leave(const StopReason& stop)
+  {
+    write_last_state();
+    const std::string reason = fmt::format("{}, after step {}, time {:.6g} s; to go on: --restart {}", stop.words,
+                                           simulation_->n_steps(), simulation_->time(), options_.folder.string());
+    finish("interrupted", reason);
+    throw Interrupted(reason, stop.signal);
+  }
+
+  void complete()
+  {
+    const components::UpdateCounts& updates = simulation_->totals().updates;
+    if (updates.failures > 0) warn(fmt::format("{} stress updates have failed", updates.failures));
+    const bool warned = common_warnings() > 0;
+    finish(warned ? "completed with warnings" : "completed", "");
+    if (!warned || !options_.strict) return;
+    const std::string reason = "completed with warnings, which --strict does not take";
+    throw tasks::SimulationError(reason, "", -1, {});
+  }
+
+  /// Those of files are the first rank's alone.
+  std::size_t common_warnings() const { return options_.communicator.gather_value(warnings_.size()).front(); }
+
+  /// Keeps what is good, and passes the error on with where in the run it happened.
+  [[noreturn]] void fail(const tasks::SimulationError& error)
+  {
+    write_last_state();
+    const std::string reason =
+        fmt::format("step {}, time {:.6g} s: {}; the state before that step is the last in {}", simulation_->n_steps(),
+                    simulation_->time(), error.what(), (options_.folder / "fields.h5").string());
+    finish("unstable", reason);
+    throw tasks::SimulationError(reason, error.material, -1, {});
+  }
+
+  void finish(const std::string& status, const std::string& reason)
+  {
+    history_.measure();
+    const runtime::Profile profile = simulation_->profile();
+    const nlohmann::json json = to_json(profile, simulation_->ledger(), options_.communicator);
+    const nlohmann::ordered_json told = run_summary(*simulation_, history_,
+                                                    {status, reason, seconds_since(start_), median_step_seconds(),
+                                                     restarted_at_, forecast_, checked_.inputs, warnings_});
+    by_first([&] {
+      runtime::write_whole_file(options_.folder / "profile.json", json.dump(1) + "\n");
+      runtime::write_whole_file(options_.folder / "trace.json", runtime::trace_to_json(profile).dump() + "\n");
+      runtime::write_whole_file(options_.folder / "summary.json", told.dump(2) + "\n");
+    });
+    if (options_.quiet || !is_first()) return;
+    print_out("{}\n{}  written to {}\n", runtime::to_text(json, 10), told_in_short(told), options_.folder.string());
+  }
+
+  double median_step_seconds()
+  {
+    if (step_seconds_.empty()) return 0;
+    const auto middle = step_seconds_.begin() + static_cast<std::ptrdiff_t>(step_seconds_.size() / 2);
+    std::nth_element(step_seconds_.begin(), middle, step_seconds_.end());
+    return *middle;
+  }
+
+  const CheckedScene& checked_;
+  const RunOptions& options_;
+  const Forecast& forecast_;
+  Clock::time_point start_ = Clock::now();
+  std::unique_ptr<RunFolder> folder_;
+  std::shared_ptr<runtime::Executor> executor_;
+  SignalWatch signals_;
+  std::unique_ptr<tasks::Simulation> simulation_;
+  RunHistory history_;
+  std::optional<runtime::FieldFile> fields_;
+  Every fields_moment_;
+  Every history_moment_;
+  CheckpointClock checkpoint_clock_;
+  double end_;
+  /// Written because it was due: what a stopped run wrote later, it wrote as it left.
+  Outputs due_;
+  Outputs written_;
+  long restarted_at_ = -1;
+  std::vector<float> step_seconds_;
+  std::vector<std::string> warnings_;
+};
+
+}  // namespace
+
+void run(const CheckedScene& scene, const RunOptions& options)
+{
+  Forecast expected;
+  runtime::by_first(options.communicator, [&] {
+    // A quiet run has nobody to wait for the pace.
+    constexpr double calibration = 0.7;
+    expected = forecast(scene.scene, options.communicator.size(), options.quiet ? 0 : calibration);
+    expect_room(scene, expected, options.communicator.size());
+    if (options.quiet) return;
+    print_out("{}\n", told(expected));
+    for (const std::string& line : compiled_moduli(scene)) print_out("{}\n", line);
+    flush_out();
+  });
+  Runner(scene, options, expected).run();
+}
+
+}  // namespace tamp::tools

@@ -1,0 +1,123 @@
+#include "tools/run/run_folder.hpp"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <array>
+#include <regex>
+#include <vector>
+
+#include "runtime/storage/file_error.hpp"
+#include "runtime/storage/whole_file.hpp"
+#include "tools/errors.hpp"
+
+namespace tamp::tools
+{
+
+namespace
+{
+
+namespace fs = std::filesystem;
+
+constexpr const char* marker = ".tamp-run";
+
+/// All that a run or a comparison writes into its folder. `.part` files are left by one that was killed while it wrote,
+/// `.damaged` ones by one that found them so.
+constexpr std::array written_by_a_run{"scene.json",   "history.csv", "summary.json", "fields.h5",    "fields.xdmf",
+                                      "profile.json", "trace.json",  "compare.csv",  "compare.json", "report.html"};
+constexpr std::array endings{"", ".part", ".damaged"};
+
+bool is_checkpoint(const fs::path& file)
+{
+  static const std::regex name("step_[0-9]+\\.h5(\\.part|\\.damaged)?");
+  return std::regex_match(file.filename().string(), name);
+}
+
+void remove_run(const fs::path& folder)
+{
+  for (const char* name : written_by_a_run) {
+    for (const char* ending : endings) fs::remove(folder / (std::string(name) + ending));
+  }
+  const fs::path checkpoints = folder / "checkpoints";
+  if (!fs::is_directory(checkpoints)) return;
+  std::vector<fs::path> found;
+  for (const auto& entry : fs::directory_iterator(checkpoints)) {
+    if (is_checkpoint(entry.path())) found.push_back(entry.path());
+  }
+  for (const fs::path& file : found) fs::remove(file);
+  if (fs::is_empty(checkpoints)) fs::remove(checkpoints);
+}
+
+/// Is nothing in the folder, but for a lock?
+bool holds_nothing(const fs::path& folder)
+{
+  for (const auto& entry : fs::directory_iterator(folder)) {
+    if (entry.path().filename() != runtime::FolderLock::file_name) return false;
+  }
+  return true;
+}
+
+void expect_free(const fs::path& folder, RunFolder::Use use)
+{
+  if (!fs::exists(folder) || use == RunFolder::Use::go_on || holds_nothing(folder)) return;
+  if (use == RunFolder::Use::begin) {
+    throw InputError({folder.string(), "the folder is not empty",
+                      "expected an empty or new folder (--out), or --force to replace the run in it"});
+  }
+  if (!fs::exists(folder / marker)) {
+    throw InputError({folder.string(), fmt::format("a folder that no run has marked as its own ({})", marker),
+                      "expected one that a run has made; remove what is in this one yourself, or choose another"});
+  }
+}
+
+void expect_no_input_in(const fs::path& folder, std::span<const fs::path> inputs)
+{
+  const fs::path own = fs::weakly_canonical(folder);
+  for (const fs::path& input : inputs) {
+    const fs::path below = fs::weakly_canonical(input).lexically_relative(own);
+    if (below.empty() || *below.begin() == "..") continue;
+    throw InputError({folder.string(), fmt::format("a folder with {} in it, which this run reads", below.string()),
+                      "expected another folder (--out)"});
+  }
+}
+
+std::unique_ptr<runtime::FolderLock> lock_of(const fs::path& folder)
+{
+  try {
+    return std::make_unique<runtime::FolderLock>(folder);
+  } catch (const runtime::FolderInUse& in_use) {
+    const fs::path lock = folder / runtime::FolderLock::file_name;
+    throw InputError({lock.string(), in_use.what(), "expected a folder of its own for each run"});
+  }
+}
+
+}  // namespace
+
+RunFolder::RunFolder(const fs::path& folder, Use use, std::span<const fs::path> inputs)
+{
+  try {
+    if (fs::exists(folder) && !fs::is_directory(folder)) {
+      throw InputError({folder.string(), "is a file", "expected a folder for the run, or a new name for one"});
+    }
+    if (use == Use::replace) expect_no_input_in(folder, inputs);
+    // Whoever is at work there is the better reason; otherwise nothing is written where nothing may be.
+    if (!fs::exists(folder / runtime::FolderLock::file_name)) expect_free(folder, use);
+    if (use == Use::go_on && !fs::is_directory(folder)) {
+      throw InputError({folder.string(), "no such folder", "expected the folder of a run"});
+    }
+    fs::create_directories(folder);
+    if (access(folder.c_str(), W_OK | X_OK) != 0) throw runtime::FileError(folder.string(), "cannot be written to");
+    lock_ = lock_of(folder);
+    expect_free(folder, use);
+    if (use == Use::replace) remove_run(folder);
+    runtime::write_whole_file(folder / marker, "Written by tamp. With --force, what a run writes is replaced here.\n");
+  } catch (const fs::filesystem_error& error) {
+    throw runtime::FileError(folder.string(), error.code().message());
+  }
+  if (lock_->former_holder()) {
+    notice_ = fmt::format("{}: the lock of a run that has ended was taken over: {}", folder.string(),
+                          lock_->former_holder()->told());
+  }
+}
+
+}  // namespace tamp::tools

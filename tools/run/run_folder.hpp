@@ -1,0 +1,42 @@
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <span>
+#include <string>
+
+#include "runtime/storage/folder_lock.hpp"
+
+namespace tamp::tools
+{
+
+/// A run's folder, which is that run's alone while this lives. The first run in it marks it with the file `.tamp-run`;
+/// only what is marked is ever replaced, and of that only files that a run or a comparison writes.
+class RunFolder
+{
+ public:
+  enum class Use {
+    /// Nothing may be in it, or it is not there.
+    begin,
+    /// The same, or an earlier run, which is removed.
+    replace,
+    /// What is there stays.
+    go_on,
+  };
+
+  /// Makes the folder and all above it. Throws InputError for a folder that is in use by another program, that may not
+  /// be used in this way, or that would be replaced although one of `inputs`, the files that the run reads, is in it;
+  /// FileError for one that cannot be made, emptied or written to. What was there is then still there.
+  RunFolder(const std::filesystem::path& folder, Use use, std::span<const std::filesystem::path> inputs);
+
+  /// What the user should know; empty if there is nothing.
+  const std::string& notice() const { return notice_; }
+  /// Another program has taken the folder over, while this one was stopped.
+  bool lost() const { return lock_->lost(); }
+
+ private:
+  std::unique_ptr<runtime::FolderLock> lock_;
+  std::string notice_;
+};
+
+}  // namespace tamp::tools

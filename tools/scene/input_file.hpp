@@ -1,0 +1,31 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+
+namespace tamp::tools
+{
+
+/// More than any file of a scene needs, and little enough to be read at once [bytes].
+inline constexpr std::uintmax_t most_input_bytes = std::uintmax_t{1} << 28;
+
+/// Throws FileError for a file that is not there or cannot be read, and InputError for what can be read without an end
+/// or is too large: a device, a pipe, a file of more than `most_input_bytes`.
+void expect_input_file(const std::filesystem::path& file);
+
+/// The content of such a file.
+std::string read_input_file(const std::filesystem::path& file);
+
+/// A file that a scene names.
+struct InputFile {
+  /// The pointer of the key that names it in the resolved scene; empty for the scene itself and what is merged into it.
+  std::string pointer;
+  std::filesystem::path file;
+  /// Of its content, as 16 hexadecimal digits; empty for a file that is not read, as that of a model that is not used.
+  std::string hash;
+};
+
+std::string content_hash(const std::filesystem::path& file);
+
+}  // namespace tamp::tools

@@ -1,0 +1,107 @@
+#include "tools/scene/plausibility.hpp"
+
+#include <fmt/format.h>
+
+#include <Eigen/Core>
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <variant>
+
+#include "components/portable_math.hpp"
+#include "tasks/initial_moduli.hpp"
+#include "tools/scene/csv_table.hpp"
+#include "tools/scene/file_kind.hpp"
+
+namespace tamp::tools
+{
+
+namespace
+{
+
+using Warnings = std::vector<std::string>;
+
+/// What a column's numbers look like instead of what its name says.
+std::string doubt(const std::string& name, double greatest)
+{
+  if (name.ends_with("[Pa]") && greatest < 1e4) return "look like MPa, or like nothing that stops a projectile";
+  if (name.ends_with("[-]") && greatest > 1.5) return "look like percent";
+  return "";
+}
+
+void doubt_table(const InputFile& input, Warnings& warnings)
+{
+  if (input.pointer.empty() || input.hash.empty() || file_kind(input.file) != FileKind::text) return;
+  for (const auto& [name, greatest] : greatest_of_columns(input.file)) {
+    const std::string why = doubt(name, greatest);
+    if (why.empty()) continue;
+    warnings.push_back(
+        fmt::format("{}: {} reaches {:.4g} at most: its numbers {}", input.file.string(), name, greatest, why));
+  }
+}
+
+void doubt_material(const CheckedScene& checked, std::size_t m, Warnings& warnings)
+{
+  const tasks::SceneMaterial& material = checked.scene.materials[m];
+  const std::string place = fmt::format("/materials/{}", material.name);
+  if (material.density < 1 || material.density > 3e4) {
+    warnings.push_back(fmt::format("{}/density: {} kg/m3 is that of no known matter", place, material.density));
+  }
+  const auto& bodies = checked.scene.bodies;
+  const auto is_of_it = [&](const tasks::SceneBody& body) { return body.material == static_cast<int>(m); };
+  if (std::none_of(bodies.begin(), bodies.end(), is_of_it)) {
+    warnings.push_back(fmt::format("{}: no body is of this material", place));
+  }
+}
+
+void doubt_speed(const tasks::SceneBody& body, double fastest_wave, Warnings& warnings)
+{
+  const double speed = Eigen::Vector3d(body.velocity.data()).norm();
+  if (speed <= fastest_wave) return;
+  warnings.push_back(
+      fmt::format("/bodies/{}/velocity: {:.4g} m/s is faster than the fastest wave in any material, {:.4g} m/s",
+                  body.name, speed, fastest_wave));
+}
+
+/// The strongest centrifuges that soil is tested in reach some hundred times the acceleration on earth.
+void doubt_gravity(const tasks::Scene& scene, Warnings& warnings)
+{
+  constexpr double doubtful = 1e4;
+  const double gravity = Eigen::Vector3d(scene.gravity.data()).norm();
+  if (gravity > doubtful) warnings.push_back(fmt::format("/gravity: {:.4g} m/s2 is that of no test", gravity));
+}
+
+void doubt_mass(const tasks::Scene& scene, const tasks::SceneBody& body, Warnings& warnings)
+{
+  const components::Volume solid = std::visit([](const auto& s) { return s.volume(); }, body.solid);
+  const double spacing = scene.grid.cell_size / scene.particles_per_axis_of(body.material);
+  const double filled = static_cast<double>(body.n_particles) * portable::pow(spacing, scene.grid.dimension);
+  const double error = filled / solid.value - 1;
+  if (std::abs(error) - solid.error / solid.value <= 0.01) return;
+  warnings.push_back(
+      fmt::format("/bodies/{}/geometry: its particles hold {:+.3g} % of its mass more; finer cells, or more "
+                  "particles in each, come closer",
+                  body.name, 100 * error));
+}
+
+}  // namespace
+
+std::vector<std::string> plausibility_warnings(const CheckedScene& checked)
+{
+  const tasks::Scene& scene = checked.scene;
+  Warnings warnings;
+  for (const InputFile& input : checked.inputs) doubt_table(input, warnings);
+  double fastest_wave = 0;
+  for (std::size_t m = 0; m < scene.materials.size(); ++m) {
+    doubt_material(checked, m, warnings);
+    fastest_wave = std::max(fastest_wave, tasks::initial_wave_speed(scene.materials[m]));
+  }
+  doubt_gravity(scene, warnings);
+  for (const tasks::SceneBody& body : scene.bodies) {
+    doubt_speed(body, fastest_wave, warnings);
+    doubt_mass(scene, body, warnings);
+  }
+  return warnings;
+}
+
+}  // namespace tamp::tools
