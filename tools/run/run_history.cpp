@@ -143,7 +143,7 @@ void RunHistory::measure()
 std::string RunHistory::energy_problem(double limit) const
 {
   const double given = initial_.kinetic + given_by_gravity_;
-  const double error = std::abs(energies_.total - initial_.kinetic);
+  const double error = std::abs(energies_.total + lost_.kinetic - initial_.kinetic);
   if (error <= limit * given || error <= negligible_energy()) return "";
   return fmt::format(
       "the energy is wrong by {:.3g} J, {:.3g} times the {:.3g} J that the run has been given, more than "

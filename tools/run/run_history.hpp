@@ -44,8 +44,8 @@ class RunHistory
   /// The error of the total energy, of the initial kinetic energy (of the largest energy if that is nothing), and that
   /// of the momentum that the grid has given to the particles, of the bodies' initial momenta.
   double energy_error() const { return energy_error_; }
-  /// Says so if energy has come or gone by more than `limit` times what the run has been given so far: its initial
-  /// kinetic energy and the work of gravity; empty otherwise. Of the last measured state.
+  /// Says so if energy has come or gone, but with particles that left, by more than `limit` times what the run has been
+  /// given so far: its initial kinetic energy and the work of gravity; empty otherwise. Of the last measured state.
   std::string energy_problem(double limit) const;
   double momentum_error() const { return momentum_error_; }
   const EnergyBalance& energies() const { return energies_; }
