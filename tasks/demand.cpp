@@ -2,8 +2,7 @@
 
 #include <algorithm>
 #include <array>
-#include <chrono>
-#include <cmath>
+#include <ctime>
 #include <numeric>
 #include <string>
 #include <variant>
@@ -61,26 +60,63 @@ std::optional<Scene> coarsened(const Scene& scene, int factor)
   return coarse;
 }
 
-/// Of a run to the end, from one that came to a part of it.
-struct Trial {
-  Pace pace;
-  bool complete = false;
+/// How far a run came, and what it took until then.
+struct Progress {
+  double part = 0;
+  double n_steps = 0;
+  double seconds = 0;
 };
 
-/// Runs a scene as far as it comes in the time; nothing if it has not all the bodies.
-std::optional<Trial> tried(const Scene& scene, double seconds)
+/// A trial on cells `factor` times as large, step by step.
+struct Trial {
+  int factor = 1;
+  std::vector<Progress> progress;
+
+  bool complete() const { return progress.back().part == 1; }
+  /// When it had come as far as this.
+  const Progress& at(double part) const
+  {
+    return *std::find_if(progress.begin(), progress.end() - 1, [&](const Progress& p) { return p.part >= part; });
+  }
+};
+
+/// Processor time of this program [s]: what else the machine does is no cost of a run.
+double processor_seconds()
 {
-  using Clock = std::chrono::steady_clock;
+  return static_cast<double>(std::clock()) / CLOCKS_PER_SEC;
+}
+
+/// Runs a scene as far as it comes in so much processor time; nothing if it has not all the bodies.
+std::optional<Trial> tried(const Scene& scene, int factor, double seconds)
+{
   const auto simulation = Simulation::make(scene, 1);
   for (std::size_t m = 0; m < scene.materials.size(); ++m) {
     if (simulation->n_particles(static_cast<int>(m)) == 0) return std::nullopt;
   }
   simulation->record(false);
-  const auto start = Clock::now();
-  const auto elapsed = [&] { return std::chrono::duration<double>(Clock::now() - start).count(); };
-  while (simulation->time() < scene.time.end && elapsed() < seconds) simulation->advance(scene.time.end);
-  const double part = simulation->time() / scene.time.end;
-  return Trial{{static_cast<double>(simulation->n_steps()) / part, elapsed() / part}, part == 1};
+  const double start = processor_seconds();
+  Trial trial{factor, {{}}};
+  while (!trial.complete() && trial.progress.back().seconds < seconds) {
+    simulation->advance(scene.time.end);
+    trial.progress.push_back(
+        {simulation->time() / scene.time.end, static_cast<double>(simulation->n_steps()), processor_seconds() - start});
+  }
+  return trial;
+}
+
+/// To the end on the scene's own cells. Where a finer trial did not come to its end, the coarser one tells how it would
+/// have gone on.
+Pace extrapolated(const Trial& fine, const Trial* coarse, int dimension)
+{
+  const Progress& reached = fine.progress.back();
+  double more_steps = 1 / reached.part, more_seconds = 1 / reached.part;
+  if (coarse != nullptr) {
+    const Progress &there = coarse->at(reached.part), &end = coarse->progress.back();
+    more_steps = end.n_steps / there.n_steps;
+    more_seconds = end.seconds / there.seconds;
+  }
+  return {reached.n_steps * more_steps * fine.factor,
+          reached.seconds * more_seconds * portable::pow(fine.factor, dimension + 1)};
 }
 
 }  // namespace
@@ -107,32 +143,29 @@ Demand demand_of(const Scene& scene)
 
 std::optional<Pace> pace_of(const Scene& scene, double seconds)
 {
-  using Clock = std::chrono::steady_clock;
   // More are not laid out and begun within the time.
   constexpr double most_particles = 50'000;
   constexpr int greatest_factor = 32;
   const std::vector<std::size_t> n = particles_of_materials(scene);
   const double n_particles = static_cast<double>(std::accumulate(n.begin(), n.end(), std::size_t{0}));
-  const auto end = Clock::now() + std::chrono::duration<double>(seconds);
-  std::optional<Pace> pace;
-  // From coarse to fine: the finest that comes to its end counts, or else the first that does not.
+  const double end = processor_seconds() + seconds;
+  std::optional<Trial> complete;
   for (int factor = greatest_factor; factor >= 1; --factor) {
-    const double left = std::chrono::duration<double>(end - Clock::now()).count();
+    const double left = end - processor_seconds();
     if (n_particles / portable::pow(factor, scene.grid.dimension) > most_particles || left <= 0) break;
     const auto coarse = coarsened(scene, factor);
     if (!coarse) continue;
     std::optional<Trial> trial;
     try {
-      trial = tried(*coarse, left);
+      trial = tried(*coarse, factor, left);
     } catch (const std::exception&) {
       continue;  // too coarse for something; what is wrong with the scene itself shows in its run
     }
-    if (!trial || (pace && !trial->complete)) continue;
-    const double finer_work = portable::pow(factor, scene.grid.dimension + 1);
-    pace = Pace{trial->pace.n_steps * factor, trial->pace.core_seconds * finer_work};
-    if (!trial->complete) break;
+    if (!trial) continue;
+    if (!trial->complete()) return extrapolated(*trial, complete ? &*complete : nullptr, scene.grid.dimension);
+    complete = std::move(trial);
   }
-  return pace;
+  return complete ? std::optional(extrapolated(*complete, nullptr, scene.grid.dimension)) : std::nullopt;
 }
 
 }  // namespace tamp::tasks
