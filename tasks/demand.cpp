@@ -90,8 +90,8 @@ double processor_seconds()
 std::optional<Trial> tried(const Scene& scene, int factor, double seconds)
 {
   const auto simulation = Simulation::make(scene, 1);
-  for (std::size_t m = 0; m < scene.materials.size(); ++m) {
-    if (simulation->n_particles(static_cast<int>(m)) == 0) return std::nullopt;
+  for (const SceneBody& body : scene.bodies) {
+    if (simulation->n_particles(body.material) == 0) return std::nullopt;
   }
   simulation->record(false);
   const double start = processor_seconds();
@@ -145,6 +145,7 @@ std::optional<Pace> pace_of(const Scene& scene, double seconds)
 {
   // More are not laid out and begun within the time.
   constexpr double most_particles = 50'000;
+  constexpr double most_bytes = 2e8;
   constexpr int greatest_factor = 32;
   const std::vector<std::size_t> n = particles_of_materials(scene);
   const double n_particles = static_cast<double>(std::accumulate(n.begin(), n.end(), std::size_t{0}));
@@ -154,7 +155,7 @@ std::optional<Pace> pace_of(const Scene& scene, double seconds)
     const double left = end - processor_seconds();
     if (n_particles / portable::pow(factor, scene.grid.dimension) > most_particles || left <= 0) break;
     const auto coarse = coarsened(scene, factor);
-    if (!coarse) continue;
+    if (!coarse || demand_of(*coarse).fields > most_bytes) continue;
     std::optional<Trial> trial;
     try {
       trial = tried(*coarse, factor, left);

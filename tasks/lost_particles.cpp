@@ -21,7 +21,6 @@ void LostByPatch::take(runtime::Migration& migration, const runtime::PatchLayout
       for (std::size_t p = 0; p < mass.size(); ++p) {
         lost.mass += mass[p];
         lost.momentum.template head<D>() += mass[p] * velocity[p];
-        lost.kinetic += 0.5 * mass[p] * velocity[p].squaredNorm();
       }
     }
   }
@@ -48,7 +47,6 @@ LostParticles LostByPatch::sum() const
     sum.count += lost.count;
     sum.mass += lost.mass;
     sum.momentum += lost.momentum;
-    sum.kinetic += lost.kinetic;
   }
   return sum;
 }

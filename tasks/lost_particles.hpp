@@ -17,7 +17,6 @@ struct LostParticles {
   std::size_t count = 0;
   double mass = 0;                                     ///< kg
   Eigen::Vector3d momentum = Eigen::Vector3d::Zero();  ///< N s
-  double kinetic = 0;                                  ///< J
 };
 
 /// The same kept by the patch they left from, so that the sum has the same bits for any ranks. Each rank knows that of

@@ -46,4 +46,10 @@ void flush_out()
   expect_written(std::fflush(stdout) == 0);
 }
 
+void write_err(std::string_view text)
+{
+  std::fwrite(text.data(), 1, text.size(), stderr);
+  std::clearerr(stderr);
+}
+
 }  // namespace tamp::tools

@@ -17,10 +17,19 @@ void guard_console();
 void write_out(std::string_view text);
 void flush_out();
 
+/// Writes on stderr at once. What cannot be written there cannot be told anywhere.
+void write_err(std::string_view text);
+
 template <class... Args>
 void print_out(fmt::format_string<Args...> format, Args&&... args)
 {
   write_out(fmt::format(format, std::forward<Args>(args)...));
+}
+
+template <class... Args>
+void print_err(fmt::format_string<Args...> format, Args&&... args)
+{
+  write_err(fmt::format(format, std::forward<Args>(args)...));
 }
 
 }  // namespace tamp::tools

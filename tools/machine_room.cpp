@@ -4,6 +4,7 @@
 #include <sys/resource.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <fstream>
 #include <limits>
@@ -34,6 +35,17 @@ double free_on_machine()
   return unlimited;
 }
 
+/// What of a control group's memory is files that are read again when needed.
+double reclaimable(const std::string& folder)
+{
+  double bytes = 0, number = 0;
+  std::ifstream stream(folder + "/memory.stat");
+  for (std::string key; stream >> key >> number;) {
+    if (key.ends_with("active_file") && !(key.starts_with("total_"))) bytes += number;
+  }
+  return bytes;
+}
+
 /// Of both versions of control groups; a group is limited by those above it too.
 double left_by_control_group()
 {
@@ -50,7 +62,7 @@ double left_by_control_group()
       const std::string folder = root + group;
       const double limit = number_in(folder + (unified ? "/memory.max" : "/memory.limit_in_bytes"));
       const double used = number_in(folder + (unified ? "/memory.current" : "/memory.usage_in_bytes"));
-      if (limit < unlimited && used < unlimited) left = std::min(left, limit - used);
+      if (limit < unlimited && used < unlimited) left = std::min(left, limit - used + reclaimable(folder));
       if (group.empty() || group == "/") break;
     }
   }
@@ -87,6 +99,7 @@ MemoryRoom memory_room(int n_ranks)
         MemoryRoom{n_ranks * data, "the limit of data (ulimit -d) leaves"}}) {
     if (room.bytes < least.bytes) least = room;
   }
+  least.bytes = std::max(least.bytes, 1.0);
   return least;
 }
 

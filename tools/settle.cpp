@@ -1,4 +1,5 @@
 #include "tools/settle.hpp"
+#include "tools/console.hpp"
 
 #include <fmt/core.h>
 #include <mpi.h>
@@ -20,7 +21,7 @@ void complain(const std::string& text)
   std::size_t begin = 0;
   while (begin <= text.size()) {
     const std::size_t end = std::min(text.find('\n', begin), text.size());
-    fmt::print(stderr, "tamp: {}\n", text.substr(begin, end - begin));
+    print_err("tamp: {}\n", text.substr(begin, end - begin));
     begin = end + 1;
   }
   std::fflush(stderr);

@@ -28,6 +28,9 @@ class RotatingFrame
   Matrix<3> gradient_by_velocity(double time) const;
   Vector<3> acceleration(const Vector<3>& x, const Vector<3>& v, double time) const;
 
+  /// Does its speed change?
+  bool is_unsteady() const { return angular_acceleration_.squaredNorm() > 0; }
+
   /// |w x r|^2 / 2 [J/kg] at time 0: what it grows by is the work of the centrifugal force, if the frame is steady.
   double work_function(const Vector<3>& x) const;
 

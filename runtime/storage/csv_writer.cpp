@@ -68,10 +68,9 @@ void add_rows_of(const std::filesystem::path& file, std::size_t n_columns, std::
 /// Keeps a file as it is under another name, and gives that.
 std::filesystem::path set_aside(const std::filesystem::path& file)
 {
-  std::filesystem::path aside = file;
-  aside += ".damaged";
+  const std::filesystem::path aside = name_aside(file);
   std::error_code failed;
-  std::filesystem::copy_file(file, aside, std::filesystem::copy_options::overwrite_existing, failed);
+  std::filesystem::copy_file(file, aside, failed);
   if (failed) throw FileError(aside.string(), failed.message());
   return aside.filename();
 }

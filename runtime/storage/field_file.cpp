@@ -67,9 +67,11 @@ void FieldFile::begin() const
 
 void FieldFile::begin_or_continue(std::int64_t last_step, std::size_t n_expected)
 {
-  if (!std::filesystem::exists(hdf5_file_)) {
-    notice_ = fmt::format("{}: is missing, with the {} outputs until step {}; it was begun anew", hdf5_file_.string(),
-                          n_expected, last_step);
+  const bool missing = !std::filesystem::exists(hdf5_file_);
+  // HDF5 takes a file of no length for a new one.
+  if (missing || std::filesystem::file_size(hdf5_file_) == 0) {
+    notice_ = fmt::format("{}: is {}, with the {} outputs until step {}; it was begun anew", hdf5_file_.string(),
+                          missing ? "missing" : "empty", n_expected, last_step);
     return begin();
   }
   try {
@@ -81,8 +83,7 @@ void FieldFile::begin_or_continue(std::int64_t last_step, std::size_t n_expected
     }
   } catch (const FileError& error) {
     if (error.file != hdf5_file_) throw;
-    std::filesystem::path aside = hdf5_file_;
-    aside += ".damaged";
+    const std::filesystem::path aside = name_aside(hdf5_file_);
     std::error_code refused;
     std::filesystem::rename(hdf5_file_, aside, refused);
     if (refused) throw;

@@ -62,6 +62,18 @@ std::string text_of_own_lock()
   return fmt::format("host {}\nprocess {}\nsince {:%Y-%m-%dT%H:%M:%SZ}\n", host_name(), getpid(), fmt::gmtime(now));
 }
 
+/// The time by the clock of the folder's disk, which may be another machine's.
+std::time_t now_in(const std::filesystem::path& folder)
+{
+  std::string name = (folder / ".run.lock.XXXXXX").string();
+  const Descriptor file(mkstemp(name.data()));
+  struct stat made {
+  };
+  if (!file.good() || fstat(file.get(), &made) != 0) return std::time(nullptr);
+  ::unlink(name.c_str());
+  return made.st_mtime;
+}
+
 /// What a lock file says; what it does not say, because it was not written to its end, stays empty.
 LockHolder holder_in(const std::filesystem::path& file)
 {
@@ -74,7 +86,7 @@ LockHolder holder_in(const std::filesystem::path& file)
   }
   struct stat found {
   };
-  if (stat(file.c_str(), &found) == 0) holder.untouched = std::difftime(std::time(nullptr), found.st_mtime);
+  if (stat(file.c_str(), &found) == 0) holder.untouched = std::difftime(now_in(file.parent_path()), found.st_mtime);
   return holder;
 }
 
@@ -133,9 +145,10 @@ void FolderLock::take()
     if (!has_ended(*former_, old.get()) && former_->untouched < stale_after) throw FolderInUse(*former_);
     ::unlink(file_.c_str());
   }
+  const std::string text = text_of_own_lock();
+  errno = ENOSPC;  // what a short write means
   Descriptor own(::open(file_.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0644));
   if (!own.good() && errno == EEXIST) throw FolderInUse(holder_in(file_));
-  const std::string text = text_of_own_lock();
   if (!own.good() || ::write(own.get(), text.data(), text.size()) != static_cast<ssize_t>(text.size())) {
     const int cause = errno;
     if (own.good()) ::unlink(file_.c_str());
@@ -157,8 +170,7 @@ void FolderLock::touch_until_stopped()
 {
   std::unique_lock lock(mutex_);
   while (!stop_.wait_for(lock, touched_every, [this] { return stopped_; })) {
-    if (!is_own()) lost_ = true;
-    if (!lost_) futimens(descriptor_, nullptr);
+    if (is_own()) futimens(descriptor_, nullptr);
   }
 }
 

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <atomic>
 #include <condition_variable>
 #include <filesystem>
 #include <mutex>
@@ -32,7 +31,7 @@ struct FolderInUse : std::runtime_error {
 
 /// Keeps a folder for one program, by the file `run.lock` in it, which is touched every ten seconds. The lock of a
 /// program that has gone, on this machine, or has not touched it for a minute, on any, is taken over. A program that
-/// was stopped for so long and goes on finds its folder `lost`.
+/// was stopped for so long and goes on finds that it is no longer its own.
 class FolderLock
 {
  public:
@@ -47,12 +46,11 @@ class FolderLock
 
   /// Whose lock was taken over.
   const std::optional<LockHolder>& former_holder() const { return former_; }
-  /// Another program has taken the folder over. Cheap.
-  bool lost() const { return lost_; }
+  /// Whether no other program has taken the folder over; to be asked before something is written into it.
+  bool is_own() const;
 
  private:
   void take();
-  bool is_own() const;
   void touch_until_stopped();
 
   std::filesystem::path folder_;
@@ -60,7 +58,6 @@ class FolderLock
   /// Held open with an flock of its own, which ends with the process in whatever way that ends.
   int descriptor_ = -1;
   std::optional<LockHolder> former_;
-  std::atomic<bool> lost_{false};
   std::mutex mutex_;
   std::condition_variable stop_;
   bool stopped_ = false;

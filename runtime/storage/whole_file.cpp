@@ -44,6 +44,14 @@ void write_whole_file(const std::filesystem::path& file, const std::string& cont
   throw FileError(file.string(), std::strerror(cause));
 }
 
+std::filesystem::path name_aside(const std::filesystem::path& file)
+{
+  const std::string first = file.string() + ".damaged";
+  std::filesystem::path name = first;
+  for (int n = 2; std::filesystem::exists(name); ++n) name = first + "." + std::to_string(n);
+  return name;
+}
+
 void put_in_place(const std::filesystem::path& part, const std::filesystem::path& file)
 {
   settle(part);

@@ -20,6 +20,15 @@ TEST_CASE("a run goes on when nobody listens")
   CHECK_THAT(read_text(folder.path() / "run/history.csv"), Catch::StartsWith("step,") && !Catch::Contains("forecast"));
 }
 
+TEST_CASE("an error that cannot be told ends a command as one that can")
+{
+  const TemporaryFolder folder;
+  const std::string scene = folder.write("small.json", small_scene).string();
+
+  CHECK(outcome_of("sh -c '" TAMP_PROGRAM " check " + scene + " 2>/dev/full'").exit_code == 0);
+  CHECK(outcome_of("sh -c '" TAMP_PROGRAM " check " + scene + " --set /time/end=0 2>/dev/full'").exit_code == 2);
+}
+
 TEST_CASE("a command that prints ends quietly when its reader has gone, and with 4 when stdout is full")
 {
   const TemporaryFolder folder;

@@ -68,6 +68,16 @@ TEST_CASE("a folder that no run has marked is not replaced, and left as it was")
   CHECK(test::read_text(folder.path() / "profile.json") == "mine");
 }
 
+TEST_CASE("going on in a folder does not mark it, so that it is not replaced later")
+{
+  const TemporaryFolder folder;
+  folder.write("profile.json", "mine");
+
+  use(folder.path(), go_on);
+
+  CHECK_THROWS_AS(use(folder.path(), replace), tools::InputError);
+}
+
 TEST_CASE("a folder in which lies what the run reads is not replaced")
 {
   const TemporaryFolder folder;

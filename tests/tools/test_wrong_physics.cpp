@@ -47,6 +47,23 @@ TEST_CASE("a run whose energy is wrong by more than its limit ends with 3, with 
   CHECK(off.outcome.exit_code == 0);
 }
 
+TEST_CASE("free fall from rest, whose first velocities are half a step late, has its energy right")
+{
+  const TemporaryFolder folder;
+  const auto scene = folder.write("fall.json", R"({
+    "dimension": 2, "grid": { "upper": [2, 2], "cell_size": 0.25 }, "time": { "end": 0.01 }, "gravity": [0, -9.81],
+    "materials": { "steel": { "type": "hypoelastic", "density": 8000, "bulk_modulus": 1e7, "shear_modulus": 7e6 } },
+    "bodies": {
+      "block": { "material": "steel", "geometry": { "type": "box", "lower": [0.5, 1], "upper": [1, 1.5] } }
+    },
+    "output": { "history_interval": 1e-6 }
+  })");
+
+  const Outcome outcome = tamp_with("run " + scene.string() + " --quiet --out " + (folder.path() / "run").string());
+
+  CHECK(outcome.exit_code == 0);
+}
+
 TEST_CASE("what is hardly ever meant is warned of")
 {
   const TemporaryFolder folder;

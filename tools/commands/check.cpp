@@ -39,9 +39,9 @@ void print_volumes(const tasks::Scene& scene, const tasks::SceneBody& body)
   const double filled = static_cast<double>(body.n_particles) * portable::pow(spacing, scene.grid.dimension);
   const std::string known =
       solid.is_exact() ? "exact" : fmt::format("within {:.2g} %", 100 * solid.error / solid.value);
-  fmt::print(stderr, "        solid      {:.6g} m3, {:.6g} kg ({})\n", solid.value, density * solid.value, known);
-  fmt::print(stderr, "        particles  {:.6g} m3, {:.6g} kg ({:+.3g} %)\n", filled, density * filled,
-             100 * (filled / solid.value - 1));
+  print_err("        solid      {:.6g} m3, {:.6g} kg ({})\n", solid.value, density * solid.value, known);
+  print_err("        particles  {:.6g} m3, {:.6g} kg ({:+.3g} %)\n", filled, density * filled,
+            100 * (filled / solid.value - 1));
 }
 
 void check(const CheckArguments& options)
@@ -52,20 +52,20 @@ void check(const CheckArguments& options)
 
   const runtime::Index& n = scene.grid.n_cells;
   const runtime::Index& patches = scene.n_patches;
-  fmt::print(stderr, "{}: {} cells, {} patches\n", options.scene, scene.grid.cells().size(),
-             patches[0] * patches[1] * patches[2]);
-  fmt::print(stderr, "  grid  {} x {} x {} cells of {} m\n", n[0], n[1], n[2], scene.grid.cell_size);
+  print_err("{}: {} cells, {} patches\n", options.scene, scene.grid.cells().size(),
+            patches[0] * patches[1] * patches[2]);
+  print_err("  grid  {} x {} x {} cells of {} m\n", n[0], n[1], n[2], scene.grid.cell_size);
   for (const tasks::SceneBody& body : scene.bodies) {
     const std::string& material = scene.materials[static_cast<std::size_t>(body.material)].name;
-    fmt::print(stderr, "  body  {}: {} particles of {}\n", body.name, body.n_particles, material);
+    print_err("  body  {}: {} particles of {}\n", body.name, body.n_particles, material);
     print_volumes(scene, body);
   }
-  for (const std::string& line : compiled_moduli(checked)) fmt::print(stderr, "  {}\n", line);
-  for (const std::string& line : plausibility_warnings(checked)) fmt::print(stderr, "tamp: warning: {}\n", line);
-  constexpr double calibration = 0.7;
-  const Forecast forecast = tools::forecast(scene, 1, calibration);
-  fmt::print(stderr, "  {}\n", told(forecast));
-  expect_room(checked, forecast, 1);
+  for (const std::string& line : compiled_moduli(checked)) print_err("  {}\n", line);
+  for (const std::string& line : plausibility_warnings(checked)) print_err("tamp: warning: {}\n", line);
+  Forecast forecast = tools::forecast(scene);
+  expect_room(checked, forecast);
+  add_pace(scene, forecast);
+  print_err("  {}\n", told(forecast));
 }
 
 }  // namespace

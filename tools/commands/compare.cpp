@@ -65,7 +65,7 @@ void compare_models(CompareArguments& options)
 {
   const auto scenes = compare::read_model_scenes(options.scene, options.assignments, options.models);
   options.comparison.folder = options.out.empty() ? "compare/" + scenes.front().scene.scene.name : options.out;
-  for (const compare::ModelScene& scene : scenes) expect_room(scene.scene, forecast(scene.scene.scene, 1, 0), 1);
+  for (const compare::ModelScene& scene : scenes) expect_room(scene.scene, forecast(scene.scene.scene));
   const auto folders = prepare_folders(options.comparison, scenes);
   const auto memory = measure_memory(options, scenes);
 

@@ -1,4 +1,5 @@
 #include "tools/run/run.hpp"
+#include "tools/console.hpp"
 
 #include <fmt/core.h>
 
@@ -6,6 +7,7 @@
 #include <memory>
 
 #include "tools/commands/commands.hpp"
+#include "tools/run/signals.hpp"
 #include "tools/scene/read_scene.hpp"
 #include "tools/usable_cores.hpp"
 
@@ -76,9 +78,9 @@ void look_at_cores(int n_threads, RunOptions& run)
   const int wanted = cores.ranks_on_machine * run.n_threads;
   run.executor.oversubscribed = wanted > cores.of_machine;
   if (wanted <= cores.of_machine || run.quiet || !run.communicator.is_first()) return;
-  fmt::print(stderr, "tamp: {} ranks with {} threads each on {} cores: expect a slow run{}\n", cores.ranks_on_machine,
-             run.n_threads, cores.of_machine,
-             run.communicator.size() > 1 ? "; mpirun binds ranks to cores unless told --bind-to none" : "");
+  print_err("tamp: {} ranks with {} threads each on {} cores: expect a slow run{}\n", cores.ranks_on_machine,
+            run.n_threads, cores.of_machine,
+            run.communicator.size() > 1 ? "; mpirun binds ranks to cores unless told --bind-to none" : "");
 }
 
 }  // namespace
@@ -128,6 +130,7 @@ CLI::App* add_run_command(CLI::App& app)
   command->add_flag("--strict", options->run.strict, "let a run that completes with warnings end with exit code 3");
   command->add_flag("--quiet", options->run.quiet, "print no progress and no table");
   command->callback([options] {
+    note_early_signals();
     const CheckedScene scene = read_scene(options->scene, options->assignments);
     expect_few_checkpoints(options->run.checkpoints, scene.scene.time.end);
     options->run.restart = !options->restart.empty();

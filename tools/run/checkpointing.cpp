@@ -1,9 +1,11 @@
 #include "tools/run/checkpointing.hpp"
+#include "tools/console.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include <cstdint>
+#include <cstdio>
 
 #include "runtime/ranks/together.hpp"
 #include "tools/errors.hpp"
@@ -74,11 +76,13 @@ void expect_same_scene(const runtime::FoundCheckpoint& found, const CheckedScene
 }
 
 /// Those that were refused are newer than the one that was found; under their names they would count as kept.
-void set_aside_newer(const std::filesystem::path& found)
+void set_aside_newer(const std::filesystem::path& found, std::int64_t step)
 {
   std::vector<std::filesystem::path> newer;
   for (const auto& entry : std::filesystem::directory_iterator(found.parent_path())) {
-    if (entry.path().extension() == ".h5" && entry.path() > found) newer.push_back(entry.path());
+    long long other = 0;
+    const bool is_checkpoint = std::sscanf(entry.path().filename().c_str(), "step_%lld.h5", &other) == 1;
+    if (is_checkpoint && entry.path().extension() == ".h5" && other > step) newer.push_back(entry.path());
   }
   for (const auto& file : newer) std::filesystem::rename(file, file.string() + ".damaged");
 }
@@ -119,13 +123,13 @@ runtime::FoundCheckpoint checkpoint_to_restart(const std::filesystem::path& run_
   std::vector<std::string> refused;
   auto found = runtime::newest_checkpoint(folder, refused, communicator);
   if (communicator.is_first()) {
-    for (const std::string& line : refused) fmt::print(stderr, "tamp: refused a checkpoint: {}\n", line);
+    for (const std::string& line : refused) print_err("tamp: refused a checkpoint: {}\n", line);
   }
   if (!found) {
     throw InputError({folder.string(), "no whole checkpoint", "expected the folder of a run that has written one"});
   }
   expect_same_scene(*found, scene, run_folder);
-  runtime::by_first(communicator, [&] { set_aside_newer(found->file); });
+  runtime::by_first(communicator, [&] { set_aside_newer(found->file, found->header.step); });
   return *std::move(found);
 }
 

@@ -28,7 +28,7 @@ std::string in_time(double seconds)
 
 }  // namespace
 
-Forecast forecast(const tasks::Scene& scene, int n_ranks, double calibration)
+Forecast forecast(const tasks::Scene& scene, int n_ranks)
 {
   const tasks::Demand demand = demand_of(scene);
   constexpr double n_checkpoints = 2;
@@ -37,21 +37,27 @@ Forecast forecast(const tasks::Scene& scene, int n_ranks, double calibration)
   all.n_particles = demand.n_particles;
   all.memory = n_ranks * (resident_bytes() + of_libraries) + demand.fields + demand.output_room;
   all.disk = n_outputs * demand.output_file + n_checkpoints * demand.checkpoint_file + of_reports;
-  if (calibration > 0) all.pace = tasks::pace_of(scene, calibration);
   return all;
 }
 
-void expect_room(const CheckedScene& checked, const Forecast& forecast, int n_ranks)
+void expect_room(const CheckedScene& checked, const Forecast& forecast, int n_ranks, int ranks_here)
 {
   const tasks::Scene& scene = checked.scene;
-  const MemoryRoom room = memory_room(n_ranks);
-  if (forecast.memory <= room.bytes) return;
-  const double fitting = scene.grid.cell_size * std::pow(forecast.memory / room.bytes, 1.0 / scene.grid.dimension);
-  throw InputError({checked.inputs.front().file.string() + "#/grid/cell_size",
-                    fmt::format("{} m: {} particles, {} of memory", scene.grid.cell_size, forecast.n_particles,
-                                in_bytes(forecast.memory)),
-                    fmt::format("expected at most the {} that {}, as with cells of {:.2g} m", in_bytes(room.bytes),
-                                room.why, 1.05 * fitting)});
+  const MemoryRoom room = memory_room(ranks_here);
+  const double needed = forecast.memory * ranks_here / n_ranks;
+  if (needed <= room.bytes) return;
+  const double fitting = scene.grid.cell_size * std::pow(needed / room.bytes, 1.0 / scene.grid.dimension);
+  throw InputError(
+      {checked.inputs.front().file.string() + "#/grid/cell_size",
+       fmt::format("{} m: {} particles, {} of memory", scene.grid.cell_size, forecast.n_particles, in_bytes(needed)),
+       fmt::format("expected at most the {} that {}, as with cells of {:.2g} m", in_bytes(room.bytes), room.why,
+                   1.05 * fitting)});
+}
+
+void add_pace(const tasks::Scene& scene, Forecast& forecast)
+{
+  constexpr double seconds = 0.7;
+  forecast.pace = tasks::pace_of(scene, seconds);
 }
 
 std::string told(const Forecast& forecast)

@@ -21,11 +21,15 @@ struct Forecast {
   std::optional<tasks::Pace> pace{};
 };
 
-/// `calibration` is how long the scene, or a coarser one, may be run for the pace [s]; 0: no pace.
-Forecast forecast(const tasks::Scene& scene, int n_ranks, double calibration);
+/// All but the pace.
+Forecast forecast(const tasks::Scene& scene, int n_ranks = 1);
 
-/// Throws InputError, with a cell size that would fit, if the memory is more than there is.
-void expect_room(const CheckedScene& checked, const Forecast& forecast, int n_ranks);
+/// Throws InputError, with a cell size that would fit, if the memory of the `ranks_here`, those on this machine, is
+/// more than there is.
+void expect_room(const CheckedScene& checked, const Forecast& forecast, int n_ranks = 1, int ranks_here = 1);
+
+/// Tries for less than a second how fast the scene, or a coarser one, goes.
+void add_pace(const tasks::Scene& scene, Forecast& forecast);
 
 /// One line for a person.
 std::string told(const Forecast& forecast);

@@ -13,7 +13,7 @@ class Every
 
   bool due(double time)
   {
-    if (time < next_) return false;
+    if (next_ > with_tolerance(time)) return false;
     skip_to(time);
     return true;
   }
@@ -21,8 +21,7 @@ class Every
   /// As if every moment until then, and at it, had been.
   void skip_to(double time)
   {
-    // The tolerance keeps round-off in the sum of steps from making a moment come twice.
-    const double reached = time * (1 + 1e-12);
+    const double reached = with_tolerance(time);
     if (next_ > reached) return;
     n_ = std::floor(reached / interval_) + 1;
     next_ = interval_ * n_;
@@ -32,6 +31,9 @@ class Every
   }
 
  private:
+  /// Round-off in the sum of steps makes no moment come twice, or late.
+  static double with_tolerance(double time) { return time * (1 + 1e-12); }
+
   double interval_;
   /// A whole number, which may be larger than an integer.
   double n_ = 0;

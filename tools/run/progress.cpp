@@ -1,4 +1,5 @@
 #include "tools/run/progress.hpp"
+#include "tools/console.hpp"
 
 #include <fmt/core.h>
 #include <unistd.h>
@@ -27,8 +28,8 @@ void Progress::show(long step, double time, double step_size)
   const double rate = n_particles_ * static_cast<double>(step - steps_shown_) / since;
   const double done = std::max(time / end_, static_cast<double>(step) / static_cast<double>(max_steps_));
   const double left = std::chrono::duration<double>(now - start_).count() * (1 - done) / done;
-  fmt::print(stderr, "{}step {}  time {:.4e} s  dt {:.3e} s  {:.3g} particle updates/s  {:.0f} s left{}",
-             terminal_ ? "\r\033[K" : "", step, time, step_size, rate, left, terminal_ ? "" : "\n");
+  print_err("{}step {}  time {:.4e} s  dt {:.3e} s  {:.3g} particle updates/s  {:.0f} s left{}",
+            terminal_ ? "\r\033[K" : "", step, time, step_size, rate, left, terminal_ ? "" : "\n");
   std::fflush(stderr);
   shown_ = now;
   steps_shown_ = step;
@@ -37,7 +38,7 @@ void Progress::show(long step, double time, double step_size)
 
 void Progress::finish()
 {
-  if (drawn_ && terminal_) fmt::print(stderr, "\n");
+  if (drawn_ && terminal_) print_err("\n");
   drawn_ = false;
 }
 

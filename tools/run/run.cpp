@@ -17,6 +17,7 @@
 #include "tasks/simulation.hpp"
 #include "tasks/simulation_error.hpp"
 #include "tools/console.hpp"
+#include "tools/machine_room.hpp"
 #include "tools/run/forecast.hpp"
 #include "tools/run/moments.hpp"
 #include "tools/run/progress.hpp"
@@ -26,6 +27,7 @@
 #include "tools/run/signals.hpp"
 #include "tools/scene/compiled_moduli.hpp"
 #include "tools/scene/plausibility.hpp"
+#include "tools/usable_cores.hpp"
 
 namespace tamp::tools
 {
@@ -41,7 +43,7 @@ double seconds_since(Clock::time_point start)
 }
 
 /// What one rank may ask of all with a step, as bits.
-constexpr unsigned write_checkpoint = 1, folder_is_lost = 2;
+constexpr unsigned write_checkpoint = 1;
 
 /// Why a run stops early, and with the exit code of which signal.
 struct StopReason {
@@ -85,6 +87,8 @@ struct Outputs {
   long fields = -1;
   runtime::CsvExtent rows;
   std::size_t n_fields = 0;
+  /// See RunHistory::given_by_gravity [J].
+  double given_by_gravity = 0;
 };
 
 class Runner
@@ -105,7 +109,7 @@ class Runner
         end_(std::min(checked.scene.time.end, options.until))
   {
     simulation_->balance_every(options.balance_interval);
-    warn_all(plausibility_warnings(checked));
+    if (is_first()) warn_all(plausibility_warnings(checked));
     if (options.restart) {
       restart();
     } else {
@@ -146,7 +150,6 @@ class Runner
     ask_for_what_is_wanted();
     simulation_->advance(end_);
     step_seconds_.push_back(static_cast<float>(seconds_since(begin)));
-    expect_own_folder();
     write_due();
     keep_state();
   }
@@ -178,6 +181,9 @@ class Runner
     warn(history_.go_on(options_.folder, due_.history, due_.rows));
     fields_.emplace(runtime::FieldFile::continued(options_.folder, due_.fields, due_.n_fields, options_.communicator));
     warn(fields_->notice());
+    due_.rows = history_.extent();
+    due_.n_fields = fields_->n_steps();
+    history_.set_given_by_gravity(due_.given_by_gravity);
     history_moment_.skip_to(simulation_->time());
     fields_moment_.skip_to(simulation_->time());
     checkpoint_clock_.skip_to(simulation_->time());
@@ -196,7 +202,7 @@ class Runner
       std::vector<std::filesystem::path> inputs;
       for (const InputFile& input : checked_.inputs) inputs.push_back(input.file);
       folder = std::make_unique<RunFolder>(options_.folder, use, inputs);
-      if (!folder->notice().empty()) fmt::print(stderr, "tamp: {}\n", folder->notice());
+      if (!folder->notice().empty()) print_err("tamp: {}\n", folder->notice());
     });
     return folder;
   }
@@ -205,7 +211,7 @@ class Runner
   void warn(const std::string& warning)
   {
     if (warning.empty()) return;
-    if (is_first()) fmt::print(stderr, "tamp: warning: {}\n", warning);
+    if (is_first()) print_err("tamp: warning: {}\n", warning);
     warnings_.push_back(warning);
   }
 
@@ -220,6 +226,7 @@ class Runner
       write_history();
       due_.history = simulation_->n_steps();
       due_.rows = history_.extent();
+      due_.given_by_gravity = history_.given_by_gravity();
       expect_energy();
     }
     if (fields_moment_.due(simulation_->time())) {
@@ -237,12 +244,14 @@ class Runner
 
   void write_history()
   {
+    expect_own_folder();
     history_.write_row();
     written_.history = simulation_->n_steps();
   }
 
   void write_fields()
   {
+    expect_own_folder();
     const auto watch = executor_->watch("writing fields");
     const auto particles = simulation_->particle_columns();
     // What is on the grid is no state: after a restart there is nothing there before the first step.
@@ -268,22 +277,19 @@ class Runner
     if (!is_first()) return;
     if (checkpoint_clock_.wall_time_over()) simulation_->ask(write_checkpoint);
     if (seconds_since(start_) > options_.wall_limit) simulation_->ask(wall_limit_reached.request);
-    if (folder_->lost()) simulation_->ask(folder_is_lost);
   }
 
   /// Nothing more may be written into a folder that is another program's.
   void expect_own_folder() const
   {
-    if ((simulation_->asked() & folder_is_lost) == 0) return;
-    throw runtime::FileError(options_.folder.string(),
-                             fmt::format("was taken over by another program while this one was stopped, at step {}",
-                                         simulation_->n_steps()));
+    by_first([&] { folder_->expect_own(); });
   }
 
   void keep_state()
   {
     const bool due = checkpoint_clock_.due(simulation_->n_steps(), simulation_->time());
     if (!due && simulation_->asked() == 0) return;
+    expect_own_folder();
     const auto watch = executor_->watch("writing a checkpoint");
     runtime::ByteWriter own;
     own.add(due_);
@@ -378,13 +384,18 @@ class Runner
 
 void run(const CheckedScene& scene, const RunOptions& options)
 {
+  const int ranks_here = usable_cores(options.communicator).ranks_on_machine;
   Forecast expected;
   runtime::by_first(options.communicator, [&] {
-    // A quiet run has nobody to wait for the pace.
-    constexpr double calibration = 0.7;
-    expected = forecast(scene.scene, options.communicator.size(), options.quiet ? 0 : calibration);
-    expect_room(scene, expected, options.communicator.size());
+    expected = forecast(scene.scene, options.communicator.size());
+    expect_room(scene, expected, options.communicator.size(), ranks_here);
+    const double free = disk_room(options.folder);
+    if (expected.disk > free) {
+      print_err("tamp: the run writes about {} by its end, and the disk has {} free\n", in_bytes(expected.disk),
+                in_bytes(free));
+    }
     if (options.quiet) return;
+    add_pace(scene.scene, expected);
     print_out("{}\n", told(expected));
     for (const std::string& line : compiled_moduli(scene)) print_out("{}\n", line);
     flush_out();

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
-#include <array>
 #include <regex>
 #include <vector>
 
@@ -23,9 +22,13 @@ constexpr const char* marker = ".tamp-run";
 
 /// All that a run or a comparison writes into its folder. `.part` files are left by one that was killed while it wrote,
 /// `.damaged` ones by one that found them so.
-constexpr std::array written_by_a_run{"scene.json",   "history.csv", "summary.json", "fields.h5",    "fields.xdmf",
-                                      "profile.json", "trace.json",  "compare.csv",  "compare.json", "report.html"};
-constexpr std::array endings{"", ".part", ".damaged"};
+bool is_of_run(const fs::path& file)
+{
+  static const std::regex name(
+      "(scene\\.json|history\\.csv|summary\\.json|fields\\.h5|fields\\.xdmf|profile\\.json|trace\\.json|compare\\.csv|"
+      "compare\\.json|report\\.html)(\\.part|\\.damaged(\\.[0-9]+)?)?");
+  return std::regex_match(file.filename().string(), name);
+}
 
 bool is_checkpoint(const fs::path& file)
 {
@@ -33,26 +36,30 @@ bool is_checkpoint(const fs::path& file)
   return std::regex_match(file.filename().string(), name);
 }
 
-void remove_run(const fs::path& folder)
+void remove_from(const fs::path& folder, bool (*is_to_go)(const fs::path&))
 {
-  for (const char* name : written_by_a_run) {
-    for (const char* ending : endings) fs::remove(folder / (std::string(name) + ending));
-  }
-  const fs::path checkpoints = folder / "checkpoints";
-  if (!fs::is_directory(checkpoints)) return;
   std::vector<fs::path> found;
-  for (const auto& entry : fs::directory_iterator(checkpoints)) {
-    if (is_checkpoint(entry.path())) found.push_back(entry.path());
+  for (const auto& entry : fs::directory_iterator(folder)) {
+    if (is_to_go(entry.path())) found.push_back(entry.path());
   }
   for (const fs::path& file : found) fs::remove(file);
+}
+
+void remove_run(const fs::path& folder)
+{
+  remove_from(folder, is_of_run);
+  const fs::path checkpoints = folder / "checkpoints";
+  if (!fs::is_directory(checkpoints)) return;
+  remove_from(checkpoints, is_checkpoint);
   if (fs::is_empty(checkpoints)) fs::remove(checkpoints);
 }
 
-/// Is nothing in the folder, but for a lock?
+/// Is nothing in the folder, but for a lock and the mark?
 bool holds_nothing(const fs::path& folder)
 {
   for (const auto& entry : fs::directory_iterator(folder)) {
-    if (entry.path().filename() != runtime::FolderLock::file_name) return false;
+    const fs::path name = entry.path().filename();
+    if (name != runtime::FolderLock::file_name && name != marker) return false;
   }
   return true;
 }
@@ -93,7 +100,7 @@ std::unique_ptr<runtime::FolderLock> lock_of(const fs::path& folder)
 
 }  // namespace
 
-RunFolder::RunFolder(const fs::path& folder, Use use, std::span<const fs::path> inputs)
+RunFolder::RunFolder(const fs::path& folder, Use use, std::span<const fs::path> inputs) : folder_(folder)
 {
   try {
     if (fs::exists(folder) && !fs::is_directory(folder)) {
@@ -110,13 +117,22 @@ RunFolder::RunFolder(const fs::path& folder, Use use, std::span<const fs::path> 
     lock_ = lock_of(folder);
     expect_free(folder, use);
     if (use == Use::replace) remove_run(folder);
-    runtime::write_whole_file(folder / marker, "Written by tamp. With --force, what a run writes is replaced here.\n");
+    if (use != Use::go_on)
+      runtime::write_whole_file(folder / marker,
+                                "Written by tamp. With --force, what a run writes is replaced here.\n");
   } catch (const fs::filesystem_error& error) {
     throw runtime::FileError(folder.string(), error.code().message());
   }
   if (lock_->former_holder()) {
     notice_ = fmt::format("{}: the lock of a run that has ended was taken over: {}", folder.string(),
                           lock_->former_holder()->told());
+  }
+}
+
+void RunFolder::expect_own() const
+{
+  if (!lock_->is_own()) {
+    throw runtime::FileError(folder_.string(), "was taken over by another program while this one was stopped");
   }
 }
 

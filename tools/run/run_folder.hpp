@@ -26,15 +26,16 @@ class RunFolder
 
   /// Makes the folder and all above it. Throws InputError for a folder that is in use by another program, that may not
   /// be used in this way, or that would be replaced although one of `inputs`, the files that the run reads, is in it;
-  /// FileError for one that cannot be made, emptied or written to. What was there is then still there.
+  /// FileError for one that cannot be made, emptied or written to.
   RunFolder(const std::filesystem::path& folder, Use use, std::span<const std::filesystem::path> inputs);
 
   /// What the user should know; empty if there is nothing.
   const std::string& notice() const { return notice_; }
-  /// Another program has taken the folder over, while this one was stopped.
-  bool lost() const { return lock_->lost(); }
+  /// Throws FileError if another program has taken the folder over, while this one was stopped.
+  void expect_own() const;
 
  private:
+  std::filesystem::path folder_;
   std::unique_ptr<runtime::FolderLock> lock_;
   std::string notice_;
 };

@@ -44,9 +44,13 @@ class RunHistory
   /// The error of the total energy, of the initial kinetic energy (of the largest energy if that is nothing), and that
   /// of the momentum that the grid has given to the particles, of the bodies' initial momenta.
   double energy_error() const { return energy_error_; }
-  /// Says so if energy has come or gone, but with particles that left, by more than `limit` times what the run has been
-  /// given so far: its initial kinetic energy and the work of gravity; empty otherwise. Of the last measured state.
+  /// Says so if energy has come or gone by more than `limit` times what the run has been given so far: its initial
+  /// kinetic energy and the work of gravity; empty otherwise. Of the last measured state. Where particles have left, or
+  /// a centrifuge speeds up, the balance is not known, and nothing is said.
   std::string energy_problem(double limit) const;
+  /// The largest work of gravity so far, without its sign [J]; a run that goes on has that of the run before.
+  double given_by_gravity() const { return given_by_gravity_; }
+  void set_given_by_gravity(double given) { given_by_gravity_ = given; }
   double momentum_error() const { return momentum_error_; }
   const EnergyBalance& energies() const { return energies_; }
   const tasks::ParticleReport& report() const { return report_; }
@@ -63,8 +67,8 @@ class RunHistory
 
  private:
   std::vector<std::string> columns() const;
-  /// That of all mass at a millionth of the fastest wave's speed [J]: what is at rest has no other energy to compare
-  /// with.
+  /// That of all mass at a millionth of the fastest wave's speed, as what is at rest has no other energy to compare
+  /// with, and what half a step of free fall makes [J].
   double negligible_energy() const;
   void add_body(std::size_t body, const std::vector<Eigen::Vector3d>& forces, std::vector<double>& row) const;
   void add_peaks(std::size_t material, const tasks::MaterialPeaks& peaks, std::vector<double>& row) const;
@@ -76,7 +80,6 @@ class RunHistory
   tasks::NoseReport near_noses_;
   tasks::LostParticles lost_;
   EnergyBalance energies_{};
-  /// The largest of the work of gravity so far, without its sign [J].
   double given_by_gravity_ = 0;
   double energy_error_ = 0;
   double momentum_error_ = 0;

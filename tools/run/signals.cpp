@@ -24,9 +24,14 @@ void ask_for_report(int)
 
 }  // namespace
 
+void note_early_signals()
+{
+  std::signal(SIGUSR1, SIG_IGN);
+  std::signal(SIGUSR2, note);
+}
+
 SignalWatch::SignalWatch(runtime::Executor& executor)
 {
-  noted_signal = 0;
   watched = &executor;
   for (const int signal : {SIGTERM, SIGINT, SIGXCPU, SIGUSR2}) std::signal(signal, note);
   if (std::signal(SIGHUP, note) == SIG_IGN) std::signal(SIGHUP, SIG_IGN);

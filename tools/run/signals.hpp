@@ -14,6 +14,9 @@ struct Interrupted : std::runtime_error {
   int signal;
 };
 
+/// From here on a SIGUSR2 is noted and SIGUSR1 does nothing, as a run has not begun to watch.
+void note_early_signals();
+
 /// While it lives, SIGTERM, SIGINT, SIGHUP and SIGXCPU are noted instead of ending the program, SIGUSR2, which mpirun
 /// hands on at once, counts as SIGTERM, and SIGUSR1 has the executor say what it is at. A SIGHUP that was ignored, as
 /// under nohup, stays ignored. One at a time.

@@ -79,7 +79,12 @@ class TableReader
   }
 
  private:
-  void add(const std::string& found, const std::string& expected) { problems_.push_back({place(), found, expected}); }
+  void add(const std::string& found, const std::string& expected)
+  {
+    constexpr std::size_t most = 1000;
+    problems_.push_back({place(), found, expected});
+    if (problems_.size() == most) throw InputError(std::move(problems_));
+  }
 
   std::string place() const { return fmt::format("{}:{}", table_.file.string(), line_); }
 

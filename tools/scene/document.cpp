@@ -68,6 +68,7 @@ void Document::set(const std::string& assignment)
   const InputError no_place(
       {place, "there is no such place in the scene", "expected a pointer to a key or to an item"});
   const std::string value = assignment.substr(equals + 1);
+  if (utf8(assignment) != assignment) throw InputError({"--set", "bytes that are no text", "expected UTF-8"});
   try {
     const JsonPointer at(pointer);
     if (std::count(pointer.begin(), pointer.end(), '/') > most_json_levels || !has_room(root, at)) throw no_place;
@@ -81,11 +82,12 @@ void Document::set(const std::string& assignment)
 void Document::merge_file_named_at(const JsonPointer& pointer)
 {
   const JsonPointer here = pointer / "file";
-  std::set<std::filesystem::path> merged{std::filesystem::weakly_canonical(file_)};
+  std::error_code ignored;  // then the path as it is will do
+  std::set<std::filesystem::path> merged{std::filesystem::weakly_canonical(file_, ignored)};
   while (root.at(pointer).is_object() && root.at(pointer).contains("file")) {
     const std::filesystem::path path = file_named_at(here);
     if (path.empty()) return;
-    if (!merged.insert(std::filesystem::weakly_canonical(path)).second) {
+    if (!merged.insert(std::filesystem::weakly_canonical(path, ignored)).second) {
       add_problem(here, fmt::format("{} names itself", path.string()),
                   "expected files that end in one without \"file\"");
       return;
@@ -112,7 +114,8 @@ std::filesystem::path Document::file_named_at(const JsonPointer& pointer)
     return {};
   }
   const std::filesystem::path path = (folder(pointer) / name.get<std::string>()).lexically_normal();
-  if (std::filesystem::is_regular_file(path)) return path;
+  std::error_code error;
+  if (std::filesystem::is_regular_file(path, error)) return path;
   add_problem(pointer, fmt::format("there is no file {}", path.string()), "expected the path of a JSON file");
   return {};
 }
@@ -169,7 +172,7 @@ Json to_json(const std::vector<InputFile>& inputs)
   Json all = Json::array();
   for (const InputFile& input : inputs) {
     if (input.hash.empty()) continue;
-    const std::string file = std::filesystem::absolute(input.file).lexically_normal().string();
+    const std::string file = utf8(std::filesystem::absolute(input.file).lexically_normal().string());
     all.push_back({{"file", file}, {"key", input.pointer}, {"hash", input.hash}});
   }
   return all;

@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "runtime/graph/near_name.hpp"
+#include "tools/scene/parse_json.hpp"
 
 namespace tamp::tools
 {
@@ -269,7 +270,8 @@ std::filesystem::path JsonReader::existing_file(const std::string& key)
     return {};
   }
   const std::filesystem::path file = path(key, value->get<std::string>());
-  if (!std::filesystem::is_regular_file(file)) {
+  std::error_code error;
+  if (!std::filesystem::is_regular_file(file, error)) {
     add_problem(key, fmt::format("there is no file {}", file.string()), expected);
     return {};
   }
@@ -298,7 +300,7 @@ std::filesystem::path JsonReader::path(const std::string& key, const std::string
 
 void JsonReader::write_path(const std::string& key, const std::filesystem::path& path)
 {
-  write(key, std::filesystem::absolute(path).lexically_normal().string());
+  write(key, utf8(std::filesystem::absolute(path).lexically_normal().string()));
 }
 
 JsonReader JsonReader::object(const std::string& key)

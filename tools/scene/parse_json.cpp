@@ -128,6 +128,11 @@ Json parse_json(const std::filesystem::path& file)
   return value;
 }
 
+std::string utf8(const std::string& text)
+{
+  return Json::parse(Json(text).dump(-1, ' ', false, Json::error_handler_t::replace)).get<std::string>();
+}
+
 std::optional<Json> json_of(const std::string& text)
 {
   KeyWatch watch;

@@ -16,6 +16,9 @@ inline constexpr int most_json_levels = 100;
 /// JSON, for an object that has a key twice, of which JSON readers would silently take one, and for more levels.
 Json parse_json(const std::filesystem::path& file);
 
+/// The text with what is no UTF-8, which JSON cannot hold, replaced by a mark.
+std::string utf8(const std::string& text);
+
 /// The JSON of a text, or nothing for text that is not JSON or has more levels.
 std::optional<Json> json_of(const std::string& text);
 

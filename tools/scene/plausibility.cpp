@@ -73,6 +73,9 @@ void doubt_gravity(const tasks::Scene& scene, Warnings& warnings)
 
 void doubt_mass(const tasks::Scene& scene, const tasks::SceneBody& body, Warnings& warnings)
 {
+  // The volume of many solids that overlap takes too long to find.
+  constexpr std::size_t few = 10;
+  if (std::visit([](const auto& s) { return s.n_shapes(); }, body.solid) > few) return;
   const components::Volume solid = std::visit([](const auto& s) { return s.volume(); }, body.solid);
   const double spacing = scene.grid.cell_size / scene.particles_per_axis_of(body.material);
   const double filled = static_cast<double>(body.n_particles) * portable::pow(spacing, scene.grid.dimension);

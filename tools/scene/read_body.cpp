@@ -96,9 +96,12 @@ template <int D>
 bool has_room_for(const components::Solid<D>& solid, const tasks::Scene& scene, int material, Document& document)
 {
   constexpr double least_bytes_of_particle = 400;
-  const double n = solid.volume().value / tasks::lattice_of<D>(scene, material).particle_volume();
   const MemoryRoom room = memory_room();
-  const double needed = least_bytes_of_particle * n;
+  const components::Box<D> box = solid.bounding_box();
+  const double bytes_of_volume = least_bytes_of_particle / tasks::lattice_of<D>(scene, material).particle_volume();
+  // Usually the box around it will do; the volume of a set of solids takes time to find.
+  if (bytes_of_volume * (box.upper - box.lower).prod() <= room.bytes) return true;
+  const double needed = bytes_of_volume * solid.volume().value, n = needed / least_bytes_of_particle;
   if (needed <= room.bytes) return true;
   const double fitting = scene.grid.cell_size * std::pow(needed / room.bytes, 1.0 / D);
   document.add_problem(JsonPointer("/grid/cell_size"),

@@ -46,7 +46,7 @@ TEST_CASE("a folder has one lock at a time, which says whose it is, and is gone 
   {
     const FolderLock lock(folder.path);
     CHECK_FALSE(lock.former_holder());
-    CHECK_FALSE(lock.lost());
+    CHECK(lock.is_own());
     CHECK_THAT(read_text(folder.path / "run.lock"),
                Catch::Contains("host " + own_host()) && Catch::Contains("process " + std::to_string(getpid())));
     CHECK_THROWS_WITH(FolderLock(folder.path), Catch::Contains("in use by process " + std::to_string(getpid())));
@@ -79,6 +79,18 @@ TEST_CASE("the lock of another machine is taken over when it has not been touche
   const FolderLock lock(folder.path);
 
   CHECK(lock.former_holder()->host == "elsewhere");
+}
+
+TEST_CASE("a lock that another program has replaced is no longer its own, and stays when its holder ends")
+{
+  const TemporaryFolder folder;
+  {
+    const FolderLock lock(folder.path);
+    fs::remove(folder.path / "run.lock");
+    write_text(folder.path / "run.lock", "host elsewhere\n");
+    CHECK_FALSE(lock.is_own());
+  }
+  CHECK(read_text(folder.path / "run.lock") == "host elsewhere\n");
 }
 
 TEST_CASE("a lock that was not written to its end counts as one")
