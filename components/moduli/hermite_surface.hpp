@@ -48,7 +48,7 @@ class HermiteSurface
   /// Throws BadValue for a range that is empty, and if the tolerance would need more than `most_patches`.
   HermiteSurface(const StrainRange& range, const SurfaceLine& line, const SurfaceTolerance& tolerance,
                  const SurfaceSeams& seams = {});
-  static constexpr std::size_t most_patches = std::size_t{1} << 20;
+  static constexpr std::size_t most_patches = std::size_t{1} << 18;
 
   ElasticPoint at(double elastic, double plastic) const
   {
