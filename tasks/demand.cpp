@@ -137,6 +137,7 @@ Demand demand_of(const Scene& scene)
                                             : field_bytes<components::Gimp<3>>(scene, n_particles);
   // Vectors that grow as they are filled have room to spare.
   demand.output_room = 1.3 * demand.output_file;
+  // The state, without what the next step makes of it.
   demand.checkpoint_file = 0.5 * demand.fields;
   return demand;
 }

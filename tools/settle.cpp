@@ -1,5 +1,4 @@
 #include "tools/settle.hpp"
-#include "tools/console.hpp"
 
 #include <fmt/core.h>
 #include <mpi.h>
@@ -8,6 +7,8 @@
 #include <chrono>
 #include <cstdio>
 #include <thread>
+
+#include "tools/console.hpp"
 
 namespace tamp::tools
 {

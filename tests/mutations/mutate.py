@@ -194,12 +194,11 @@ class Mutations:
         scene["materials"]["sand"]["elastic_update"] = "state" if name.startswith("hydrostat") else "rate"
         model = {"support_vectors.json": "svr", "network.h5": "mlp"}.get(name, "table")
         scene["materials"]["sand"]["modulus"] = {"type": model}
-        if name.endswith("e.json") or name in ["yield.json", "hydrostat.json"]:
-            key = name.removesuffix(".json")
-            if key in ["hydrostat", "crush_curve"]:
-                scene["materials"]["sand"][key] = f"../materials/concrete-sand/{name}"
-            elif key == "yield":
-                scene["materials"]["sand"]["yield"] = {"file": f"../materials/concrete-sand/{name}"}
+        there = f"../materials/concrete-sand/{name}"
+        if name in ["hydrostat.json", "crush_curve.json"]:
+            scene["materials"]["sand"][name.removesuffix(".json")] = there
+        elif name == "yield.json":
+            scene["materials"]["sand"]["yield"] = {"file": there}
         (folder / "punch/scene.json").write_text(json.dumps(scene))
         arguments = [folder / "punch/scene.json", "--steps", N_STEPS, "--out", folder / "out"]
         verdict = judged(f"data {name}", *run([*self.run_command, *arguments], folder))

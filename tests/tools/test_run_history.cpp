@@ -49,3 +49,17 @@ TEST_CASE("the depth of a body that starts at rest is the way it has moved")
 {
   CHECK(depth_at_end("[0,0]") == Approx(0.2));
 }
+
+TEST_CASE("an energy error is told beyond its limit, and never where the limit is off")
+{
+  const auto checked = tools::read_scene(TAMP_SOURCE_DIR "/inputs/punch/quick.json");
+  const auto simulation = tasks::Simulation::make(checked.scene, 1);
+  tools::RunHistory history(*simulation);
+  for (int n = 0; n < 20; ++n) simulation->advance(1);
+  history.measure();
+
+  CHECK(history.energy_error() > 1e-4);
+  CHECK_THAT(history.energy_problem(1e-4), Catch::Contains("the energy is wrong by"));
+  CHECK(history.energy_problem(0.2).empty());
+  CHECK(history.energy_problem(std::numeric_limits<double>::infinity()).empty());
+}

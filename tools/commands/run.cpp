@@ -1,5 +1,4 @@
 #include "tools/run/run.hpp"
-#include "tools/console.hpp"
 
 #include <fmt/core.h>
 
@@ -7,6 +6,7 @@
 #include <memory>
 
 #include "tools/commands/commands.hpp"
+#include "tools/console.hpp"
 #include "tools/run/signals.hpp"
 #include "tools/scene/read_scene.hpp"
 #include "tools/usable_cores.hpp"

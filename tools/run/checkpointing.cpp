@@ -1,5 +1,4 @@
 #include "tools/run/checkpointing.hpp"
-#include "tools/console.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -8,6 +7,7 @@
 #include <cstdio>
 
 #include "runtime/ranks/together.hpp"
+#include "tools/console.hpp"
 #include "tools/errors.hpp"
 #include "tools/scene/parse_json.hpp"
 
@@ -16,14 +16,6 @@ namespace tamp::tools
 
 namespace
 {
-
-/// FNV-1a, 64 bits.
-std::uint64_t hash_of(const std::string& text)
-{
-  std::uint64_t hash = 0xcbf29ce484222325U;
-  for (const char c : text) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3U;
-  return hash;
-}
 
 /// What of a resolved scene must be the same for a run to go on. Files count by their content, wherever they lie.
 Json essence(Json resolved, const std::vector<InputFile>& inputs)
@@ -44,7 +36,7 @@ std::string differing_keys(const std::filesystem::path& scene_of_run, const Chec
   try {
     then = essence(parse_json(scene_of_run), scene.inputs);
   } catch (const std::exception&) {
-    return "";
+    return "";  // the checkpoint alone tells that it is of another scene
   }
   constexpr std::size_t most = 5;
   std::vector<std::string> keys;
@@ -111,9 +103,7 @@ std::string fingerprint(const CheckedScene& scene)
   for (const InputFile& input : scene.inputs) {
     if (!input.pointer.empty() && !input.hash.empty()) inputs[input.pointer] = input.hash;
   }
-  return Json{{"scene", fmt::format("{:016x}", hash_of(essence(scene.resolved, scene.inputs).dump()))},
-              {"inputs", inputs}}
-      .dump();
+  return Json{{"scene", hash_of(essence(scene.resolved, scene.inputs).dump())}, {"inputs", inputs}}.dump();
 }
 
 runtime::FoundCheckpoint checkpoint_to_restart(const std::filesystem::path& run_folder, const CheckedScene& scene,

@@ -18,7 +18,7 @@ constexpr double of_libraries = 6.5e6;
 /// The profile and trace of a run, and the text of its history [bytes].
 constexpr double of_reports = 2e6;
 
-/// In words that leave no doubt: 12 s, 5 min, 3 h.
+/// Such as "300 core-seconds (5 min of one core)".
 std::string in_time(double seconds)
 {
   if (seconds < 90) return fmt::format("{:.0f} core-seconds", seconds);
@@ -46,12 +46,13 @@ void expect_room(const CheckedScene& checked, const Forecast& forecast, int n_ra
   const MemoryRoom room = memory_room(ranks_here);
   const double needed = forecast.memory * ranks_here / n_ranks;
   if (needed <= room.bytes) return;
+  constexpr double a_little_more = 1.05;
   const double fitting = scene.grid.cell_size * std::pow(needed / room.bytes, 1.0 / scene.grid.dimension);
   throw InputError(
       {checked.inputs.front().file.string() + "#/grid/cell_size",
        fmt::format("{} m: {} particles, {} of memory", scene.grid.cell_size, forecast.n_particles, in_bytes(needed)),
        fmt::format("expected at most the {} that {}, as with cells of {:.2g} m", in_bytes(room.bytes), room.why,
-                   1.05 * fitting)});
+                   a_little_more * fitting)});
 }
 
 void add_pace(const tasks::Scene& scene, Forecast& forecast)

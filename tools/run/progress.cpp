@@ -1,11 +1,12 @@
 #include "tools/run/progress.hpp"
-#include "tools/console.hpp"
 
 #include <fmt/core.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <cstdio>
+
+#include "tools/console.hpp"
 
 namespace tamp::tools
 {

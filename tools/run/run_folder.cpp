@@ -117,9 +117,10 @@ RunFolder::RunFolder(const fs::path& folder, Use use, std::span<const fs::path> 
     lock_ = lock_of(folder);
     expect_free(folder, use);
     if (use == Use::replace) remove_run(folder);
-    if (use != Use::go_on)
+    if (use != Use::go_on) {
       runtime::write_whole_file(folder / marker,
                                 "Written by tamp. With --force, what a run writes is replaced here.\n");
+    }
   } catch (const fs::filesystem_error& error) {
     throw runtime::FileError(folder.string(), error.code().message());
   }

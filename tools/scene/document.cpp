@@ -23,11 +23,11 @@ bool lies_below(const std::string& pointer, const std::string& above)
 }
 
 /// Whether the pointer names a key, or an item that is there or would be the next.
-bool has_room(const Json& root, const JsonPointer& pointer)
+bool can_be_set(const Json& root, const JsonPointer& pointer)
 {
   if (pointer.empty()) return true;
   const JsonPointer above = pointer.parent_pointer();
-  if (!has_room(root, above)) return false;
+  if (!can_be_set(root, above)) return false;
   const bool is_new = !root.contains(above) || root.at(above).is_null();
   if (!is_new && !root.at(above).is_array()) return true;
   std::size_t item = 0;
@@ -71,7 +71,7 @@ void Document::set(const std::string& assignment)
   if (utf8(assignment) != assignment) throw InputError({"--set", "bytes that are no text", "expected UTF-8"});
   try {
     const JsonPointer at(pointer);
-    if (std::count(pointer.begin(), pointer.end(), '/') > most_json_levels || !has_room(root, at)) throw no_place;
+    if (std::count(pointer.begin(), pointer.end(), '/') > most_json_levels || !can_be_set(root, at)) throw no_place;
     root[at] = json_of(value).value_or(Json(value));
   } catch (const Json::exception&) {
     throw no_place;
@@ -204,7 +204,8 @@ std::filesystem::path Document::folder(const JsonPointer& pointer) const
 void Document::add_input(const std::filesystem::path& file, const std::string& pointer)
 {
   const auto is_same = [&](const InputFile& input) { return input.file == file && input.pointer == pointer; };
-  if (std::none_of(inputs.begin(), inputs.end(), is_same)) inputs.push_back({pointer, file, content_hash(file)});
+  if (std::none_of(inputs.begin(), inputs.end(), is_same))
+    inputs.push_back({pointer, file, hash_of(read_input_file(file))});
 }
 
 void Document::add_unread(const std::filesystem::path& file, const std::string& pointer)

@@ -41,9 +41,8 @@ std::string read_input_file(const std::filesystem::path& file)
   return text;
 }
 
-std::string content_hash(const std::filesystem::path& file)
+std::string hash_of(const std::string& text)
 {
-  const std::string text = read_input_file(file);
   return fmt::format("{:016x}", runtime::checksum(std::as_bytes(std::span(text))));
 }
 

@@ -26,6 +26,7 @@ struct InputFile {
   std::string hash;
 };
 
-std::string content_hash(const std::filesystem::path& file);
+/// Of a text, as 16 hexadecimal digits; that of a file is its content's.
+std::string hash_of(const std::string& text);
 
 }  // namespace tamp::tools

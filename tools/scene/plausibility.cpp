@@ -82,7 +82,7 @@ void doubt_mass(const tasks::Scene& scene, const tasks::SceneBody& body, Warning
   const double error = filled / solid.value - 1;
   if (std::abs(error) - solid.error / solid.value <= 0.01) return;
   warnings.push_back(
-      fmt::format("/bodies/{}/geometry: its particles hold {:+.3g} % of its mass more; finer cells, or more "
+      fmt::format("/bodies/{}/geometry: its particles are off by {:+.3g} % of its mass; finer cells, or more "
                   "particles in each, come closer",
                   body.name, 100 * error));
 }

@@ -241,9 +241,8 @@ std::vector<Kind<D>> kinds()
   return all;
 }
 
-/// What a scene may be made of: each particle site asks the solids of its body.
-constexpr std::size_t most_shapes = 10'000;
-const std::string expected_shapes = fmt::format("expected at most {} in a body", most_shapes);
+/// Solids that a scene may name, and shapes that a body may be made of in the end: each particle site asks them.
+constexpr std::size_t most_solids = 1000, most_shapes = 10'000;
 
 /// Solids within solids, and a file that names itself on the way down, come to an end.
 bool is_too_deep(const JsonPointer& pointer)
@@ -259,7 +258,6 @@ std::optional<Solid<D>> read_at(Document& document, const JsonPointer& pointer)
     document.add_problem(pointer, "too many solids, one within the other", "expected a file that does not name itself");
     return std::nullopt;
   }
-  constexpr std::size_t most_solids = 1000;
   if (document.n_solids == most_solids) return std::nullopt;
   if (++document.n_solids == most_solids) {
     document.add_problem(pointer, fmt::format("the {}th solid of the scene", most_solids), "expected fewer");
@@ -282,7 +280,8 @@ std::optional<Solid<D>> read_at(Document& document, const JsonPointer& pointer)
   try {
     const Solid<D> solid = make();
     if (solid.n_shapes() <= most_shapes) return solid;
-    document.add_problem(pointer, fmt::format("made of {} solids", solid.n_shapes()), expected_shapes);
+    document.add_problem(pointer, fmt::format("made of {} solids", solid.n_shapes()),
+                         fmt::format("expected at most {} in a body", most_shapes));
     return std::nullopt;
   } catch (const components::BadValue& bad) {
     const JsonPointer place = bad.row < 0 ? pointer : pointer / kind.rows / static_cast<std::size_t>(bad.row);
