@@ -1,6 +1,7 @@
 #include "components/moduli/network_modulus.hpp"
 
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <span>
 #include <string>
@@ -51,9 +52,9 @@ template <class Modulus>
 class Integral
 {
  public:
-  /// No panel is longer than `longest`.
-  Integral(const Modulus& modulus, double plastic, double longest)
-      : modulus_(modulus), plastic_(plastic), longest_(longest), last_(sample(0))
+  /// No panel is longer than `longest`; it counts samples_left down.
+  Integral(const Modulus& modulus, double plastic, double longest, std::int64_t& samples_left)
+      : modulus_(modulus), plastic_(plastic), longest_(longest), samples_left_(samples_left), last_(sample(0))
   {
   }
 
@@ -77,6 +78,9 @@ class Integral
 
   Sample sample(double elastic) const
   {
+    if (--samples_left_ < 0) {
+      throw BadValue("a network whose bulk modulus is too rough to integrate", "one without jumps or noise");
+    }
     const auto [bulk_modulus, by_elastic, by_plastic] = modulus_.with_slopes(elastic, plastic_);
     return {elastic, bulk_modulus, by_elastic, by_plastic};
   }
@@ -127,6 +131,7 @@ class Integral
 
   const Modulus& modulus_;
   double plastic_, longest_;
+  std::int64_t& samples_left_;
   Sample last_;
   double pressure_ = 0, coupling_ = 0;
 };
@@ -183,17 +188,19 @@ NetworkModulus::Modulus::Slopes NetworkModulus::Modulus::with_slopes(double e, d
           held_ep == ep ? deviation * by_plastic * plastic.per_deviation : 0};
 }
 
-void NetworkModulus::Modulus::on_line(double ep, std::span<const double> e, std::span<SurfaceNode> nodes) const
+void NetworkModulus::Modulus::on_line(double ep, std::span<const double> e, std::span<SurfaceNode> nodes,
+                                      std::int64_t& samples_left) const
 {
-  Integral integral(*this, ep, range.most_elastic / 32);
+  Integral integral(*this, ep, range.most_elastic / 32, samples_left);
   for (std::size_t i = 0; i < nodes.size(); ++i) nodes[i] = integral.advance_to(e[i]);
 }
 
 HermiteSurface NetworkModulus::pressure_of(const Modulus& modulus)
 {
   const StrainRange& range = modulus.range;
+  std::int64_t samples_left = most_samples;
   const auto line = [&](double plastic, std::span<const double> elastic, std::span<SurfaceNode> nodes) {
-    modulus.on_line(plastic, elastic, nodes);
+    modulus.on_line(plastic, elastic, nodes, samples_left);
   };
   constexpr SurfaceTolerance tolerance{pressure_tolerance, 0.5};  // of K, so that the pressure always rises
   return HermiteSurface({0, range.most_elastic, range.least_plastic, range.most_plastic}, line, tolerance);

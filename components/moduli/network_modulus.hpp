@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cstdint>
 #include <span>
 
 #include "components/moduli/dense_network.hpp"
@@ -52,7 +53,8 @@ class NetworkModulus
   /// Along one line of equal plastic strain, elastic strains ascending, the pressure as the integral itself.
   void on_line(double plastic, std::span<const double> elastic, std::span<SurfaceNode> nodes) const
   {
-    modulus_.on_line(plastic, elastic, nodes);
+    std::int64_t samples_left = most_samples;
+    modulus_.on_line(plastic, elastic, nodes, samples_left);
   }
 
   double least_bulk_modulus() const { return modulus_.least; }
@@ -66,6 +68,9 @@ class NetworkModulus
     explicit Input(const Scaling& scaling);
     double operator()(double strain) const { return (strain - mean) * per_deviation; }
   };
+
+  /// Gradients of the network that its pressure may take; that of the shipped network takes 3 million.
+  static constexpr std::int64_t most_samples = 12'000'000;
 
   /// K of the strains, with its bounds.
   struct Modulus {
@@ -86,7 +91,7 @@ class NetworkModulus
       double bulk_modulus, by_elastic, by_plastic;
     };
     Slopes with_slopes(double e, double ep) const;
-    void on_line(double ep, std::span<const double> e, std::span<SurfaceNode> nodes) const;
+    void on_line(double ep, std::span<const double> e, std::span<SurfaceNode> nodes, std::int64_t& samples_left) const;
   };
   static HermiteSurface pressure_of(const Modulus& modulus);
 

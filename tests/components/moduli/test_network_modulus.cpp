@@ -257,3 +257,11 @@ TEST_CASE("a network modulus is not made from numbers that are no range or scali
   fit.layers.clear();
   refused(fit, "without a layer");
 }
+
+TEST_CASE("a network modulus is not made from a network that is too rough to integrate")
+{
+  NetworkFit fit = bent(Activation::relu);
+  fit.layers = random_network::layers({2, 4, 1}, Activation::relu, Activation::tanh);
+  fit.elastic.deviation = fit.plastic.deviation = 1e-5;
+  CHECK_THROWS_WITH(NetworkModulus(fit), Catch::Contains("too rough to integrate"));
+}
