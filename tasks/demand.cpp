@@ -5,6 +5,7 @@
 #include <ctime>
 #include <numeric>
 #include <string>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -56,6 +57,7 @@ std::optional<Scene> coarsened(const Scene& scene, int factor)
   for (std::size_t k = 0; k < static_cast<std::size_t>(scene.grid.dimension); ++k) {
     if (scene.grid.n_cells[k] % factor != 0 || scene.grid.n_cells[k] / factor < least_patch_width) return std::nullopt;
     coarse.grid.n_cells[k] /= factor;
+    for (SceneBody& body : coarse.bodies) body.n_particles /= static_cast<std::size_t>(factor);
   }
   return coarse;
 }
@@ -72,7 +74,8 @@ struct Trial {
   int factor = 1;
   std::vector<Progress> progress;
 
-  bool complete() const { return progress.back().part == 1; }
+  const Progress& end() const { return progress.back(); }
+  bool complete() const { return end().part == 1; }
   /// When it had come as far as this.
   const Progress& at(double part) const
   {
@@ -104,19 +107,25 @@ std::optional<Trial> tried(const Scene& scene, int factor, double seconds)
   return trial;
 }
 
-/// To the end on the scene's own cells. Where a finer trial did not come to its end, the coarser one tells how it would
-/// have gone on.
+/// To the end on the scene's own cells. A coarser trial that was complete tells how the finer one would have gone on,
+/// and by which power of the cell size a particle's part of a step gets dearer: a step has costs of its own, and in a
+/// longer one more of the sand takes more substeps.
 Pace extrapolated(const Trial& fine, const Trial* coarse, int dimension)
 {
-  const Progress& reached = fine.progress.back();
-  double more_steps = 1 / reached.part, more_seconds = 1 / reached.part;
+  const Progress& reached = fine.end();
+  double more_steps = 1 / reached.part, more_seconds = 1 / reached.part, power = 0;
   if (coarse != nullptr) {
-    const Progress &there = coarse->at(reached.part), &end = coarse->progress.back();
+    constexpr double greatest_power = 0.35;  // of the runs in docs/failures.md
+    const Progress &there = coarse->at(reached.part), &end = coarse->end();
     more_steps = end.n_steps / there.n_steps;
     more_seconds = end.seconds / there.seconds;
+    const double coarser = static_cast<double>(coarse->factor) / fine.factor;
+    const double dearer =
+        there.seconds / there.n_steps * portable::pow(coarser, dimension) / (reached.seconds / reached.n_steps);
+    power = std::clamp(portable::log(dearer) / portable::log(coarser), 0.0, greatest_power);
   }
   return {reached.n_steps * more_steps * fine.factor,
-          reached.seconds * more_seconds * portable::pow(fine.factor, dimension + 1)};
+          reached.seconds * more_seconds * portable::pow(fine.factor, dimension + 1 - power)};
 }
 
 }  // namespace
@@ -145,29 +154,34 @@ Demand demand_of(const Scene& scene)
 std::optional<Pace> pace_of(const Scene& scene, double seconds)
 {
   // More are not laid out and begun within the time.
-  constexpr double most_particles = 50'000;
-  constexpr double most_bytes = 2e8;
+  constexpr double most_particles = 150'000;
+  constexpr double most_bytes = 3e8;
   constexpr int greatest_factor = 32;
+  // Less of a run tells less than a coarser one that was complete.
+  constexpr double least_part = 0.1;
+  const int dimension = scene.grid.dimension;
   const std::vector<std::size_t> n = particles_of_materials(scene);
   const double n_particles = static_cast<double>(std::accumulate(n.begin(), n.end(), std::size_t{0}));
   const double end = processor_seconds() + seconds;
-  std::optional<Trial> complete;
-  for (int factor = greatest_factor; factor >= 1; --factor) {
+  std::vector<Trial> complete;
+  std::optional<Trial> trial;
+  for (int factor = greatest_factor; factor >= 1 && !(trial && !trial->complete()); --factor) {
     const double left = end - processor_seconds();
-    if (n_particles / portable::pow(factor, scene.grid.dimension) > most_particles || left <= 0) break;
+    if (n_particles / portable::pow(factor, dimension) > most_particles || left <= 0) break;
     const auto coarse = coarsened(scene, factor);
     if (!coarse || demand_of(*coarse).fields > most_bytes) continue;
-    std::optional<Trial> trial;
     try {
       trial = tried(*coarse, factor, left);
     } catch (const std::exception&) {
       continue;  // too coarse for something; what is wrong with the scene itself shows in its run
     }
-    if (!trial) continue;
-    if (!trial->complete()) return extrapolated(*trial, complete ? &*complete : nullptr, scene.grid.dimension);
-    complete = std::move(trial);
+    if (trial && trial->complete()) complete.push_back(*trial);
   }
-  return complete ? std::optional(extrapolated(*complete, nullptr, scene.grid.dimension)) : std::nullopt;
+  if (trial && !trial->complete() && (complete.empty() || trial->end().part >= least_part)) {
+    return extrapolated(*trial, complete.empty() ? nullptr : &complete.back(), dimension);
+  }
+  if (complete.empty()) return std::nullopt;
+  return extrapolated(complete.back(), complete.size() == 1 ? nullptr : &complete[complete.size() - 2], dimension);
 }
 
 }  // namespace tamp::tasks

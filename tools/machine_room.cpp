@@ -4,6 +4,10 @@
 #include <sys/resource.h>
 #include <unistd.h>
 
+#ifdef __GLIBC__
+#  include <malloc.h>
+#endif
+
 #include <algorithm>
 #include <array>
 #include <fstream>
@@ -123,6 +127,14 @@ std::string in_bytes(double bytes)
   std::size_t unit = 0;
   for (; bytes >= 1024 && unit + 1 < units.size(); ++unit) bytes /= 1024;
   return fmt::format("{:.3g} {}", bytes, units[unit]);
+}
+
+void give_back_freed_memory()
+{
+#ifdef __GLIBC__
+  constexpr int large = 1 << 20;
+  mallopt(M_MMAP_THRESHOLD, large);
+#endif
 }
 
 }  // namespace tamp::tools

@@ -26,4 +26,8 @@ double disk_room(const std::filesystem::path& folder);
 /// Such as 1.2 GiB.
 std::string in_bytes(double bytes);
 
+/// Has large memory given back to the system as it is freed, so that what was gathered for an output leaves no gaps
+/// that nothing fills. For the C library of GNU; elsewhere nothing.
+void give_back_freed_memory();
+
 }  // namespace tamp::tools

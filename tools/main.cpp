@@ -9,6 +9,7 @@
 #include "tools/commands/program.hpp"
 #include "tools/console.hpp"
 #include "tools/errors.hpp"
+#include "tools/machine_room.hpp"
 #include "tools/run/signals.hpp"
 #include "tools/settle.hpp"
 
@@ -62,6 +63,7 @@ int run_or_settle(int argc, char** argv)
 int main(int argc, char** argv)
 {
   tamp::tools::guard_console();
+  tamp::tools::give_back_freed_memory();
   try {
     const tamp::runtime::MpiSession session(argc, argv);
     return run_or_settle(argc, argv);

@@ -30,10 +30,11 @@ class Buffer
   std::byte* data() const { return data_; }
   std::size_t capacity() const { return capacity_; }
 
-  /// Makes room for `bytes`, keeping what is there. Grows by half at least, so that slow growth stays cheap.
+  /// Makes room for `bytes`, keeping what is there. Grows by a sixteenth at least, so that slow growth stays
+  /// cheap and takes no more memory than was forecast.
   void reserve(std::size_t bytes)
   {
-    if (bytes > capacity_) resize_storage(capacity_ == 0 ? bytes : std::max(bytes, capacity_ + capacity_ / 2));
+    if (bytes > capacity_) resize_storage(capacity_ == 0 ? bytes : std::max(bytes, capacity_ + capacity_ / 16));
   }
 
   void swap(Buffer& other) noexcept
