@@ -1,6 +1,11 @@
 #include "runtime/storage/field_file.hpp"
 
+#include <fcntl.h>
 #include <fmt/core.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
 
 #include "runtime/ranks/together.hpp"
 #include "runtime/storage/file_error.hpp"
@@ -73,6 +78,10 @@ void FieldFile::begin_or_continue(std::int64_t last_step, std::size_t n_expected
     notice_ = fmt::format("{}: is {}, with the {} outputs until step {}; it was begun anew", hdf5_file_.string(),
                           missing ? "missing" : "empty", n_expected, last_step);
     return begin();
+  }
+  // What may not be read or written is not damaged.
+  if (faccessat(AT_FDCWD, hdf5_file_.c_str(), R_OK | W_OK, AT_EACCESS) != 0) {
+    throw FileError(hdf5_file_.string(), std::strerror(errno));
   }
   try {
     steps_ = cut_to_step(hdf5_file_, last_step);

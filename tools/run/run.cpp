@@ -327,7 +327,7 @@ class Runner
   {
     write_last_state();
     const std::string reason =
-        fmt::format("step {}, time {:.6g} s: {}; the state before that step is the last in {}", simulation_->n_steps(),
+        fmt::format("step {}, time {:.6g} s: {}; the last state is kept in {}", simulation_->n_steps(),
                     simulation_->time(), error.what(), (options_.folder / "fields.h5").string());
     finish("unstable", reason);
     throw tasks::SimulationError(reason, error.material, -1, {});

@@ -1,8 +1,10 @@
 #include <hdf5.h>
+#include <unistd.h>
 
 #include <catch2/catch.hpp>
 
 #include "runtime/storage/field_file.hpp"
+#include "runtime/storage/file_error.hpp"
 #include "tests/runtime/storage/stored_data.hpp"
 #include "tests/runtime/storage/temporary_folder.hpp"
 #include "tests/runtime/storage/two_particles.hpp"
@@ -35,6 +37,26 @@ FieldFile written(const fs::path& folder, std::initializer_list<int> steps)
   for (const int step : steps) write(file, step);
   return file;
 }
+
+/// The rights of a user who is not root, where the tests run as root.
+class NotRoot
+{
+ public:
+  NotRoot()
+  {
+    constexpr uid_t nobody = 65534;
+    if (root_) REQUIRE(seteuid(nobody) == 0);
+  }
+  ~NotRoot()
+  {
+    if (root_) static_cast<void>(seteuid(0) == 0);
+  }
+  NotRoot(const NotRoot&) = delete;
+  NotRoot& operator=(const NotRoot&) = delete;
+
+ private:
+  bool root_ = geteuid() == 0;
+};
 
 }  // namespace
 
@@ -155,4 +177,19 @@ TEST_CASE("a field file that was cut in half is set aside as it was")
   CHECK_THAT(fields.notice(), Catch::Contains("it was set aside"));
   CHECK(all_datasets(file).empty());
   CHECK(fs::file_size(folder.path / "fields.h5.damaged") == n_bytes / 2);
+}
+
+TEST_CASE("a field file that may not be written is not taken for a damaged one")
+{
+  const TemporaryFolder folder;
+  const fs::path file = folder.path / "fields.h5";
+  written(folder.path, {0, 10});
+  fs::permissions(folder.path, fs::perms::all);
+  fs::permissions(file, fs::perms::owner_read);
+  {
+    const NotRoot rights;
+    CHECK_THROWS_WITH(FieldFile::continued(folder.path, 10, 2), Catch::Contains("Permission denied"));
+  }
+  CHECK(fs::exists(file));
+  CHECK_FALSE(fs::exists(file.string() + ".damaged"));
 }
