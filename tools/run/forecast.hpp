@@ -4,7 +4,7 @@
 #include <optional>
 #include <string>
 
-#include "tasks/demand.hpp"
+#include "tasks/pace.hpp"
 #include "tools/scene/read_scene.hpp"
 
 namespace tamp::tools
