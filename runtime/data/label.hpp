@@ -18,13 +18,24 @@ struct ReductionOperations {
   void (*combine)(void* into, const void* part);
 };
 
+/// A value to whose sum patches can each add a part.
+template <class T>
+concept Addable = requires(T& sum, const T& part)
+{
+  sum += part;
+};
+
+/// Adds values, as many as there are in `n_bytes`, to others, each by its type's own +=.
+using AddValues = void (*)(std::byte* sums, const std::byte* parts, std::size_t n_bytes);
+
 /// The name of a field. Two labels are the same only when they are the same object, so a label is declared once, as
 /// an inline constant, and referred to ever after.
 class Label
 {
  public:
-  Label(std::string name, Centring centring, std::size_t value_bytes, const ReductionOperations* reduction)
-      : name_(std::move(name)), centring_(centring), value_bytes_(value_bytes), reduction_(reduction)
+  Label(std::string name, Centring centring, std::size_t value_bytes, const ReductionOperations* reduction,
+        AddValues add)
+      : name_(std::move(name)), centring_(centring), value_bytes_(value_bytes), reduction_(reduction), add_(add)
   {
   }
   Label(const Label&) = delete;
@@ -35,12 +46,15 @@ class Label
   std::size_t value_bytes() const { return value_bytes_; }
   /// Null unless the centring is `reduction`.
   const ReductionOperations* reduction() const { return reduction_; }
+  /// Null unless its values are Addable.
+  AddValues add() const { return add_; }
 
  private:
   std::string name_;
   Centring centring_;
   std::size_t value_bytes_;
   const ReductionOperations* reduction_;
+  AddValues add_;
 };
 
 /// How a task refers to a label; made by the label and refined by chaining: `position.previous()`,
@@ -67,7 +81,7 @@ template <class T, Centring C>
 class TypedLabel : public Label
 {
  public:
-  explicit TypedLabel(std::string name) : Label(std::move(name), C, sizeof(T), operations()) {}
+  explicit TypedLabel(std::string name) : Label(std::move(name), C, sizeof(T), operations(), adder()) {}
 
   operator Reference<T, C>() const { return {this}; }
   Reference<T, C> previous() const { return Reference<T, C>{this}.previous(); }
@@ -86,7 +100,27 @@ class TypedLabel : public Label
       return nullptr;
     }
   }
+  static AddValues adder()
+  {
+    if constexpr (Addable<T>) {
+      return [](std::byte* sums, const std::byte* parts, std::size_t n_bytes) {
+        auto* sum = reinterpret_cast<T*>(sums);
+        const auto* part = reinterpret_cast<const T*>(parts);
+        for (std::size_t i = 0; i < n_bytes / sizeof(T); ++i) sum[i] += part[i];
+      };
+    } else {
+      return nullptr;
+    }
+  }
 };
+
+/// Whether tasks can accumulate what a label, or a reference to one, names.
+template <class L>
+inline constexpr bool can_accumulate = false;
+template <class T, Centring C>
+inline constexpr bool can_accumulate<TypedLabel<T, C>> = Addable<T>;
+template <class T, Centring C, bool EveryGroup>
+inline constexpr bool can_accumulate<Reference<T, C, EveryGroup>> = Addable<T>;
 
 template <class T>
 using NodeLabel = TypedLabel<T, Centring::node>;

@@ -90,9 +90,7 @@ bool sum_halo(const BoundHalo& halo)
     any = true;
     const std::byte* const values = from->part_buffer.data();
     for_each_row(box, *halo.to, *from, [&](std::size_t to_offset, std::size_t from_offset, std::size_t bytes) {
-      auto* into = reinterpret_cast<double*>(sums + to_offset);
-      const auto* add = reinterpret_cast<const double*>(values + from_offset);
-      for (std::size_t i = 0; i < bytes / sizeof(double); ++i) into[i] += add[i];
+      halo.to->label->add()(sums + to_offset, values + from_offset, bytes);
     });
   }
   if (any) halo.to->note_written(FieldBuffer::current);

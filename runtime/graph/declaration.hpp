@@ -113,9 +113,10 @@ class TaskBuilder
   {
     return std::move(*this).template with<Mode::update>(reference(labels)...);
   }
-  /// Node or cell data to which every patch adds its part; it starts at zero, and readers get the sum of all parts.
+  /// Node or cell data to which every patch adds its part; it starts at zero, and readers get the sum of all parts, by
+  /// the values' +=.
   template <class... L>
-  auto accumulates(const L&... labels) &&
+  requires(can_accumulate<L>&&...) auto accumulates(const L&... labels) &&
   {
     return std::move(*this).template with<Mode::accumulate>(reference(labels)...);
   }

@@ -126,6 +126,39 @@ TEST_CASE("both sides of a seam get the same sum, parts added in the order of pa
   CHECK(right[{6, 0, 0}] == middle[{6, 0, 0}]);
 }
 
+TEST_CASE("parts are summed by the += of their own type", "[executor]")
+{
+  struct Most {
+    int value;
+    void operator+=(const Most& other) { value = std::max(value, other.value); }
+  };
+  struct NoSum {
+    double value;
+  };
+  static_assert(can_accumulate<NodeLabel<Most>> && !can_accumulate<NodeLabel<NoSum>>);
+  const NodeLabel<int> count{"count"};
+  const NodeLabel<Most> most{"most"};
+  auto give = task("give")
+                  .over_patches_and_groups()
+                  .accumulates(count.halo(1), most.halo(1))
+                  .body([](const TaskContext& at, GridView<int> counts, GridView<Most> mosts) {
+                    for_each(counts.box(), [&](const Index& i) {
+                      counts[i] = 1;
+                      mosts[i] = {10 + at.patch.id};
+                    });
+                  });
+  Row row({give}, {{}, {&count, &most}}, 2, 1);
+
+  row.executor.run(row.schedule, {});
+
+  const auto counts = row.warehouse.grid_result(count, 0, 0);
+  const auto mosts = row.warehouse.grid_result(most, 0, 0);
+  CHECK(counts[{1, 0, 0}] == 1);
+  CHECK(mosts[{1, 0, 0}].value == 10);
+  CHECK(counts[{3, 0, 0}] == 2);
+  CHECK(mosts[{3, 0, 0}].value == 11);
+}
+
 TEST_CASE("a task that throws stops the step with its name and patch", "[executor]")
 {
   auto fail = task("fail").over_patches_and_groups().computes(first).body([](const TaskContext& at, GridView<double>) {
