@@ -87,9 +87,25 @@ BoundGraph::Bound BoundGraph::bind_body(const Instance& instance)
     argument.box = grown(own, access.halo, layout.grid().dimension);
     bound.uses_particles |= access.label->centring() == Centring::particle;
     bound.arguments.push_back(argument);
+    bound.begins_part.push_back(begins_part(instance, access));
   }
   if (graph_.declaration(instance).sparse) bind_sparse(instance, bound);
   return bound;
+}
+
+/// Whether no task before has accumulated the label on this patch.
+bool BoundGraph::begins_part(const Instance& instance, const Access& access) const
+{
+  const auto accumulates_it = [&](const Access& other) {
+    return other.mode == Mode::accumulate && other.label == access.label;
+  };
+  return accumulates_it(access) && std::none_of(instance.predecessors.begin(), instance.predecessors.end(), [&](int p) {
+           if (at(p).kind != InstanceKind::body || at(p).patch != instance.patch || at(p).group != instance.group) {
+             return false;
+           }
+           const auto& accesses = graph_.declaration(at(p)).accesses;
+           return std::any_of(accesses.begin(), accesses.end(), accumulates_it);
+         });
 }
 
 /// Lists what must be there for a sparse body to have anything to do.
@@ -191,7 +207,7 @@ void BoundGraph::prepare(const Instance& instance, const Bound& bound)
     const Access& access = accesses[a];
     for (Field* field : fields_of(bound.arguments[a])) {
       if (access.mode == Mode::read) continue;
-      if (access.mode == Mode::accumulate) field->make_zero(FieldBuffer::part);
+      if (bound.begins_part[a]) field->make_zero(FieldBuffer::part);
       if (access.mode == Mode::reduce) access.label->reduction()->reset(field->current_buffer.data());
       if (checked_build && access.mode == Mode::compute && field->n_bytes() > 0) {
         std::memset(field->buffer(FieldBuffer::current).data(), 0xff, field->n_bytes());
@@ -219,7 +235,7 @@ void BoundGraph::make_nothing(const Instance& instance, const Bound& bound)
     for (Field* field : fields_of(bound.arguments[a])) {
       if (access.mode == Mode::reduce) {
         access.label->reduction()->reset(field->current_buffer.data());
-      } else {
+      } else if (access.mode != Mode::accumulate || bound.begins_part[a]) {
         field->make_zero(bound.arguments[a].buffer);
       }
     }

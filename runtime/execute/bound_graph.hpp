@@ -57,6 +57,8 @@ class BoundGraph final : public Work
     /// One for each label.
     std::vector<BoundHalo> halos;
     bool uses_particles = false;
+    /// Of each argument, whether a part is begun with it, and not gone on with.
+    std::vector<bool> begins_part;
     /// Whether it may be skipped: where these particles are none and these fields are zero.
     bool is_sparse = false;
     std::vector<const std::size_t*> counts;
@@ -68,6 +70,7 @@ class BoundGraph final : public Work
   Bound bind(const Instance& instance);
   Bound bind_body(const Instance& instance);
   Bound bind_halos(const Instance& instance);
+  bool begins_part(const Instance& instance, const Access& access) const;
   void bind_sparse(const Instance& instance, Bound& bound);
   void prepare(const Instance& instance, const Bound& bound);
   static bool takes_nothing(const Bound& bound);

@@ -1,6 +1,7 @@
 #include "runtime/graph/compile.hpp"
 
 #include <algorithm>
+#include <iterator>
 #include <map>
 #include <tuple>
 
@@ -71,8 +72,10 @@ class Compiler
     int halo = 0;
     for (const Access& access : at(d).accesses) {
       if (access.mode != Mode::accumulate) continue;
+      const LabelStream& stream = streams_.at({access.label, group});
+      if (!stream.is_summed_after(d)) continue;
       labels.push_back(access.label);
-      halo = std::max(halo, access.halo);
+      halo = std::max(halo, stream.producers.back().access.halo);
     }
     if (labels.empty()) return;
     const int sum = step_.add_on_patch(InstanceKind::sum_halo, d, patch, group);
@@ -143,10 +146,22 @@ class Compiler
       case Mode::reduce:
         connect_reducer(self, patch, access.label);
         break;
-      case Mode::compute:
       case Mode::accumulate:
+        connect_adder(d, self, patch, group, access, stream);
+        break;
+      case Mode::compute:
         break;
     }
+  }
+
+  /// Tasks that accumulate one label add their parts in the order of declaration.
+  void connect_adder(int d, int self, int patch, int group, const Access& access, const LabelStream& stream)
+  {
+    const auto own = std::find_if(stream.producers.begin(), stream.producers.end(),
+                                  [&](const Use& use) { return use.declaration == d; });
+    if (own == stream.producers.begin()) return;
+    step_.edge(bodies_.at({std::prev(own)->declaration, patch, group}), self, access.label, access.halo,
+               step_.bytes_of(*access.label, step_.box_of(*access.label, patch, access.halo)));
   }
 
   void connect_reducer(int self, int patch, const Label* label)

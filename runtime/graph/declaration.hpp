@@ -114,7 +114,7 @@ class TaskBuilder
     return std::move(*this).template with<Mode::update>(reference(labels)...);
   }
   /// Node or cell data to which every patch adds its part; it starts at zero, and readers get the sum of all parts, by
-  /// the values' +=.
+  /// the values' +=. Several tasks may, for the same groups; a patch's part is theirs in the order of declaration.
   template <class... L>
   requires(can_accumulate<L>&&...) auto accumulates(const L&... labels) &&
   {

@@ -24,6 +24,21 @@ bool on_grid(const Label& label)
   return label.centring() == Centring::node || label.centring() == Centring::cell;
 }
 
+bool accumulates(const Use& use)
+{
+  return use.access.mode == Mode::accumulate;
+}
+
+/// A part is summed as far as any task reaches.
+void widen_halos(std::vector<Use>& producers)
+{
+  int widest = 0;
+  for (const Use& use : producers) widest = std::max(widest, use.access.halo);
+  for (Use& use : producers) {
+    if (accumulates(use)) use.access.halo = widest;
+  }
+}
+
 std::vector<int> all_groups(int n_groups)
 {
   std::vector<int> all(static_cast<std::size_t>(n_groups));
@@ -75,6 +90,9 @@ class Inspector
     if (access.mode == Mode::accumulate && !on_grid(label)) {
       report(Kind::bad_declaration, declaration.name, label, "only node and cell data can be accumulated");
     }
+    if (access.mode == Mode::accumulate && declaration.domain == Domain::patches) {
+      report(Kind::bad_declaration, declaration.name, label, "only a task over patches and groups can accumulate");
+    }
     if ((access.mode == Mode::reduce) != (centring == Centring::reduction) && access.mode != Mode::read) {
       report(Kind::bad_declaration, declaration.name, label, "a reduction label is reduced, and no other is");
     }
@@ -101,6 +119,7 @@ class Inspector
   {
     for (std::size_t k = 1; k < stream.producers.size(); ++k) {
       if (label.centring() == Centring::reduction && apart(stream.producers, k)) continue;
+      if (accumulates(stream.producers[0]) && accumulates(stream.producers[k])) continue;
       report(Kind::double_compute, name(stream.producers[k]), label,
              "already made by task '" + name(stream.producers[0]) + "'");
     }
@@ -177,9 +196,14 @@ class Inspector
 
 }  // namespace
 
+bool LabelStream::is_summed_after(int declaration) const
+{
+  return !producers.empty() && accumulates(producers.back()) && producers.back().declaration == declaration;
+}
+
 const Use* LabelStream::version_before(int declaration) const
 {
-  const Use* version = producers.empty() ? nullptr : &producers.front();
+  const Use* version = producers.empty() ? nullptr : &producers.back();
   for (const Use& updater : updaters) {
     if (updater.declaration < declaration) version = &updater;
   }
@@ -219,6 +243,7 @@ LabelStreams collect_streams(const std::vector<TaskDeclaration>& declarations, i
       }
     }
   }
+  for (auto& [key, stream] : streams) widen_halos(stream.producers);
   return streams;
 }
 

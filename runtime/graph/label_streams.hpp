@@ -17,13 +17,16 @@ struct Use {
 
 /// The life of one label for one group (-1: common) within a step: who makes it, who changes it, who reads it.
 struct LabelStream {
-  /// Tasks that compute, accumulate or reduce it; exactly one in a sound graph that reads it from this step.
+  /// Tasks that compute, accumulate or reduce it, in the order of declaration. In a sound graph one computes it, or
+  /// several accumulate it, all with the widest halo of theirs.
   std::vector<Use> producers;
   /// In the order of declaration.
   std::vector<Use> updaters;
   std::vector<Use> readers;
 
-  /// The last task that changed the label before `declaration`, or the one that made it.
+  /// Whether `declaration` is the last of those that accumulate it: then there is the sum.
+  bool is_summed_after(int declaration) const;
+  /// The last task that changed the label before `declaration`, or the one after which it is made.
   const Use* version_before(int declaration) const;
 };
 

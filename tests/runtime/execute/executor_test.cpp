@@ -159,6 +159,37 @@ TEST_CASE("parts are summed by the += of their own type", "[executor]")
   CHECK(mosts[{3, 0, 0}].value == 11);
 }
 
+TEST_CASE("tasks that accumulate one label add to it in the order of declaration", "[executor]")
+{
+  // 1e16 + 1 - 1e16 depends on the order; each halo alone would leave out nodes.
+  const auto give = [](const char* name, int halo, double part) {
+    return task(name).over_patches_and_groups().accumulates(sum.halo(halo)).body([=](const TaskContext&, auto s) {
+      for_each(s.box(), [&](const Index& i) { s[i] += part; });
+    });
+  };
+  auto take = task("take")
+                  .over_patches_and_groups()
+                  .reads(sum.halo(1))
+                  .computes(first)
+                  .body([](const TaskContext&, GridView<const double> s, GridView<double> f) {
+                    for_each(f.box(), [&](const Index& i) { f[i] = s[i]; });
+                  });
+  const int n_threads = GENERATE(1, 2);
+  Row row({give("large", 0, 1e16), give("small", 1, 1), take, give("back", 1, -1e16)}, {{}, {&sum, &first}}, 2,
+          n_threads);
+
+  row.executor.run(row.schedule, {});
+
+  for (const int p : {0, 1}) {
+    const auto sums = row.warehouse.grid_result(sum, p, 0), taken = row.warehouse.grid_result(first, p, 0);
+    // Of a patch alone: 1e16 + 1 is 1e16. Beyond it, where the first task does not reach, 1 - 1e16.
+    CHECK(sums[{p == 0 ? 0 : 6, 0, 0}] == 0);
+    CHECK(sums[{3, 0, 0}] == 0);
+    CHECK(sums[{2, 0, 0}] == 1 - 1e16);
+    CHECK(taken[{p == 0 ? 2 : 4, 0, 0}] == 1 - 1e16);
+  }
+}
+
 TEST_CASE("a task that throws stops the step with its name and patch", "[executor]")
 {
   auto fail = task("fail").over_patches_and_groups().computes(first).body([](const TaskContext& at, GridView<double>) {

@@ -97,6 +97,34 @@ TEST_CASE("two tasks that make one label are a double compute", "[graph]")
   check_one(problems({gather(1), move(1), twin}), Kind::double_compute, "move again", "node velocity");
 }
 
+TEST_CASE("a task that makes what another accumulates is a double compute", "[graph]")
+{
+  auto make = task("make").over_patches_and_groups().computes(mass).body(nothing());
+
+  check_one(problems({gather(1), move(1), make}), Kind::double_compute, "make", "node mass");
+}
+
+TEST_CASE("a task over patches cannot accumulate", "[graph]")
+{
+  auto wrong = task("gather").over_patches().accumulates(mass.every_group()).body(nothing());
+
+  check_one(problems({wrong, move(0)}), Kind::bad_declaration, "gather", "node mass");
+}
+
+TEST_CASE("one sum follows all tasks that accumulate a label, as wide as the widest halo", "[graph]")
+{
+  auto load = task("load").over_patches_and_groups().accumulates(mass.halo(0)).body(nothing());
+  const PatchLayout layout(line, {2, 1, 1});
+  const TaskGraph graph({gather(1), load, move(1)}, layout, {"only"}, host);
+  const auto& instances = graph.instances();
+
+  const auto is_sum = [](const Instance& i) { return i.kind == InstanceKind::sum_halo; };
+  CHECK(std::count_if(instances.begin(), instances.end(), is_sum) == 2);
+  const auto sum = std::find_if(instances.begin(), instances.end(), is_sum);
+  CHECK(sum->halo == 1);
+  for (const int p : sum->predecessors) CHECK(graph.name(instances[static_cast<std::size_t>(p)]) == "load");
+}
+
 TEST_CASE("tasks that wait for each other are a cycle, told link by link", "[graph]")
 {
   auto chicken = task("chicken").over_patches_and_groups().reads(acceleration).computes(velocity).body(nothing());

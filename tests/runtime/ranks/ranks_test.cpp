@@ -46,6 +46,13 @@ std::vector<TaskDeclaration> wandering()
                        [&](const Index& i) { h[i] += w[p] / (1 + std::hypot(x[p][0] - i[0], x[p][1] - i[1])); });
             }
           });
+  auto chill = task("chill")
+                   .over_patches_and_groups()
+                   .reads(smooth.previous())
+                   .accumulates(heat.halo(1))
+                   .body([](const TaskContext& at, GridView<const double> old, GridView<double> h) {
+                     for_each(at.patch.cells, [&](const Index& i) { h[i] -= 0.01 * old[i] * (1 + h[i]); });
+                   });
   auto average =
       task("average")
           .over_patches_and_groups()
@@ -110,7 +117,7 @@ std::vector<TaskDeclaration> wandering()
               for (std::size_t k = 0; k < 2; ++k) now[p][k] = std::clamp(now[p][k], 0.01, n[k] - 0.01);
             }
           });
-  return {warm, average, find_edges, average_again, sharpen, wander, migration(place, total)};
+  return {warm, chill, average, find_edges, average_again, sharpen, wander, migration(place, total)};
 }
 
 struct World {
