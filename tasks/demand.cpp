@@ -5,7 +5,7 @@
 #include <variant>
 #include <vector>
 
-#include "runtime/data/warehouse.hpp"
+#include "runtime/warehouse/warehouse.hpp"
 #include "tasks/engine.hpp"
 
 namespace tamp::tasks

@@ -3,9 +3,9 @@
 #include <deque>
 #include <vector>
 
-#include "runtime/data/warehouse.hpp"
 #include "runtime/ranks/communicator.hpp"
 #include "runtime/storage/field_columns.hpp"
+#include "runtime/warehouse/warehouse.hpp"
 #include "tasks/method.hpp"
 
 namespace tamp::tasks

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "components/tensors.hpp"
-#include "runtime/data/warehouse.hpp"
+#include "runtime/warehouse/warehouse.hpp"
 #include "tasks/rigid_body.hpp"
 #include "tasks/scene.hpp"
 #include "tasks/settled_sand.hpp"

@@ -2,8 +2,8 @@
 
 #include <string>
 
-#include "runtime/data/warehouse.hpp"
 #include "runtime/ranks/communicator.hpp"
+#include "runtime/warehouse/warehouse.hpp"
 
 namespace tamp::tasks
 {

@@ -3,8 +3,8 @@
 #include <string>
 
 #include "runtime/execute/exchange.hpp"
+#include "runtime/file_error.hpp"
 #include "runtime/ranks/communicator.hpp"
-#include "runtime/storage/file_error.hpp"
 #include "tasks/simulation_error.hpp"
 #include "tools/commands/program.hpp"
 #include "tools/console.hpp"

@@ -1,6 +1,6 @@
 #include "tools/shipped_inputs.hpp"
 
-#include "runtime/storage/file_error.hpp"
+#include "runtime/file_error.hpp"
 
 namespace tamp::tools
 {

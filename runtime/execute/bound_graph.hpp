@@ -3,12 +3,12 @@
 #include <memory>
 #include <vector>
 
-#include "runtime/data/warehouse.hpp"
 #include "runtime/execute/exchange.hpp"
 #include "runtime/execute/halo.hpp"
 #include "runtime/execute/migration.hpp"
 #include "runtime/execute/work.hpp"
 #include "runtime/graph/task_graph.hpp"
+#include "runtime/warehouse/warehouse.hpp"
 
 namespace tamp::runtime
 {

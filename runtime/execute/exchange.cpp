@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cstring>
 
+#include "runtime/execute/clock.hpp"
 #include "runtime/execute/halo.hpp"
-#include "runtime/profile/clock.hpp"
 
 namespace tamp::runtime
 {

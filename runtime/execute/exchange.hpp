@@ -8,10 +8,10 @@
 #include <string>
 #include <vector>
 
-#include "runtime/data/warehouse.hpp"
 #include "runtime/execute/migration.hpp"
 #include "runtime/graph/task_graph.hpp"
 #include "runtime/ranks/communicator.hpp"
+#include "runtime/warehouse/warehouse.hpp"
 
 namespace tamp::runtime
 {

@@ -12,12 +12,12 @@
 #include <string>
 #include <vector>
 
+#include "runtime/execute/clock.hpp"
 #include "runtime/execute/crew.hpp"
 #include "runtime/execute/schedule.hpp"
 #include "runtime/execute/stall_report.hpp"
 #include "runtime/execute/walk.hpp"
 #include "runtime/execute/watchdog.hpp"
-#include "runtime/profile/clock.hpp"
 
 namespace tamp::runtime
 {

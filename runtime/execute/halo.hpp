@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "runtime/data/warehouse.hpp"
+#include "runtime/warehouse/warehouse.hpp"
 
 namespace tamp::runtime
 {

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "runtime/data/warehouse.hpp"
 #include "runtime/ranks/communicator.hpp"
+#include "runtime/warehouse/warehouse.hpp"
 
 namespace tamp::runtime
 {

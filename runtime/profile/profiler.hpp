@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "runtime/execute/bound_graph.hpp"
+#include "runtime/execute/clock.hpp"
 #include "runtime/execute/schedule.hpp"
-#include "runtime/profile/clock.hpp"
 
 namespace tamp::runtime
 {

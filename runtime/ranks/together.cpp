@@ -3,7 +3,7 @@
 #include <exception>
 #include <string>
 
-#include "runtime/storage/file_error.hpp"
+#include "runtime/file_error.hpp"
 
 namespace tamp::runtime
 {

@@ -7,10 +7,10 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "runtime/file_error.hpp"
 #include "runtime/ranks/together.hpp"
 #include "runtime/storage/checkpoint_reader.hpp"
 #include "runtime/storage/checkpoint_writer.hpp"
-#include "runtime/storage/file_error.hpp"
 #include "runtime/storage/sealed_file.hpp"
 #include "runtime/storage/whole_file.hpp"
 

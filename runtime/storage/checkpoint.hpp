@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
-#include "runtime/data/warehouse.hpp"
 #include "runtime/ranks/communicator.hpp"
 #include "runtime/storage/checkpoint_header.hpp"
+#include "runtime/warehouse/warehouse.hpp"
 
 /// A checkpoint is one file of all that a run needs to go on bit for bit, on any number of ranks: the state of every
 /// patch, and bytes of the host's own. All calls are collective, and what fails on one rank throws on all.

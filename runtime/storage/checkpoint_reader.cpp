@@ -5,9 +5,9 @@
 
 #include <sstream>
 
+#include "runtime/file_error.hpp"
 #include "runtime/storage/checkpoint_writer.hpp"
 #include "runtime/storage/checksum.hpp"
-#include "runtime/storage/file_error.hpp"
 
 namespace tamp::runtime
 {

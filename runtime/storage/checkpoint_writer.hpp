@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "runtime/data/warehouse.hpp"
 #include "runtime/ranks/communicator.hpp"
 #include "runtime/storage/checkpoint_header.hpp"
+#include "runtime/warehouse/warehouse.hpp"
 
 namespace tamp::runtime
 {

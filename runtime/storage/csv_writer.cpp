@@ -10,7 +10,7 @@
 #include <optional>
 #include <stdexcept>
 
-#include "runtime/storage/file_error.hpp"
+#include "runtime/file_error.hpp"
 #include "runtime/storage/whole_file.hpp"
 
 namespace tamp::runtime

@@ -1,7 +1,7 @@
 #include "runtime/storage/dataset_writer.hpp"
 
+#include "runtime/file_error.hpp"
 #include "runtime/ranks/together.hpp"
-#include "runtime/storage/file_error.hpp"
 
 namespace tamp::runtime
 {

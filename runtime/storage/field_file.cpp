@@ -7,8 +7,8 @@
 #include <cerrno>
 #include <cstring>
 
+#include "runtime/file_error.hpp"
 #include "runtime/ranks/together.hpp"
-#include "runtime/storage/file_error.hpp"
 #include "runtime/storage/hdf5.hpp"
 #include "runtime/storage/item_place.hpp"
 #include "runtime/storage/reserve_room.hpp"

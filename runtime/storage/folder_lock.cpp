@@ -17,7 +17,7 @@
 #include <system_error>
 #include <utility>
 
-#include "runtime/storage/file_error.hpp"
+#include "runtime/file_error.hpp"
 
 namespace tamp::runtime
 {

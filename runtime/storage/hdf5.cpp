@@ -1,6 +1,6 @@
 #include "runtime/storage/hdf5.hpp"
 
-#include "runtime/storage/file_error.hpp"
+#include "runtime/file_error.hpp"
 
 namespace tamp::runtime::hdf5
 {

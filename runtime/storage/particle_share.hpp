@@ -1,8 +1,8 @@
 #pragma once
 
-#include "runtime/data/warehouse.hpp"
 #include "runtime/ranks/communicator.hpp"
 #include "runtime/storage/row_share.hpp"
+#include "runtime/warehouse/warehouse.hpp"
 
 namespace tamp::runtime
 {

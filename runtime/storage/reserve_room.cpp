@@ -6,7 +6,7 @@
 #include <cerrno>
 #include <cstring>
 
-#include "runtime/storage/file_error.hpp"
+#include "runtime/file_error.hpp"
 
 namespace tamp::runtime
 {

@@ -10,9 +10,9 @@
 #include <span>
 #include <string>
 
+#include "runtime/file_error.hpp"
 #include "runtime/ranks/together.hpp"
 #include "runtime/storage/checksum.hpp"
-#include "runtime/storage/file_error.hpp"
 #include "runtime/storage/known_by_all.hpp"
 
 namespace tamp::runtime

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "runtime/data/warehouse.hpp"
 #include "runtime/ranks/communicator.hpp"
+#include "runtime/warehouse/warehouse.hpp"
 
 namespace tamp::runtime
 {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <charconv>
 
-#include "runtime/storage/file_error.hpp"
+#include "runtime/file_error.hpp"
 #include "runtime/storage/hdf5.hpp"
 #include "runtime/storage/step_path.hpp"
 

@@ -1,6 +1,6 @@
 #include <catch2/catch.hpp>
 
-#include "runtime/storage/file_error.hpp"
+#include "runtime/file_error.hpp"
 #include "tests/tools/temporary_folder.hpp"
 #include "tools/errors.hpp"
 #include "tools/run/run_folder.hpp"

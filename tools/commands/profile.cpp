@@ -3,8 +3,8 @@
 #include <filesystem>
 #include <memory>
 
+#include "runtime/file_error.hpp"
 #include "runtime/profile/report.hpp"
-#include "runtime/storage/file_error.hpp"
 #include "tools/commands/commands.hpp"
 #include "tools/console.hpp"
 #include "tools/scene/parse_json.hpp"

@@ -6,7 +6,7 @@
 #include <regex>
 #include <vector>
 
-#include "runtime/storage/file_error.hpp"
+#include "runtime/file_error.hpp"
 #include "runtime/storage/whole_file.hpp"
 #include "tools/errors.hpp"
 

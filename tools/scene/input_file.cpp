@@ -6,8 +6,8 @@
 #include <fstream>
 #include <span>
 
+#include "runtime/file_error.hpp"
 #include "runtime/storage/checksum.hpp"
-#include "runtime/storage/file_error.hpp"
 #include "tools/errors.hpp"
 
 namespace tamp::tools

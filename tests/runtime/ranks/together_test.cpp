@@ -1,8 +1,8 @@
 #include <catch2/catch.hpp>
 #include <stdexcept>
 
+#include "runtime/file_error.hpp"
 #include "runtime/ranks/together.hpp"
-#include "runtime/storage/file_error.hpp"
 #include "runtime/storage/known_by_all.hpp"
 
 using namespace tamp::runtime;

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "runtime/data/warehouse.hpp"
 #include "runtime/ranks/communicator.hpp"
+#include "runtime/warehouse/warehouse.hpp"
 
 namespace tamp::test
 {

@@ -3,7 +3,7 @@
 #include <catch2/catch.hpp>
 
 #include "file_size_limit.hpp"
-#include "runtime/storage/file_error.hpp"
+#include "runtime/file_error.hpp"
 #include "state_scene.hpp"
 #include "stored_data.hpp"
 #include "temporary_folder.hpp"

@@ -2,8 +2,8 @@
 #include <catch2/catch.hpp>
 #include <filesystem>
 
+#include "runtime/file_error.hpp"
 #include "runtime/storage/csv_writer.hpp"
-#include "runtime/storage/file_error.hpp"
 #include "runtime/storage/whole_file.hpp"
 #include "tests/runtime/storage/stored_data.hpp"
 #include "tests/runtime/storage/temporary_folder.hpp"

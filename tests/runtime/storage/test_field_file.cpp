@@ -4,8 +4,8 @@
 #include <catch2/catch.hpp>
 #include <filesystem>
 
+#include "runtime/file_error.hpp"
 #include "runtime/storage/field_file.hpp"
-#include "runtime/storage/file_error.hpp"
 #include "tests/runtime/storage/file_size_limit.hpp"
 #include "tests/runtime/storage/stored_data.hpp"
 #include "tests/runtime/storage/temporary_folder.hpp"

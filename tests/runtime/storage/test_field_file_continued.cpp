@@ -3,8 +3,8 @@
 
 #include <catch2/catch.hpp>
 
+#include "runtime/file_error.hpp"
 #include "runtime/storage/field_file.hpp"
-#include "runtime/storage/file_error.hpp"
 #include "tests/runtime/storage/stored_data.hpp"
 #include "tests/runtime/storage/temporary_folder.hpp"
 #include "tests/runtime/storage/two_particles.hpp"

@@ -4,7 +4,7 @@
 #include <catch2/catch.hpp>
 #include <chrono>
 
-#include "runtime/storage/file_error.hpp"
+#include "runtime/file_error.hpp"
 #include "runtime/storage/folder_lock.hpp"
 #include "tests/runtime/storage/stored_data.hpp"
 #include "tests/runtime/storage/temporary_folder.hpp"

@@ -1,7 +1,7 @@
 #include <catch2/catch.hpp>
 #include <numbers>
 
-#include "runtime/storage/file_error.hpp"
+#include "runtime/file_error.hpp"
 #include "tests/tools/temporary_folder.hpp"
 #include "tools/drive/read_path.hpp"
 #include "tools/errors.hpp"

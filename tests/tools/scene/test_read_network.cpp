@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "runtime/storage/file_error.hpp"
+#include "runtime/file_error.hpp"
 #include "tests/tools/problems.hpp"
 #include "tests/tools/scene/keras_file.hpp"
 #include "tests/tools/scene/small_models.hpp"

@@ -1,6 +1,6 @@
 #include <catch2/catch.hpp>
 
-#include "runtime/storage/file_error.hpp"
+#include "runtime/file_error.hpp"
 #include "tests/tools/scene/small_scene.hpp"
 #include "tools/scene/print_json.hpp"
 

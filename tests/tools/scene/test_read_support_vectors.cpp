@@ -2,7 +2,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "runtime/storage/file_error.hpp"
+#include "runtime/file_error.hpp"
 #include "tests/tools/problems.hpp"
 #include "tests/tools/scene/small_models.hpp"
 #include "tools/scene/read_support_vectors.hpp"

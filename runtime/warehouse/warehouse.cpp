@@ -1,4 +1,4 @@
-#include "runtime/data/warehouse.hpp"
+#include "runtime/warehouse/warehouse.hpp"
 
 #include <algorithm>
 #include <stdexcept>
