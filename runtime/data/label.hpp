@@ -34,8 +34,8 @@ class Label
 {
  public:
   Label(std::string name, Centring centring, std::size_t value_bytes, const ReductionOperations* reduction,
-        AddValues add)
-      : name_(std::move(name)), centring_(centring), value_bytes_(value_bytes), reduction_(reduction), add_(add)
+        AddValues add_values)
+      : name_(std::move(name)), centring_(centring), value_bytes_(value_bytes), reduction_(reduction), add_(add_values)
   {
   }
   Label(const Label&) = delete;

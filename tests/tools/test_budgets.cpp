@@ -16,7 +16,7 @@ Outcome checked_with(const std::string& assignments)
 {
   const TemporaryFolder folder;
   const std::string file = folder.write("small.json", small_scene).string();
-  return outcome_of("timeout 20 " TAMP_PROGRAM " check " + file + " " + assignments);
+  return outcome_of("timeout 120 " TAMP_PROGRAM " check " + file + " " + assignments);
 }
 
 std::string repeated(const std::string& text, int n)
@@ -70,7 +70,7 @@ TEST_CASE("what is no file is refused as an input")
   for (const std::string& file : {fifo, std::string("/dev/zero")}) {
     for (const std::string& command :
          std::vector<std::string>{"check ", "modulus --at 0.1,0.1 ", "drive " + file + " "}) {
-      const Outcome outcome = outcome_of("timeout 20 " TAMP_PROGRAM " " + command + file);
+      const Outcome outcome = outcome_of("timeout 120 " TAMP_PROGRAM " " + command + file);
       INFO(command << file << ": " << outcome.err);
       CHECK(outcome.exit_code == 2);
     }
@@ -101,7 +101,7 @@ TEST_CASE("support vectors without number are refused")
   const TemporaryFolder folder;
   const auto file = folder.write("svr.json", R"({"support_vectors": [)" + repeated("[0,0],", 1'000'000) + "[0,0]]}");
 
-  const Outcome outcome = outcome_of("timeout 60 " TAMP_PROGRAM " modulus " + file.string() + " --at 0.1,0.1");
+  const Outcome outcome = outcome_of("timeout 240 " TAMP_PROGRAM " modulus " + file.string() + " --at 0.1,0.1");
 
   CHECK(outcome.exit_code == 2);
   CHECK_THAT(outcome.err, Catch::Contains("1000001 of them; expected at most"));
