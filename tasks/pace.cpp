@@ -67,7 +67,7 @@ std::optional<Trial> tried(const Scene& scene, int factor, double seconds)
   simulation->record(false);
   const double start = processor_seconds();
   Trial trial{factor, {{}}};
-  while (!trial.complete() && trial.progress.back().seconds < seconds) {
+  while (!trial.complete() && trial.end().seconds < seconds) {
     simulation->advance(scene.time.end);
     trial.progress.push_back(
         {simulation->time() / scene.time.end, static_cast<double>(simulation->n_steps()), processor_seconds() - start});
@@ -83,7 +83,7 @@ Pace extrapolated(const Trial& fine, const Trial* coarse, int dimension)
   const Progress& reached = fine.end();
   double more_steps = 1 / reached.part, more_seconds = 1 / reached.part, power = 0;
   if (coarse != nullptr) {
-    constexpr double greatest_power = 0.35;  // of the runs in docs/failures.md
+    constexpr double greatest_power = 0.35;  // chosen by the runs in docs/failures.md
     const Progress &there = coarse->at(reached.part), &end = coarse->end();
     more_steps = end.n_steps / there.n_steps;
     more_seconds = end.seconds / there.seconds;
@@ -102,7 +102,9 @@ std::vector<Trial> trials_of(const Scene& scene, double seconds)
   // More are not laid out and begun within the time.
   constexpr double most_particles = 150'000, most_bytes = 3e8;
   constexpr int greatest_factor = 32;
-  const double n_particles = static_cast<double>(demand_of(scene).n_particles), end = processor_seconds() + seconds;
+  double n_particles = 0;
+  for (const SceneBody& body : scene.bodies) n_particles += static_cast<double>(body.n_particles);
+  const double end = processor_seconds() + seconds;
   std::vector<Trial> trials;
   for (int factor = greatest_factor; factor >= 1; --factor) {
     const double left = end - processor_seconds();

@@ -31,7 +31,7 @@ class Buffer
   std::size_t capacity() const { return capacity_; }
 
   /// Makes room for `bytes`, keeping what is there. Grows by a sixteenth at least, so that slow growth stays
-  /// cheap and takes no more memory than was forecast.
+  /// cheap and takes little more memory than was forecast.
   void reserve(std::size_t bytes)
   {
     if (bytes > capacity_) resize_storage(capacity_ == 0 ? bytes : std::max(bytes, capacity_ + capacity_ / 16));

@@ -57,7 +57,7 @@ class BoundGraph final : public Work
     /// One for each label.
     std::vector<BoundHalo> halos;
     bool uses_particles = false;
-    /// Of each argument, whether a part is begun with it, and not gone on with.
+    /// For each argument: whether this task is the first that adds to the patch's part.
     std::vector<bool> begins_part;
     /// Whether it may be skipped: where these particles are none and these fields are zero.
     bool is_sparse = false;

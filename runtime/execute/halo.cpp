@@ -84,13 +84,14 @@ bool sum_halo(const BoundHalo& halo)
 {
   halo.to->make_zero(FieldBuffer::current);
   std::byte* const sums = halo.to->current_buffer.data();
+  const AddValues add = halo.to->label->add();
   bool any = false;
   for (const auto& [from, box] : halo.parts) {
     if (from->is_zero(FieldBuffer::part)) continue;
     any = true;
     const std::byte* const values = from->part_buffer.data();
     for_each_row(box, *halo.to, *from, [&](std::size_t to_offset, std::size_t from_offset, std::size_t bytes) {
-      halo.to->label->add()(sums + to_offset, values + from_offset, bytes);
+      add(sums + to_offset, values + from_offset, bytes);
     });
   }
   if (any) halo.to->note_written(FieldBuffer::current);

@@ -116,8 +116,9 @@ class TaskBuilder
   /// Node or cell data to which every patch adds its part; it starts at zero, and readers get the sum of all parts, by
   /// the values' +=. Several tasks may, for the same groups; a patch's part is theirs in the order of declaration.
   template <class... L>
-  requires(can_accumulate<L>&&...) auto accumulates(const L&... labels) &&
+  auto accumulates(const L&... labels) &&
   {
+    static_assert((can_accumulate<L> && ...), "what is accumulated has a +=");
     return std::move(*this).template with<Mode::accumulate>(reference(labels)...);
   }
   /// A part of one value over all patches and groups; it starts at the neutral value.

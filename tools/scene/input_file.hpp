@@ -26,7 +26,7 @@ struct InputFile {
   std::string hash;
 };
 
-/// Of a text, as 16 hexadecimal digits; that of a file is its content's.
+/// The hash of a text, as 16 hexadecimal digits. A file's is that of its content.
 std::string hash_of(const std::string& text);
 
 }  // namespace tamp::tools

@@ -182,7 +182,7 @@ TEST_CASE("tasks that accumulate one label add to it in the order of declaration
 
   for (const int p : {0, 1}) {
     const auto sums = row.warehouse.grid_result(sum, p, 0), taken = row.warehouse.grid_result(first, p, 0);
-    // Of a patch alone: 1e16 + 1 is 1e16. Beyond it, where the first task does not reach, 1 - 1e16.
+    // A patch's own nodes get 1e16 + 1 - 1e16, which is 0; those beyond, where the first task does not reach, 1 - 1e16.
     CHECK(sums[{p == 0 ? 0 : 6, 0, 0}] == 0);
     CHECK(sums[{3, 0, 0}] == 0);
     CHECK(sums[{2, 0, 0}] == 1 - 1e16);
