@@ -61,8 +61,10 @@ runtime::TaskDeclaration accelerate_nodes(const Method<Interpolator>& method)
       .sparse()
       .reads(node::sums<D>.halo(1))
       .computes(node::motion<D>.halo(1), node::inverse_mass.halo(1))
-      .body([&method](const TaskContext& at, GridView<const NodeSums<D>> sums, GridView<NodeMotion<D>> motion,
-                      GridView<double> inverse_mass) {
+      .body([&method](const TaskContext& at, auto data) {
+        const auto sums = data[node::sums<D>];
+        const auto motion = data[node::motion<D>];
+        const auto inverse_mass = data[node::inverse_mass];
         const double kick = 0.5 * (at.step.previous_size + at.step.size);
         for_each(sums.box(), [&](const Index& i) {
           const NodeSums<D>& node = sums[i];

@@ -90,8 +90,11 @@ runtime::TaskDeclaration contact(const Method<Interpolator>& method)
       .reads(node::sums<D>.halo(1).every_group())
       .updates(node::motion<D>.halo(1).every_group())
       .reduces(step_totals, contact_impulses)
-      .body([&method](const TaskContext& at, const PerGroup<GridView<const NodeSums<D>>>& sums,
-                      const PerGroup<GridView<NodeMotion<D>>>& motions, StepTotals& totals, ContactImpulses& impulses) {
+      .body([&method](const TaskContext& at, auto data) {
+        const auto sums = data[node::sums<D>];
+        const auto motions = data[node::motion<D>];
+        StepTotals& totals = data[step_totals];
+        ContactImpulses& impulses = data[contact_impulses];
         const std::size_t n_groups = sums.size();
         const components::ContactThresholds thresholds = contact_thresholds(method);
         const runtime::IndexBox counted = counted_nodes(method, at);

@@ -10,10 +10,8 @@
 namespace tamp::tasks
 {
 
-using components::NodeMotion;
 using components::ParticleMotion;
 using components::StrainIncrement;
-using runtime::GridView;
 using runtime::TaskContext;
 
 /// Particles worked on together: their numbers between two kernels stay in the first-level cache.
@@ -21,7 +19,7 @@ constexpr std::size_t batch = 32;
 
 /// Particles keep their velocity and take the nodes' changes of it (FLIP). What deforms them is the gradient of the
 /// velocity at the middle of the step, over the shape at its middle (eqs 54-58); the old stress turns with them, and
-/// what the material answers is added by the next phase. `velocity_gradient` is there where the transfer is affine.
+/// what the material answers is added by the next phase.
 template <class Interpolator>
 runtime::TaskDeclaration grid_to_particles(const Method<Interpolator>& method)
 {
@@ -36,15 +34,22 @@ runtime::TaskDeclaration grid_to_particles(const Method<Interpolator>& method)
                  particle::stress<D>.previous())
           .computes(particle::position<D>, particle::velocity<D>, particle::deformation_gradient<D>, particle::volume,
                     particle::stress<D>, particle::strain_increment<D>, particle::own_stiffness);
-  const auto body = [&method](const TaskContext& at, GridView<const double> inverse_mass,
-                              GridView<const NodeMotion<D>> nodes, std::span<const std::int64_t> id,
-                              std::span<const double> mass, std::span<const Vector<D>> old_position,
-                              std::span<const Vector<D>> old_velocity, std::span<const Matrix<D>> old_deformation,
-                              std::span<const double> old_volume, std::span<const SymmetricTensor<D>> old_stress,
-                              std::span<Vector<D>> position, std::span<Vector<D>> velocity,
-                              std::span<Matrix<D>> deformation, std::span<double> volume,
-                              std::span<SymmetricTensor<D>> stress, std::span<SymmetricTensor<D>> strain,
-                              std::span<double> own_stiffness, auto... velocity_gradient) {
+  const auto body = [&method](const TaskContext& at, auto data) {
+    const auto inverse_mass = data[node::inverse_mass];
+    const auto nodes = data[node::motion<D>];
+    const auto mass = data[particle::mass.previous()];
+    const auto old_position = data[particle::position<D>.previous()];
+    const auto position = data[particle::position<D>];
+    const auto old_velocity = data[particle::velocity<D>.previous()];
+    const auto velocity = data[particle::velocity<D>];
+    const auto old_deformation = data[particle::deformation_gradient<D>.previous()];
+    const auto deformation = data[particle::deformation_gradient<D>];
+    const auto old_volume = data[particle::volume.previous()];
+    const auto volume = data[particle::volume];
+    const auto old_stress = data[particle::stress<D>.previous()];
+    const auto stress = data[particle::stress<D>];
+    const auto strain = data[particle::strain_increment<D>];
+    const auto own_stiffness = data[particle::own_stiffness];
     const auto block = block_of<D>(at.layout, nodes);
     const auto& interpolator = method.interpolator(at.group);
     const bool viscous_rule = method.time_step_rule == StepRule::viscous;
@@ -65,12 +70,11 @@ runtime::TaskDeclaration grid_to_particles(const Method<Interpolator>& method)
         const StrainIncrement<D>& step = steps[i];
         if (!step.admissible()) {
           const auto& material = method.materials[static_cast<std::size_t>(at.group)];
-          throw SimulationError("a particle is turned inside out", material.name, id[p],
+          throw SimulationError("a particle is turned inside out", material.name, data[particle::id.previous()][p],
                                 {old_position[p].begin(), old_position[p].end()});
         }
         position[p] = old_position[p] + dt * motion[i].velocity;
         velocity[p] = old_velocity[p] + motion[i].velocity_change;
-        ((velocity_gradient[p] = motion[i].velocity_gradient), ...);
         deformation[p] = step.deformation_gradient;
         volume[p] = old_volume[p] * step.volume_ratio;
         stress[p] = rotated<D>(old_stress[p], step.rotation_increment);
@@ -78,6 +82,10 @@ runtime::TaskDeclaration grid_to_particles(const Method<Interpolator>& method)
         own_stiffness[p] =
             viscous_rule ? components::own_stiffness(interpolator, block, old_position[p], mass[p], inverse_mass.data())
                          : 0;
+      }
+      if constexpr (data.has(particle::velocity_gradient<D>)) {
+        const auto gradient = data[particle::velocity_gradient<D>].subspan(first, size);
+        for (std::size_t i = 0; i < size; ++i) gradient[i] = motion[i].velocity_gradient;
       }
     }
   };

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <array>
 #include <cstdint>
 
 #include "components/contact/logistic_plane.hpp"
@@ -20,36 +19,36 @@ namespace particle
 {
 
 /// Number in the scene, from 0, the same for any cut into patches.
-inline const runtime::ParticleLabel<std::int64_t> id{"id"};
+inline const runtime::ParticleLabel<std::int64_t, "id"> id;
 /// The body it was made for: its place in the scene's list.
-inline const runtime::ParticleLabel<std::int64_t> body{"body"};
+inline const runtime::ParticleLabel<std::int64_t, "body"> body;
 /// Where it was at the start [m].
 template <int D>
-inline const runtime::ParticleLabel<Vector<D>> reference_position{"reference position"};
-inline const runtime::ParticleLabel<double> mass{"mass"};
+inline const runtime::ParticleLabel<Vector<D>, "reference position"> reference_position;
+inline const runtime::ParticleLabel<double, "mass"> mass;
 template <int D>
-inline const runtime::ParticleLabel<Vector<D>> position{"position"};
+inline const runtime::ParticleLabel<Vector<D>, "position"> position;
 /// At the middle of the step that led here: half a step behind the position (leapfrog).
 template <int D>
-inline const runtime::ParticleLabel<Vector<D>> velocity{"velocity"};
+inline const runtime::ParticleLabel<Vector<D>, "velocity"> velocity;
 /// Of the step that led here, at its middle [1/s]; row: component of velocity. Where the transfer is affine.
 template <int D>
-inline const runtime::ParticleLabel<Matrix<D>> velocity_gradient{"velocity gradient"};
+inline const runtime::ParticleLabel<Matrix<D>, "velocity gradient"> velocity_gradient;
 template <int D>
-inline const runtime::ParticleLabel<Matrix<D>> deformation_gradient{"deformation gradient"};
-inline const runtime::ParticleLabel<double> volume{"volume"};
+inline const runtime::ParticleLabel<Matrix<D>, "deformation gradient"> deformation_gradient;
+inline const runtime::ParticleLabel<double, "volume"> volume;
 /// Cauchy stress [Pa].
 template <int D>
-inline const runtime::ParticleLabel<SymmetricTensor<D>> stress{"stress"};
+inline const runtime::ParticleLabel<SymmetricTensor<D>, "stress"> stress;
 /// Of artificial viscosity [Pa], compression positive.
-inline const runtime::ParticleLabel<double> viscous_pressure{"viscous pressure"};
+inline const runtime::ParticleLabel<double, "viscous pressure"> viscous_pressure;
 /// Of particles whose material is a tabular cap model.
-inline const runtime::ParticleLabel<components::CapState> cap_state{"cap state"};
+inline const runtime::ParticleLabel<components::CapState, "cap state"> cap_state;
 /// In the nodes of this step, see components::own_stiffness; 0 where the rule for the time step does not ask.
-inline const runtime::ParticleLabel<double> own_stiffness{"own stiffness"};
+inline const runtime::ParticleLabel<double, "own stiffness"> own_stiffness;
 /// Of this step, in the frame of its end.
 template <int D>
-inline const runtime::ParticleLabel<SymmetricTensor<D>> strain_increment{"strain increment"};
+inline const runtime::ParticleLabel<SymmetricTensor<D>, "strain increment"> strain_increment;
 
 }  // namespace particle
 
@@ -57,27 +56,27 @@ namespace node
 {
 
 template <int D>
-inline const runtime::NodeLabel<components::NodeSums<D>> sums{"node sums"};
+inline const runtime::NodeLabel<components::NodeSums<D>, "node sums"> sums;
 template <int D>
-inline const runtime::NodeLabel<components::NodeMotion<D>> motion{"node motion"};
+inline const runtime::NodeLabel<components::NodeMotion<D>, "node motion"> motion;
 /// 0 at nodes that hardly exist [1/kg].
-inline const runtime::NodeLabel<double> inverse_mass{"inverse mass"};
+inline const runtime::NodeLabel<double, "inverse mass"> inverse_mass;
 template <int D>
-inline const runtime::NodeLabel<components::ContactPlane<D>> contact_plane{"contact plane"};
+inline const runtime::NodeLabel<components::ContactPlane<D>, "contact plane"> contact_plane;
 /// One for each pass over the particles that turns the planes.
 template <int D>
-inline const std::array<runtime::NodeLabel<components::RegressionSums<D>>, 2> regression_sums{
-    runtime::NodeLabel<components::RegressionSums<D>>{"regression sums 1"},
-    runtime::NodeLabel<components::RegressionSums<D>>{"regression sums 2"}};
+inline const runtime::NodeLabel<components::RegressionSums<D>, "regression sums 1"> first_regression_sums;
 template <int D>
-inline const runtime::NodeLabel<components::EdgeSums<D>> edge_sums{"edge sums"};
+inline const runtime::NodeLabel<components::RegressionSums<D>, "regression sums 2"> second_regression_sums;
+template <int D>
+inline const runtime::NodeLabel<components::EdgeSums<D>, "edge sums"> edge_sums;
 
 }  // namespace node
 
 /// What a step adds to the energies, and how long the next may be.
-inline const runtime::ReductionLabel<StepTotals> step_totals{"step totals"};
-inline const runtime::ReductionLabel<GridImpulse> grid_impulse{"grid impulse"};
-inline const runtime::ReductionLabel<ContactImpulses> contact_impulses{"contact impulses"};
-inline const runtime::ReductionLabel<RigidCouplings> rigid_couplings{"rigid couplings"};
+inline const runtime::ReductionLabel<StepTotals, "step totals"> step_totals;
+inline const runtime::ReductionLabel<GridImpulse, "grid impulse"> grid_impulse;
+inline const runtime::ReductionLabel<ContactImpulses, "contact impulses"> contact_impulses;
+inline const runtime::ReductionLabel<RigidCouplings, "rigid couplings"> rigid_couplings;
 
 }  // namespace tamp::tasks

@@ -102,8 +102,9 @@ runtime::TaskDeclaration lay_planes(const Method<Interpolator>& method)
       .sparse()
       .reads(node::sums<D>.halo(1).every_group())
       .computes(node::contact_plane<D>.halo(1).every_group())
-      .body([&method](const TaskContext& at, const PerGroup<GridView<const NodeSums<D>>>& sums,
-                      const PerGroup<GridView<ContactPlane<D>>>& planes) {
+      .body([&method](const TaskContext& at, auto data) {
+        const auto sums = data[node::sums<D>];
+        const auto planes = data[node::contact_plane<D>];
         for_each(sums[0].box(), [&](const Index& i) {
           for (const GridView<ContactPlane<D>>& plane : planes) plane[i] = {};
           if (const auto pair = pair_at(method, sums, i)) {
@@ -117,9 +118,9 @@ runtime::TaskDeclaration lay_planes(const Method<Interpolator>& method)
 }
 
 /// A pass over the particles that adds to `sums`, as `add(plane, S_ip, x, size, sum)` says, at nodes with a plane.
-template <class Interpolator, class Sums, class Add>
-runtime::TaskDeclaration sum_at_planes(const Method<Interpolator>& method, std::string name,
-                                       const runtime::NodeLabel<Sums>& label, Add add)
+template <class Interpolator, class Label, class Add>
+runtime::TaskDeclaration sum_at_planes(const Method<Interpolator>& method, std::string name, const Label& label,
+                                       Add add)
 {
   constexpr int D = Interpolator::dimension;
   return runtime::task(std::move(name))
@@ -127,8 +128,10 @@ runtime::TaskDeclaration sum_at_planes(const Method<Interpolator>& method, std::
       .sparse()
       .reads(node::contact_plane<D>.halo(1), particle::position<D>.previous())
       .accumulates(label.halo(1))
-      .body([&method, add](const TaskContext& at, GridView<const ContactPlane<D>> planes,
-                           std::span<const Vector<D>> position, GridView<Sums> sums) {
+      .body([&method, &label, add](const TaskContext& at, auto data) {
+        const auto planes = data[node::contact_plane<D>];
+        const auto position = data[particle::position<D>.previous()];
+        const auto sums = data[label];
         if (!any_starts(planes)) return;
         const Interpolator& interpolator = method.interpolator(at.group);
         const double size = 2 * interpolator.half_size();
@@ -140,17 +143,18 @@ runtime::TaskDeclaration sum_at_planes(const Method<Interpolator>& method, std::
       });
 }
 
-template <class Interpolator, int D = Interpolator::dimension>
-runtime::TaskDeclaration turn_planes(const Method<Interpolator>& method, std::string name,
-                                     const runtime::NodeLabel<RegressionSums<D>>& label)
+template <class Interpolator, class Label>
+runtime::TaskDeclaration turn_planes(const Method<Interpolator>& method, std::string name, const Label& label)
 {
+  constexpr int D = Interpolator::dimension;
   return runtime::task(std::move(name))
       .over_patches()
       .sparse()
       .reads(label.halo(1).every_group())
       .updates(node::contact_plane<D>.halo(1).every_group())
-      .body([&method](const TaskContext& at, const PerGroup<GridView<const RegressionSums<D>>>& sums,
-                      const PerGroup<GridView<ContactPlane<D>>>& planes) {
+      .body([&method, &label](const TaskContext& at, auto data) {
+        const auto sums = data[label];
+        const auto planes = data[node::contact_plane<D>];
         for_each(planes[0].box(), [&](const Index& i) {
           const auto pair = parted_at<D>(planes, i);
           if (!pair) return;
@@ -176,10 +180,11 @@ runtime::TaskDeclaration face_materials(const Method<Interpolator>& method)
       .reads(node::contact_plane<D>.halo(1).every_group(), node::edge_sums<D>.halo(1).every_group(),
              node::motion<D>.halo(1).every_group())
       .updates(node::sums<D>.halo(1).every_group())
-      .body([&method](const TaskContext& at, const PerGroup<GridView<const ContactPlane<D>>>& planes,
-                      const PerGroup<GridView<const EdgeSums<D>>>& edges,
-                      const PerGroup<GridView<const NodeMotion<D>>>& motions,
-                      const PerGroup<GridView<NodeSums<D>>>& sums) {
+      .body([&method](const TaskContext& at, auto data) {
+        const auto planes = data[node::contact_plane<D>];
+        const auto edges = data[node::edge_sums<D>];
+        const auto motions = data[node::motion<D>];
+        const auto sums = data[node::sums<D>];
         const auto edge = [&](std::size_t g, const Index& i) {
           return method.cell_size * edges[g][i].edge(2 * method.interpolator(static_cast<int>(g)).half_size());
         };
@@ -206,14 +211,14 @@ std::vector<runtime::TaskDeclaration> part_materials(const Method<Interpolator>&
 {
   constexpr int D = Interpolator::dimension;
   std::vector<runtime::TaskDeclaration> phases{lay_planes(method)};
-  for (std::size_t pass = 0; pass < node::regression_sums<D>.size(); ++pass) {
-    const auto& label = node::regression_sums<D>[pass];
-    const std::string number = " " + std::to_string(pass + 1);
-    phases.push_back(sum_at_planes(method, "regress contact" + number, label,
+  const auto regress = [&](const std::string& pass, const auto& label) {
+    phases.push_back(sum_at_planes(method, "regress contact " + pass, label,
                                    [](const ContactPlane<D>& plane, double shape, const Vector<D>& x, double,
                                       RegressionSums<D>& sums) { sums.add(plane, shape, x); }));
-    phases.push_back(turn_planes(method, "turn contact planes" + number, label));
-  }
+    phases.push_back(turn_planes(method, "turn contact planes " + pass, label));
+  };
+  regress("1", node::first_regression_sums<D>);
+  regress("2", node::second_regression_sums<D>);
   phases.push_back(sum_at_planes(method, "find edges", node::edge_sums<D>,
                                  [](const ContactPlane<D>& plane, double shape, const Vector<D>& x, double size,
                                     EdgeSums<D>& sums) { sums.add(plane, shape, x, size); }));

@@ -6,12 +6,9 @@
 namespace tamp::tasks
 {
 
-using components::NodeSums;
 using components::SymmetryWall;
-using runtime::GridView;
 using runtime::TaskContext;
 
-/// `velocity_gradient` is there where the transfer is affine.
 template <class Interpolator>
 runtime::TaskDeclaration particles_to_grid(const Method<Interpolator>& method)
 {
@@ -23,16 +20,21 @@ runtime::TaskDeclaration particles_to_grid(const Method<Interpolator>& method)
           .reads(particle::position<D>.previous(), particle::velocity<D>.previous(), particle::mass.previous(),
                  particle::volume.previous(), particle::stress<D>.previous(), particle::viscous_pressure.previous())
           .accumulates(node::sums<D>.halo(1));
-  const auto body = [&method](const TaskContext& at, std::span<const Vector<D>> position,
-                              std::span<const Vector<D>> velocity, std::span<const double> mass,
-                              std::span<const double> volume, std::span<const SymmetricTensor<D>> stress,
-                              std::span<const double> viscous_pressure, GridView<NodeSums<D>> sums,
-                              auto... velocity_gradient) {
+  const auto body = [&method](const TaskContext& at, auto data) {
+    const auto sums = data[node::sums<D>];
     const auto block = block_of<D>(at.layout, sums);
     const Interpolator& interpolator = method.interpolator(at.group);
-    components::particles_to_grid(interpolator, block, {position, velocity, mass, volume, stress, viscous_pressure},
-                                  sums.data());
-    (components::add_gradient_momentum(interpolator, block, position, mass, velocity_gradient, sums.data()), ...);
+    const components::ParticleSources<D> sources{.position = data[particle::position<D>.previous()],
+                                                 .velocity = data[particle::velocity<D>.previous()],
+                                                 .mass = data[particle::mass.previous()],
+                                                 .volume = data[particle::volume.previous()],
+                                                 .stress = data[particle::stress<D>.previous()],
+                                                 .viscous_pressure = data[particle::viscous_pressure.previous()]};
+    components::particles_to_grid(interpolator, block, sources, sums.data());
+    if constexpr (data.has(particle::velocity_gradient<D>)) {
+      components::add_gradient_momentum(interpolator, block, sources.position, sources.mass,
+                                        data[particle::velocity_gradient<D>.previous()], sums.data());
+    }
     // The image behind a mirror gives to the grid as the particles do.
     for_each_wall(method, at, sums.box(), [&](const SymmetryWall<D>& wall) { wall.fold(sums.data()); });
   };

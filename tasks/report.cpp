@@ -43,12 +43,16 @@ void report_rigid_motion(const TaskContext& at, const RigidBody& body, ParticleR
   report.bodies[static_cast<std::size_t>(body.body)] = sums_of(body.properties, body.state);
 }
 
-template <class Interpolator, int D = Interpolator::dimension>
-void report_motion(const Method<Interpolator>& method, const TaskContext& at, std::span<const std::int64_t> body,
-                   std::span<const double> mass, std::span<const Vector<D>> position,
-                   std::span<const Vector<D>> reference, std::span<const Vector<D>> velocity,
-                   std::span<const SymmetricTensor<D>> stress, ParticleReport& report)
+template <class Interpolator, class Data, int D = Interpolator::dimension>
+void report_motion(const Method<Interpolator>& method, const TaskContext& at, const Data& data)
 {
+  const auto body = data[particle::body.previous()];
+  const auto mass = data[particle::mass.previous()];
+  const auto position = data[particle::position<D>.previous()];
+  const auto reference = data[particle::reference_position<D>.previous()];
+  const auto velocity = data[particle::velocity<D>.previous()];
+  const auto stress = data[particle::stress<D>.previous()];
+  ParticleReport& report = data[particle_report];
   for (std::size_t p = 0; p < mass.size(); ++p) {
     report.gravity_work += mass[p] * work_function(method, position[p]);
     report.materials[static_cast<std::size_t>(at.group)].add(stress[p]);
@@ -71,10 +75,7 @@ runtime::TaskDeclaration report_of(const Method<Interpolator>& method, int group
 {
   return report_task<Interpolator::dimension>(name, group)
       .reduces(particle_report)
-      .body([&method](const TaskContext& at, auto body, auto mass, auto position, auto reference, auto velocity,
-                      auto stress, ParticleReport& report) {
-        report_motion(method, at, body, mass, position, reference, velocity, stress, report);
-      });
+      .body([&method](const TaskContext& at, auto data) { report_motion(method, at, data); });
 }
 
 template <class Interpolator>
@@ -84,11 +85,10 @@ runtime::TaskDeclaration report_of(const Method<Interpolator>& method, int group
   return report_task<Interpolator::dimension>(name, group)
       .reads(particle::cap_state.previous())
       .reduces(particle_report)
-      .body([&method, &sand](const TaskContext& at, auto body, auto mass, auto position, auto reference, auto velocity,
-                             auto stress, std::span<const CapState> state, ParticleReport& report) {
-        report_motion(method, at, body, mass, position, reference, velocity, stress, report);
-        MaterialPeaks& peaks = report.materials[static_cast<std::size_t>(at.group)];
-        for (const CapState& s : state) peaks.add(sand, s);
+      .body([&method, &sand](const TaskContext& at, auto data) {
+        report_motion(method, at, data);
+        MaterialPeaks& peaks = data[particle_report].materials[static_cast<std::size_t>(at.group)];
+        for (const CapState& s : data[particle::cap_state.previous()]) peaks.add(sand, s);
       });
 }
 
@@ -131,24 +131,25 @@ runtime::TaskDeclaration report_near_noses(const Method<Interpolator>& method, i
   const SceneMaterial& m = method.materials[static_cast<std::size_t>(group)];
   const auto* sand = std::get_if<components::TabularCap>(&m.model);
   if (sand == nullptr) {
-    return nose_task<D>(m.name, group)
-        .reduces(nose_report)
-        .body([&method](const TaskContext& at, const ParticleReport& whole, auto position, auto stress,
-                        NoseReport& report) {
-          const Noses noses(method.scene, whole);
-          MaterialPeaks& peaks = report.materials[static_cast<std::size_t>(at.group)];
-          for (std::size_t p = 0; p < position.size(); ++p) {
-            if (noses.are_near(in_space<D>(position[p]))) peaks.add(stress[p]);
-          }
-        });
+    return nose_task<D>(m.name, group).reduces(nose_report).body([&method](const TaskContext& at, auto data) {
+      const Noses noses(method.scene, data[particle_report]);
+      const auto position = data[particle::position<D>.previous()];
+      const auto stress = data[particle::stress<D>.previous()];
+      MaterialPeaks& peaks = data[nose_report].materials[static_cast<std::size_t>(at.group)];
+      for (std::size_t p = 0; p < position.size(); ++p) {
+        if (noses.are_near(in_space<D>(position[p]))) peaks.add(stress[p]);
+      }
+    });
   }
   return nose_task<D>(m.name, group)
       .reads(particle::cap_state.previous())
       .reduces(nose_report)
-      .body([&method, sand](const TaskContext& at, const ParticleReport& whole, auto position, auto stress, auto state,
-                            NoseReport& report) {
-        const Noses noses(method.scene, whole);
-        MaterialPeaks& peaks = report.materials[static_cast<std::size_t>(at.group)];
+      .body([&method, sand](const TaskContext& at, auto data) {
+        const Noses noses(method.scene, data[particle_report]);
+        const auto position = data[particle::position<D>.previous()];
+        const auto stress = data[particle::stress<D>.previous()];
+        const auto state = data[particle::cap_state.previous()];
+        MaterialPeaks& peaks = data[nose_report].materials[static_cast<std::size_t>(at.group)];
         for (std::size_t p = 0; p < position.size(); ++p) {
           if (!noses.are_near(in_space<D>(position[p]))) continue;
           peaks.add(stress[p]);

@@ -55,8 +55,8 @@ struct NoseReport {
   void combine(const NoseReport& other);
 };
 
-inline const runtime::ReductionLabel<ParticleReport> particle_report{"particle report"};
-inline const runtime::ReductionLabel<NoseReport> nose_report{"nose report"};
+inline const runtime::ReductionLabel<ParticleReport, "particle report"> particle_report;
+inline const runtime::ReductionLabel<NoseReport, "nose report"> nose_report;
 
 /// The tasks that make a `particle_report`, and a `nose_report` if a body has a nose, of the state at the end of the
 /// last step.

@@ -55,7 +55,9 @@ runtime::TaskDeclaration release_rigid_nodes(const Method<Interpolator>& method,
       .sparse()
       .reads(node::sums<D>.halo(1))
       .computes(node::motion<D>.halo(1))
-      .body([&method](const TaskContext& at, GridView<const NodeSums<D>> sums, GridView<NodeMotion<D>> motion) {
+      .body([&method](const TaskContext& at, auto data) {
+        const auto sums = data[node::sums<D>];
+        const auto motion = data[node::motion<D>];
         const RigidBody& body = *method.rigid_body(at.group);
         const components::RigidMotion free = components::motion_of(body.properties, body.free);
         for_each(motion.box(), [&](const Index& i) {
@@ -77,8 +79,10 @@ runtime::TaskDeclaration gather_rigid_contact(const Method<Interpolator>& method
       .sparse()
       .reads(node::sums<D>.halo(1).every_group(), node::motion<D>.halo(1).every_group())
       .reduces(rigid_couplings)
-      .body([&method](const TaskContext& at, const PerGroup<GridView<const NodeSums<D>>>& sums,
-                      const PerGroup<GridView<const NodeMotion<D>>>& motions, RigidCouplings& couplings) {
+      .body([&method](const TaskContext& at, auto data) {
+        const auto sums = data[node::sums<D>];
+        const auto motions = data[node::motion<D>];
+        RigidCouplings& couplings = data[rigid_couplings];
         NodeOfGroups<D> node;
         for_each(at.layout.owned_nodes(at.patch), [&](const Index& i) {
           if (node.gather(method, sums, motions, i) < 2) return;
@@ -99,9 +103,10 @@ runtime::TaskDeclaration move_rigid_nodes(const Method<Interpolator>& method)
       .sparse()
       .reads(rigid_couplings, node::sums<D>.halo(1).every_group())
       .updates(node::motion<D>.halo(1).every_group())
-      .body([&method](const TaskContext& at, const RigidCouplings& couplings,
-                      const PerGroup<GridView<const NodeSums<D>>>& sums,
-                      const PerGroup<GridView<NodeMotion<D>>>& motions) {
+      .body([&method](const TaskContext& at, auto data) {
+        const RigidCouplings& couplings = data[rigid_couplings];
+        const auto sums = data[node::sums<D>];
+        const auto motions = data[node::motion<D>];
         for (const RigidBody& body : method.rigid_bodies) {
           const auto g = static_cast<std::size_t>(body.group);
           const components::RigidMotion motion = couplings.by_group[g].solve(body.properties, body.free);
@@ -127,11 +132,18 @@ runtime::TaskDeclaration move_rigid_body(const Method<Interpolator>& method, int
       .computes(particle::position<D>, particle::velocity<D>, particle::deformation_gradient<D>, particle::volume,
                 particle::stress<D>, particle::viscous_pressure)
       .reduces(step_totals)
-      .body([&method](const TaskContext& at, const ContactImpulses& impulses, std::span<const std::int64_t> id,
-                      std::span<const Vector<D>> reference, std::span<const double> old_volume,
-                      std::span<Vector<D>> position, std::span<Vector<D>> velocity, std::span<Matrix<D>> deformation,
-                      std::span<double> volume, std::span<SymmetricTensor<D>> stress,
-                      std::span<double> viscous_pressure, StepTotals& totals) {
+      .body([&method](const TaskContext& at, auto data) {
+        const ContactImpulses& impulses = data[contact_impulses];
+        const auto id = data[particle::id.previous()];
+        const auto reference = data[particle::reference_position<D>.previous()];
+        const auto old_volume = data[particle::volume.previous()];
+        const auto position = data[particle::position<D>];
+        const auto velocity = data[particle::velocity<D>];
+        const auto deformation = data[particle::deformation_gradient<D>];
+        const auto volume = data[particle::volume];
+        const auto stress = data[particle::stress<D>];
+        const auto viscous_pressure = data[particle::viscous_pressure];
+        StepTotals& totals = data[step_totals];
         totals.host_requests = at.step.host_requests;
         const RigidBody& body = *method.rigid_body(at.group);
         const auto state = moved(body, impulses.by_group[static_cast<std::size_t>(at.group)], at.step.size);

@@ -53,8 +53,10 @@ runtime::TaskDeclaration symmetry_walls(const Method<Interpolator>& method)
       .reads(node::sums<D>.halo(1).every_group())
       .updates(node::motion<D>.halo(1).every_group())
       .reduces(grid_impulse)
-      .body([&method](const TaskContext& at, const PerGroup<GridView<const NodeSums<D>>>& sums,
-                      const PerGroup<GridView<NodeMotion<D>>>& motions, GridImpulse& impulse) {
+      .body([&method](const TaskContext& at, auto data) {
+        const auto sums = data[node::sums<D>];
+        const auto motions = data[node::motion<D>];
+        GridImpulse& impulse = data[grid_impulse];
         for (std::size_t g = 0; g < motions.size(); ++g) {
           const GridView<NodeMotion<D>>& motion = motions[g];
           for_each_wall(method, at, motion.box(),

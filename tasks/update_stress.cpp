@@ -32,6 +32,22 @@ struct BatchAnswer {
 
 template <int D>
 struct StressArguments {
+  template <class Data>
+  explicit StressArguments(const Data& data)
+      : id(data[particle::id.previous()]),
+        mass(data[particle::mass.previous()]),
+        position(data[particle::position<D>]),
+        velocity(data[particle::velocity<D>]),
+        old_volume(data[particle::volume.previous()]),
+        volume(data[particle::volume]),
+        old_viscous_pressure(data[particle::viscous_pressure.previous()]),
+        own_stiffness(data[particle::own_stiffness]),
+        strain(data[particle::strain_increment<D>]),
+        stress(data[particle::stress<D>]),
+        viscous_pressure(data[particle::viscous_pressure])
+  {
+  }
+
   std::span<const std::int64_t> id;
   std::span<const double> mass;
   std::span<const Vector<D>> position;
@@ -138,20 +154,16 @@ runtime::TaskDeclaration update(const Method<Interpolator>& method, int group, c
                                 const components::Hypoelastic& steel)
 {
   constexpr int D = Interpolator::dimension;
-  return stress_task<D>(name, group)
-      .body([&method, &steel](const TaskContext& at, auto id, auto mass, auto position, auto velocity, auto old_volume,
-                              auto volume, auto old_viscous_pressure, auto own_stiffness, auto strain, auto stress,
-                              auto viscous_pressure, StepTotals& totals) {
-        const StressArguments<D> s{
-            id,     mass,   position,        velocity, old_volume, volume, old_viscous_pressure, own_stiffness,
-            strain, stress, viscous_pressure};
-        in_batches(method, at, s, totals, [&](std::size_t first, std::size_t n, BatchAnswer& answer) {
-          std::fill_n(answer.plastic_work.begin(), n, 0.0);
-          std::fill_n(answer.bulk_modulus.begin(), n, steel.bulk_modulus);
-          std::fill_n(answer.shear_modulus.begin(), n, steel.shear_modulus);
-          components::update<D>(steel, strain.subspan(first, n), stress.subspan(first, n));
-        });
-      });
+  return stress_task<D>(name, group).body([&method, &steel](const TaskContext& at, auto data) {
+    const StressArguments<D> s(data);
+    StepTotals& totals = data[step_totals];
+    in_batches(method, at, s, totals, [&](std::size_t first, std::size_t n, BatchAnswer& answer) {
+      std::fill_n(answer.plastic_work.begin(), n, 0.0);
+      std::fill_n(answer.bulk_modulus.begin(), n, steel.bulk_modulus);
+      std::fill_n(answer.shear_modulus.begin(), n, steel.shear_modulus);
+      components::update<D>(steel, s.strain.subspan(first, n), s.stress.subspan(first, n));
+    });
+  });
 }
 
 template <class Interpolator>
@@ -161,17 +173,16 @@ runtime::TaskDeclaration update(const Method<Interpolator>& method, int group, c
   constexpr int D = Interpolator::dimension;
   return stress_task<D>(name, group)
       .reads(particle::deformation_gradient<D>)
-      .body([&method, &rubber](const TaskContext& at, auto id, auto mass, auto position, auto velocity, auto old_volume,
-                               auto volume, auto old_viscous_pressure, auto own_stiffness, auto strain, auto stress,
-                               auto viscous_pressure, StepTotals& totals, std::span<const Matrix<D>> deformation) {
-        const StressArguments<D> s{
-            id,     mass,   position,        velocity, old_volume, volume, old_viscous_pressure, own_stiffness,
-            strain, stress, viscous_pressure};
+      .body([&method, &rubber](const TaskContext& at, auto data) {
+        const StressArguments<D> s(data);
+        StepTotals& totals = data[step_totals];
         in_batches(method, at, s, totals, [&](std::size_t first, std::size_t n, BatchAnswer& answer) {
           std::fill_n(answer.plastic_work.begin(), n, 0.0);
-          components::update<D>(rubber, deformation.subspan(first, n), stress.subspan(first, n));
+          components::update<D>(rubber, data[particle::deformation_gradient<D>].subspan(first, n),
+                                s.stress.subspan(first, n));
           for (std::size_t k = 0; k < n; ++k) {
-            const auto moduli = components::tangent_moduli<D>(rubber, deformation[first + k]);
+            const auto moduli =
+                components::tangent_moduli<D>(rubber, data[particle::deformation_gradient<D>][first + k]);
             answer.bulk_modulus[k] = moduli.bulk_modulus;
             answer.shear_modulus[k] = moduli.shear_modulus;
           }
@@ -187,22 +198,19 @@ runtime::TaskDeclaration update(const Method<Interpolator>& method, int group, c
   return stress_task<D>(name, group)
       .reads(particle::cap_state.previous())
       .computes(particle::cap_state)
-      .body([&method, &sand](const TaskContext& at, auto id, auto mass, auto position, auto velocity, auto old_volume,
-                             auto volume, auto old_viscous_pressure, auto own_stiffness, auto strain, auto stress,
-                             auto viscous_pressure, StepTotals& totals, std::span<const CapState> old_state,
-                             std::span<CapState> state) {
-        const StressArguments<D> s{
-            id,     mass,   position,        velocity, old_volume, volume, old_viscous_pressure, own_stiffness,
-            strain, stress, viscous_pressure};
+      .body([&method, &sand](const TaskContext& at, auto data) {
+        const StressArguments<D> s(data);
+        StepTotals& totals = data[step_totals];
         in_batches(method, at, s, totals, [&](std::size_t first, std::size_t n, BatchAnswer& answer) {
-          const auto failure = components::update<D>(sand, strain.subspan(first, n), old_state.subspan(first, n),
-                                                     stress.subspan(first, n), state.subspan(first, n),
-                                                     std::span(answer.bulk_modulus).first(n),
-                                                     std::span(answer.plastic_work).first(n), totals.updates);
+          const auto failure = components::update<D>(
+              sand, s.strain.subspan(first, n), data[particle::cap_state.previous()].subspan(first, n),
+              s.stress.subspan(first, n), data[particle::cap_state].subspan(first, n),
+              std::span(answer.bulk_modulus).first(n), std::span(answer.plastic_work).first(n), totals.updates);
           for (std::size_t k = 0; k < n; ++k) answer.shear_modulus[k] = sand.shear_ratio() * answer.bulk_modulus[k];
           if (!failure) return;
           const std::size_t p = first + failure->particle;
-          totals.note(failed_update<D>(id[p], at.group, failure->fault, position[p], state[p], stress[p], strain[p]));
+          totals.note(failed_update<D>(s.id[p], at.group, failure->fault, s.position[p], data[particle::cap_state][p],
+                                       s.stress[p], s.strain[p]));
         });
       });
 }

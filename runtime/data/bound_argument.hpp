@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <span>
+#include <type_traits>
 
 #include "runtime/data/field.hpp"
 #include "runtime/data/label.hpp"
@@ -21,14 +22,19 @@ struct BoundArgument {
   IndexBox box;
 };
 
-/// The type of one argument of a task body and how it is made from what was bound.
-template <class T, Centring C, bool ReadOnly, bool EveryGroup>
+/// One declared label of a task, as its type: what a body asks for, and how the view that it gets is made.
+template <class L, bool Previous, bool EveryGroup, bool ReadOnly>
 struct Argument {
-  using Value = std::conditional_t<ReadOnly, const T, T>;
+  /// What a body asks for this by.
+  using Asked = Reference<L, Previous>;
+  using Value = std::conditional_t<ReadOnly, const typename L::Value, typename L::Value>;
 
-  static auto view(const BoundArgument& bound)
+  /// A span of particles, or a GridView, or one for each group; of a reduction the value itself.
+  static decltype(auto) view(const BoundArgument& bound)
   {
-    if constexpr (EveryGroup) {
+    if constexpr (L::centre == Centring::reduction) {
+      return *reinterpret_cast<Value*>(bound.fields[0]->buffer(bound.buffer).data());
+    } else if constexpr (EveryGroup) {
       PerGroup<decltype(one(bound, 0))> views;
       for (std::size_t g = 0; g < bound.n_fields; ++g) views.push_back(one(bound, g));
       return views;
@@ -42,7 +48,7 @@ struct Argument {
   {
     const Field& field = *bound.fields[group];
     auto* const first = reinterpret_cast<Value*>(field.buffer(bound.buffer).data());
-    if constexpr (C == Centring::particle) {
+    if constexpr (L::centre == Centring::particle) {
       return std::span<Value>(first, *field.n_particles);
     } else {
       const auto strides = field.box.strides();
@@ -51,16 +57,6 @@ struct Argument {
                                     strides[2] * (bound.box.lower[2] - field.box.lower[2]);
       return GridView<Value>(first + offset, bound.box, strides);
     }
-  }
-};
-
-/// A reduction is one value, not a view.
-template <class T, bool ReadOnly, bool EveryGroup>
-struct Argument<T, Centring::reduction, ReadOnly, EveryGroup> {
-  using Value = std::conditional_t<ReadOnly, const T, T>;
-  static Value& view(const BoundArgument& bound)
-  {
-    return *reinterpret_cast<Value*>(bound.fields[0]->buffer(bound.buffer).data());
   }
 };
 

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <algorithm>
+#include <array>
 #include <cstddef>
 #include <string>
 #include <utility>
@@ -57,23 +59,8 @@ class Label
   AddValues add_;
 };
 
-/// How a task refers to a label; made by the label and refined by chaining: `position.previous()`,
-/// `mass.halo(1).every_group()`.
-template <class T, Centring C, bool EveryGroup = false>
-struct Reference {
-  const Label* label;
-  bool of_previous_step = false;
-  int halo_width = 0;
-
-  /// The value at the end of the step before.
-  Reference previous() const { return {label, true, halo_width}; }
-  /// With `width` layers beyond the patch.
-  Reference halo(int width) const { return {label, of_previous_step, width}; }
-  /// The fields of all groups at once, for a task that runs once a patch.
-  Reference<T, C, true> every_group() const { return {label, of_previous_step, halo_width}; }
-};
-
-/// A label whose values have type T. T must survive being copied as bytes: it travels between patches and into files.
+/// A label with the type of its values. T must survive being copied as bytes: it travels between patches and into
+/// files.
 ///
 /// For a reduction, a default T is the neutral value and `void T::combine(const T&)` takes another part in; parts are
 /// combined in the order of patch, then group, whatever the threads.
@@ -81,12 +68,11 @@ template <class T, Centring C>
 class TypedLabel : public Label
 {
  public:
-  explicit TypedLabel(std::string name) : Label(std::move(name), C, sizeof(T), operations(), adder()) {}
+  using Value = T;
+  static constexpr Centring centre = C;
 
-  operator Reference<T, C>() const { return {this}; }
-  Reference<T, C> previous() const { return Reference<T, C>{this}.previous(); }
-  Reference<T, C> halo(int width) const { return Reference<T, C>{this}.halo(width); }
-  Reference<T, C, true> every_group() const { return Reference<T, C>{this}.every_group(); }
+ protected:
+  explicit TypedLabel(std::string name) : Label(std::move(name), C, sizeof(T), operations(), adder()) {}
 
  private:
   static const ReductionOperations* operations()
@@ -114,22 +100,49 @@ class TypedLabel : public Label
   }
 };
 
-/// Whether tasks can accumulate what a label, or a reference to one, names.
-template <class L>
-inline constexpr bool can_accumulate = false;
-template <class T, Centring C>
-inline constexpr bool can_accumulate<TypedLabel<T, C>> = Addable<T>;
-template <class T, Centring C, bool EveryGroup>
-inline constexpr bool can_accumulate<Reference<T, C, EveryGroup>> = Addable<T>;
+/// The name of a label, as an argument of its type.
+template <std::size_t N>
+struct LabelName {
+  constexpr LabelName(const char (&letters)[N]) { std::copy_n(letters, N, text.begin()); }
+  std::array<char, N> text{};
+};
 
-template <class T>
-using NodeLabel = TypedLabel<T, Centring::node>;
-template <class T>
-using CellLabel = TypedLabel<T, Centring::cell>;
-template <class T>
-using ParticleLabel = TypedLabel<T, Centring::particle>;
-template <class T>
-using ReductionLabel = TypedLabel<T, Centring::reduction>;
+/// How a task refers to a label; made by the label and refined by chaining: `position.previous()`,
+/// `mass.halo(1).every_group()`.
+template <class L, bool Previous = false, bool EveryGroup = false>
+struct Reference {
+  const L* label;
+  int halo_width = 0;
+
+  /// The value at the end of the step before.
+  Reference<L, true, EveryGroup> previous() const { return {label, halo_width}; }
+  /// With `width` layers beyond the patch.
+  Reference halo(int width) const { return {label, width}; }
+  /// The fields of all groups at once, for a task that runs once a patch.
+  Reference<L, Previous, true> every_group() const { return {label, halo_width}; }
+};
+
+/// A label whose name is part of its type, by which the body of a task asks for its data.
+template <class T, Centring C, LabelName Name>
+class NamedLabel : public TypedLabel<T, C>
+{
+ public:
+  NamedLabel() : TypedLabel<T, C>(Name.text.data()) {}
+
+  auto previous() const { return reference().previous(); }
+  auto halo(int width) const { return reference().halo(width); }
+  auto every_group() const { return reference().every_group(); }
+  Reference<NamedLabel> reference() const { return {this}; }
+};
+
+template <class T, LabelName Name>
+using NodeLabel = NamedLabel<T, Centring::node, Name>;
+template <class T, LabelName Name>
+using CellLabel = NamedLabel<T, Centring::cell, Name>;
+template <class T, LabelName Name>
+using ParticleLabel = NamedLabel<T, Centring::particle, Name>;
+template <class T, LabelName Name>
+using ReductionLabel = NamedLabel<T, Centring::reduction, Name>;
 
 inline const char* to_string(Centring centring)
 {

@@ -39,7 +39,7 @@ class Migration
   /// Particles that left the grid from a patch since `clear_lost`, and the values of one of their state labels.
   std::size_t n_lost(int patch, int group) const { return box(patch, group).lost.n_particles; }
   template <class T>
-  std::vector<T> lost(const ParticleLabel<T>& label, int patch, int group) const
+  std::vector<T> lost(const TypedLabel<T, Centring::particle>& label, int patch, int group) const
   {
     const ParticleParcel& parcel = box(patch, group).lost;
     const T* first = reinterpret_cast<const T*>(field_bytes(parcel, label, patch, group));

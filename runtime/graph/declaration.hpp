@@ -2,12 +2,12 @@
 
 #include <functional>
 #include <string>
-#include <tuple>
 #include <utility>
 #include <vector>
 
 #include "runtime/data/bound_argument.hpp"
 #include "runtime/data/label.hpp"
+#include "runtime/graph/task_data.hpp"
 #include "runtime/grid/patch_layout.hpp"
 
 namespace tamp::runtime
@@ -68,13 +68,17 @@ struct TaskDeclaration {
   void add(const Access& access);
 };
 
-/// Builds a declaration; what has been declared so far becomes, in that order, the arguments of the body.
+/// Builds a declaration; what has been declared is what the body can ask for, by label.
 ///
 ///     task("diffuse")
 ///         .over_patches_and_groups()
 ///         .reads(temperature.previous().halo(1))
 ///         .computes(temperature)
-///         .body([](const TaskContext& at, GridView<const double> old, GridView<double> now) { ... });
+///         .body([](const TaskContext& at, auto data) {
+///           const GridView<const double> old = data[temperature.previous()];
+///           const GridView<double> now = data[temperature];
+///           ...
+///         });
 template <class... Arguments>
 class TaskBuilder
 {
@@ -118,7 +122,6 @@ class TaskBuilder
   template <class... L>
   auto accumulates(const L&... labels) &&
   {
-    static_assert((can_accumulate<L> && ...), "what is accumulated has a +=");
     return std::move(*this).template with<Mode::accumulate>(reference(labels)...);
   }
   /// A part of one value over all patches and groups; it starts at the neutral value.
@@ -128,12 +131,12 @@ class TaskBuilder
     return std::move(*this).template with<Mode::reduce>(reference(labels)...);
   }
 
-  /// `function(const TaskContext&, views...)`, one view for each declared label, in the order declared.
+  /// `function(const TaskContext&, TaskData)`; see TaskData for how it asks for its data.
   template <class Function>
   TaskDeclaration body(Function function) &&
   {
     declaration_.body = [f = std::move(function)](const TaskContext& context, const BoundArgument* bound) {
-      call(f, context, bound, std::index_sequence_for<Arguments...>{});
+      f(context, TaskData<Arguments...>(bound));
     };
     return std::move(declaration_);
   }
@@ -142,17 +145,6 @@ class TaskBuilder
   template <class... Other>
   friend class TaskBuilder;
 
-  template <class T, Centring C>
-  static Reference<T, C> reference(const TypedLabel<T, C>& label)
-  {
-    return label;
-  }
-  template <class T, Centring C, bool EveryGroup>
-  static Reference<T, C, EveryGroup> reference(const Reference<T, C, EveryGroup>& r)
-  {
-    return r;
-  }
-
   TaskBuilder over(Domain domain, std::vector<int> groups) &&
   {
     declaration_.domain = domain;
@@ -160,17 +152,23 @@ class TaskBuilder
     return std::move(*this);
   }
 
-  template <Mode M, class... T, Centring... C, bool... EveryGroup>
-  auto with(const Reference<T, C, EveryGroup>&... r) &&
+  template <class T, Centring C, LabelName Name>
+  static auto reference(const NamedLabel<T, C, Name>& label)
   {
-    (declaration_.add({M, r.label, r.of_previous_step, r.halo_width, EveryGroup}), ...);
-    return TaskBuilder<Arguments..., Argument<T, C, M == Mode::read, EveryGroup>...>(std::move(declaration_));
+    return label.reference();
+  }
+  template <class L, bool Previous, bool EveryGroup>
+  static auto reference(const Reference<L, Previous, EveryGroup>& r)
+  {
+    return r;
   }
 
-  template <class Function, std::size_t... I>
-  static void call(const Function& f, const TaskContext& context, const BoundArgument* bound, std::index_sequence<I...>)
+  template <Mode M, class... L, bool... Previous, bool... EveryGroup>
+  auto with(const Reference<L, Previous, EveryGroup>&... r) &&
   {
-    f(context, Arguments::view(bound[I])...);
+    static_assert(M != Mode::accumulate || (Addable<typename L::Value> && ...), "what is accumulated has a +=");
+    (declaration_.add({M, r.label, Previous, r.halo_width, EveryGroup}), ...);
+    return TaskBuilder<Arguments..., Argument<L, Previous, EveryGroup, M == Mode::read>...>(std::move(declaration_));
   }
 
   TaskDeclaration declaration_;
@@ -187,7 +185,8 @@ inline TaskBuilder<> task(std::string name)
 /// `Point` is an array-like of coordinates [m], one for each dimension of the grid. It waits for the whole reduction
 /// `last_check`, and moves nothing if that is not `accepted`: the state before the step is still whole then.
 template <class Point, class T>
-TaskDeclaration migration(const ParticleLabel<Point>& position, const ReductionLabel<T>& last_check,
+TaskDeclaration migration(const TypedLabel<Point, Centring::particle>& position,
+                          const TypedLabel<T, Centring::reduction>& last_check,
                           std::function<bool(const T&)> accepted = nullptr)
 {
   TaskDeclaration declaration;
@@ -203,7 +202,7 @@ TaskDeclaration migration(const ParticleLabel<Point>& position, const ReductionL
 
 /// The same for graphs whose tasks do not fail.
 template <class Point>
-TaskDeclaration migration(const ParticleLabel<Point>& position)
+TaskDeclaration migration(const TypedLabel<Point, Centring::particle>& position)
 {
   TaskDeclaration declaration;
   declaration.name = "migrate particles";

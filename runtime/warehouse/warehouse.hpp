@@ -43,7 +43,7 @@ class Warehouse
 
   /// The state of a label at the end of the last step.
   template <class T>
-  std::span<T> state(const ParticleLabel<T>& label, int patch, int group)
+  std::span<T> state(const TypedLabel<T, Centring::particle>& label, int patch, int group)
   {
     Field& f = field(label, patch, group);
     return {reinterpret_cast<T*>(f.previous_buffer.data()), *f.n_particles};
@@ -63,7 +63,7 @@ class Warehouse
     return {reinterpret_cast<const T*>(f.current_buffer.data()), f.box, f.box.strides()};
   }
   template <class T>
-  const T& result(const ReductionLabel<T>& label)
+  const T& result(const TypedLabel<T, Centring::reduction>& label)
   {
     return *reinterpret_cast<const T*>(field(label, -1, -1).current_buffer.data());
   }

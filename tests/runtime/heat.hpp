@@ -15,14 +15,14 @@ namespace tamp::test
 
 using namespace tamp::runtime;
 
-inline const CellLabel<double> temperature{"temperature"};
+inline const CellLabel<double, "temperature"> temperature;
 
 struct Heat {
   struct Sum {
     double value = 0;
     void combine(const Sum& other) { value += other.value; }
   };
-  static inline const ReductionLabel<Sum> total{"total heat"};
+  static inline const ReductionLabel<Sum, "total heat"> total;
 
   Heat(int n_cells, Index n_patches, int n_threads)
       : grid{2, {0, 0, 0}, 1.0 / n_cells, {n_cells, n_cells, 1}},
@@ -54,7 +54,10 @@ struct Heat {
         .reads(temperature.previous().halo(1))
         .computes(temperature)
         .reduces(total)
-        .body([grid](const TaskContext& at, GridView<const double> old, GridView<double> now, Sum& sum) {
+        .body([grid](const TaskContext& at, auto data) {
+          const auto old = data[temperature.previous()];
+          const auto now = data[temperature];
+          Sum& sum = data[total];
           const double factor = at.step.size / (grid.cell_size * grid.cell_size);
           for_each(at.patch.cells, [&](const Index& i) {
             const auto flux = [&](int axis, int side) {

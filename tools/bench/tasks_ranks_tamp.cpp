@@ -13,7 +13,7 @@ namespace
 
 using namespace runtime;
 
-const CellLabel<std::uint64_t> stamps{"stamps"};
+const CellLabel<std::uint64_t, "stamps"> stamps;
 
 /// One row of cells for each patch, so that a halo of one layer holds a whole neighbour.
 PatchLayout layout_of(const PatchRow& shape)
@@ -32,7 +32,9 @@ TaskDeclaration stamp_task(StampedRow& row)
       .over_patches_and_groups()
       .reads(stamps.previous().halo(1))
       .computes(stamps)
-      .body([&row](const TaskContext& at, GridView<const std::uint64_t> old, GridView<std::uint64_t> now) {
+      .body([&row](const TaskContext& at, auto data) {
+        const auto old = data[stamps.previous()];
+        const auto now = data[stamps];
         const auto n = static_cast<std::size_t>(row.shape().n_values);
         const int p = at.patch.id;
         const auto values = [&](int patch) { return StampedRow::Values(&old[{0, patch, 0}], n); };

@@ -18,9 +18,9 @@ namespace tamp::runtime
 namespace
 {
 
-const CellLabel<double> first{"first"};
-const CellLabel<double> second{"second"};
-const NodeLabel<double> sum{"sum"};
+const CellLabel<double, "first"> first;
+const CellLabel<double, "second"> second;
+const NodeLabel<double, "sum"> sum;
 
 /// Tasks over a row of patches, ready to run.
 struct Row {
@@ -48,16 +48,18 @@ TEST_CASE("every instance runs exactly once a step, after those it waits for", "
 {
   std::atomic<int> n_first{0};
   std::atomic<int> n_early{0};
-  auto make =
-      task("make").over_patches_and_groups().computes(first).body([&](const TaskContext& at, GridView<double> f) {
-        for_each(at.patch.cells, [&](const Index& i) { f[i] = static_cast<double>(at.step.index); });
-        ++n_first;
-      });
+  auto make = task("make").over_patches_and_groups().computes(first).body([&](const TaskContext& at, auto data) {
+    const auto f = data[first];
+    for_each(at.patch.cells, [&](const Index& i) { f[i] = static_cast<double>(at.step.index); });
+    ++n_first;
+  });
   auto use = task("use")
                  .over_patches_and_groups()
                  .reads(first.halo(1))
                  .computes(second)
-                 .body([&](const TaskContext& at, GridView<const double> f, GridView<double> s) {
+                 .body([&](const TaskContext& at, auto data) {
+                   const auto f = data[first];
+                   const auto s = data[second];
                    const IndexBox inside = intersection(f.box(), at.layout.grid().cells());
                    for_each(inside, [&](const Index& i) { n_early += f[i] != static_cast<double>(at.step.index); });
                    for_each(at.patch.cells, [&](const Index& i) { s[i] = f[i]; });
@@ -74,16 +76,15 @@ TEST_CASE("every instance runs exactly once a step, after those it waits for", "
 TEST_CASE("a shuffled executor runs every instance once, in legal orders that differ from step to step", "[executor]")
 {
   std::vector<int> makers, order;
-  auto make = task("make").over_patches_and_groups().computes(first).body([&](const TaskContext& at, GridView<double>) {
+  auto make = task("make").over_patches_and_groups().computes(first).body([&](const TaskContext& at, auto) {
     makers.push_back(at.patch.id);
     order.push_back(at.patch.id);
   });
   int n_early = 0;
-  auto use = task("use").over_patches_and_groups().reads(first).computes(second).body(
-      [&](const TaskContext& at, GridView<const double>, GridView<double>) {
-        n_early += std::count(makers.begin(), makers.end(), at.patch.id) == 0;
-        order.push_back(100 + at.patch.id);
-      });
+  auto use = task("use").over_patches_and_groups().reads(first).computes(second).body([&](const TaskContext& at, auto) {
+    n_early += std::count(makers.begin(), makers.end(), at.patch.id) == 0;
+    order.push_back(100 + at.patch.id);
+  });
   Row row({make, use}, {{}, {&second}}, 7, 1);
   const auto executor = Executor::shuffled(3);
 
@@ -104,12 +105,11 @@ TEST_CASE("both sides of a seam get the same sum, parts added in the order of pa
 {
   // 1e16 + 1 - 1e16 depends on the order: patch by patch from the left it is 0 in the middle of three.
   const std::vector<double> parts{1e16, 1, -1e16};
-  auto give = task("give")
-                  .over_patches_and_groups()
-                  .accumulates(sum.halo(1))
-                  .body([&](const TaskContext& at, GridView<double> s) {
-                    for_each(s.box(), [&](const Index& i) { s[i] = parts[static_cast<std::size_t>(at.patch.id)]; });
-                  });
+  auto give =
+      task("give").over_patches_and_groups().accumulates(sum.halo(1)).body([&](const TaskContext& at, auto data) {
+        const auto s = data[sum];
+        for_each(s.box(), [&](const Index& i) { s[i] = parts[static_cast<std::size_t>(at.patch.id)]; });
+      });
   const int n_threads = GENERATE(1, 2);
   Row row({give}, {{}, {&sum}}, 3, n_threads);
 
@@ -135,13 +135,15 @@ TEST_CASE("parts are summed by the += of their own type", "[executor]")
   struct NoSum {
     double value;
   };
-  static_assert(can_accumulate<NodeLabel<Most>> && !can_accumulate<NodeLabel<NoSum>>);
-  const NodeLabel<int> count{"count"};
-  const NodeLabel<Most> most{"most"};
+  static_assert(Addable<Most> && !Addable<NoSum>);
+  const NodeLabel<int, "count"> count;
+  const NodeLabel<Most, "most"> most;
   auto give = task("give")
                   .over_patches_and_groups()
                   .accumulates(count.halo(1), most.halo(1))
-                  .body([](const TaskContext& at, GridView<int> counts, GridView<Most> mosts) {
+                  .body([&](const TaskContext& at, auto data) {
+                    const auto counts = data[count];
+                    const auto mosts = data[most];
                     for_each(counts.box(), [&](const Index& i) {
                       counts[i] = 1;
                       mosts[i] = {10 + at.patch.id};
@@ -163,17 +165,17 @@ TEST_CASE("tasks that accumulate one label add to it in the order of declaration
 {
   // 1e16 + 1 - 1e16 depends on the order; each halo alone would leave out nodes.
   const auto give = [](const char* name, int halo, double part) {
-    return task(name).over_patches_and_groups().accumulates(sum.halo(halo)).body([=](const TaskContext&, auto s) {
+    return task(name).over_patches_and_groups().accumulates(sum.halo(halo)).body([=](const TaskContext&, auto data) {
+      const auto s = data[sum];
       for_each(s.box(), [&](const Index& i) { s[i] += part; });
     });
   };
-  auto take = task("take")
-                  .over_patches_and_groups()
-                  .reads(sum.halo(1))
-                  .computes(first)
-                  .body([](const TaskContext&, GridView<const double> s, GridView<double> f) {
-                    for_each(f.box(), [&](const Index& i) { f[i] = s[i]; });
-                  });
+  auto take =
+      task("take").over_patches_and_groups().reads(sum.halo(1)).computes(first).body([](const TaskContext&, auto data) {
+        const auto s = data[sum];
+        const auto f = data[first];
+        for_each(f.box(), [&](const Index& i) { f[i] = s[i]; });
+      });
   const int n_threads = GENERATE(1, 2);
   Row row({give("large", 0, 1e16), give("small", 1, 1), take, give("back", 1, -1e16)}, {{}, {&sum, &first}}, 2,
           n_threads);
@@ -192,7 +194,7 @@ TEST_CASE("tasks that accumulate one label add to it in the order of declaration
 
 TEST_CASE("a task that throws stops the step with its name and patch", "[executor]")
 {
-  auto fail = task("fail").over_patches_and_groups().computes(first).body([](const TaskContext& at, GridView<double>) {
+  auto fail = task("fail").over_patches_and_groups().computes(first).body([](const TaskContext& at, auto) {
     if (at.patch.id == 2) throw std::runtime_error("no luck");
   });
   const int n_threads = GENERATE(1, 2, 3);
@@ -258,8 +260,7 @@ TEST_CASE("an executor serves several schedules in turn", "[executor]")
 {
   test::Heat heat(12, {2, 2, 1}, 2);
   std::atomic<int> n{0};
-  auto count =
-      task("count").over_patches_and_groups().computes(first).body([&](const TaskContext&, GridView<double>) { ++n; });
+  auto count = task("count").over_patches_and_groups().computes(first).body([&](const TaskContext&, auto) { ++n; });
   Row row({count}, {{}, {&first}}, 3, 2);
 
   for (int k = 0; k < 50; ++k) {

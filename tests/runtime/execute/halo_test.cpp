@@ -11,9 +11,9 @@ namespace tamp::runtime
 namespace
 {
 
-const NodeLabel<double> warmth{"warmth"};
-const NodeLabel<double> sum{"sum"};
-const CellLabel<double> state{"state"};
+const NodeLabel<double, "warmth"> warmth;
+const NodeLabel<double, "sum"> sum;
+const CellLabel<double, "state"> state;
 
 /// Warmth of the step before with a halo, and sums over patches.
 std::vector<TaskDeclaration> node_tasks(int halo)
@@ -23,7 +23,7 @@ std::vector<TaskDeclaration> node_tasks(int halo)
               .reads(warmth.previous().halo(halo))
               .computes(warmth)
               .accumulates(sum.halo(halo))
-              .body([](const TaskContext&, GridView<const double>, GridView<double>, GridView<double>) {})};
+              .body([](const TaskContext&, auto) {})};
 }
 
 /// A number that tells patches and nodes apart; sums of such numbers depend on their order.
@@ -112,7 +112,9 @@ TEST_CASE("state that others read of the step before only comes in every step", 
                    .over_patches_and_groups()
                    .reads(state.previous().halo(1))
                    .computes(state)
-                   .body([&](const TaskContext& at, GridView<const double> old, GridView<double> now) {
+                   .body([&](const TaskContext& at, auto data) {
+                     const auto old = data[state.previous()];
+                     const auto now = data[state];
                      const IndexBox seen = intersection(grown(at.patch.cells, 1, 2), at.layout.grid().cells());
                      const auto n = static_cast<double>(at.step.index);
                      for_each(seen, [&](const Index& i) { as_expected &= old[i] == n; });

@@ -14,8 +14,8 @@ namespace
 
 using Point = std::array<double, 2>;
 
-const ParticleLabel<Point> place{"place"};
-const ParticleLabel<std::int64_t> number{"number"};
+const ParticleLabel<Point, "place"> place;
+const ParticleLabel<std::int64_t, "number"> number;
 
 /// Four patches in a square of 8 x 8 cells; particles drift by (dx, dy) each step.
 struct Drift {
@@ -43,7 +43,9 @@ struct Drift {
         .over_patches_and_groups()
         .reads(place.previous())
         .computes(place)
-        .body([dx, dy](const TaskContext&, std::span<const Point> old, std::span<Point> now) {
+        .body([dx, dy](const TaskContext&, auto data) {
+          const auto old = data[place.previous()];
+          const auto now = data[place];
           for (std::size_t p = 0; p < old.size(); ++p) now[p] = {old[p][0] + dx, old[p][1] + dy};
         });
   }

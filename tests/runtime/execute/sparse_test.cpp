@@ -21,10 +21,10 @@ struct Greatest {
   void combine(const Greatest& other) { value = std::max(value, other.value); }
 };
 
-const ParticleLabel<Point> place{"place"};
-const NodeLabel<double> mass{"mass"};
-const NodeLabel<double> speed{"speed"};
-const ReductionLabel<Greatest> greatest{"greatest"};
+const ParticleLabel<Point, "place"> place;
+const NodeLabel<double, "mass"> mass;
+const NodeLabel<double, "speed"> speed;
+const ReductionLabel<Greatest, "greatest"> greatest;
 
 constexpr int n_patches = 8;
 constexpr int cells_per_patch = 3;
@@ -67,7 +67,9 @@ struct Row {
                     .over_patches_and_groups()
                     .reads(place.previous())
                     .accumulates(mass.halo(1))
-                    .body([this](const TaskContext& at, std::span<const Point> places, GridView<double> nodes) {
+                    .body([this](const TaskContext& at, auto data) {
+                      const auto places = data[place.previous()];
+                      const auto nodes = data[mass];
                       ++n_given[static_cast<std::size_t>(at.patch.id)];
                       for (const Point& x : places) {
                         const auto i = static_cast<int>(x[0]);
@@ -79,14 +81,18 @@ struct Row {
                     .over_patches_and_groups()
                     .reads(mass.halo(1))
                     .computes(speed.halo(1))
-                    .body([](const TaskContext&, GridView<const double> nodes, GridView<double> speeds) {
+                    .body([](const TaskContext&, auto data) {
+                      const auto nodes = data[mass];
+                      const auto speeds = data[speed];
                       for_each(nodes.box(), [&](const Index& i) { speeds[i] = 3 * nodes[i]; });
                     });
     auto meet = task("meet")
                     .over_patches()
                     .updates(speed.halo(1).every_group())
                     .reduces(greatest)
-                    .body([this](const TaskContext& at, const PerGroup<GridView<double>>& speeds, Greatest& most) {
+                    .body([this](const TaskContext& at, auto data) {
+                      const auto speeds = data[speed];
+                      Greatest& most = data[greatest];
                       ++n_met[static_cast<std::size_t>(at.patch.id)];
                       for_each(speeds[0].box(), [&](const Index& i) {
                         const double sum = speeds[0][i] + speeds[1][i];
@@ -98,7 +104,9 @@ struct Row {
                      .over_patches_and_groups()
                      .reads(place.previous())
                      .computes(place)
-                     .body([](const TaskContext& at, std::span<const Point> old, std::span<Point> now) {
+                     .body([](const TaskContext& at, auto data) {
+                       const auto old = data[place.previous()];
+                       const auto now = data[place];
                        const double dx = at.group == 0 ? 1.3 : -1.3;
                        for (std::size_t p = 0; p < old.size(); ++p) now[p] = {old[p][0] + dx, old[p][1]};
                      });
@@ -122,8 +130,8 @@ struct Row {
     for (const Patch& patch : layout) {
       if (!warehouse.is_local(patch)) continue;
       for (int group = 0; group < 2; ++group) {
-        for (const NodeLabel<double>* label : {&mass, &speed}) {
-          const GridView<const double> view = warehouse.grid_result(*label, patch.id, group);
+        for (const GridView<const double>& view :
+             {warehouse.grid_result(mass, patch.id, group), warehouse.grid_result(speed, patch.id, group)}) {
           for_each(view.box(), [&](const Index& i) { values.push_back(view[i]); });
         }
       }
@@ -186,16 +194,17 @@ TEST_CASE("a sparse task whose halo is filled from neighbours runs everywhere", 
 {
   const Communicator all = Communicator::world();
   const PatchLayout layout = Row::row(all.size());
-  const NodeLabel<double> one{"one"}, other{"other"};
+  const NodeLabel<double, "one"> one;
+  const NodeLabel<double, "other"> other;
   std::atomic<int> n_made{0}, n_used{0};
-  auto make = task("make").over_patches_and_groups().sparse().computes(one).body(
-      [&](const TaskContext&, GridView<double>) { ++n_made; });
+  auto make =
+      task("make").over_patches_and_groups().sparse().computes(one).body([&](const TaskContext&, auto) { ++n_made; });
   auto use = task("use")
                  .over_patches_and_groups()
                  .sparse()
                  .reads(one.halo(1))
                  .computes(other)
-                 .body([&](const TaskContext&, GridView<const double>, GridView<double>) { ++n_used; });
+                 .body([&](const TaskContext&, auto) { ++n_used; });
   const TaskGraph graph({make, use}, layout, {"only"}, {{}, {&other}});
   Warehouse warehouse(std::vector<const TaskGraph*>{&graph}, all.rank());
   BoundGraph bound(graph, warehouse, all);
@@ -211,13 +220,15 @@ TEST_CASE("a sparse task whose halo is filled from neighbours runs everywhere", 
 TEST_CASE("state that the host sets is never taken for zero")
 {
   const PatchLayout layout = Row::row(1);
-  const NodeLabel<double> level{"level"};
+  const NodeLabel<double, "level"> level;
   auto fall = task("fall")
                   .over_patches_and_groups()
                   .sparse()
                   .reads(level.previous())
                   .computes(level)
-                  .body([](const TaskContext& at, GridView<const double> old, GridView<double> now) {
+                  .body([&](const TaskContext& at, auto data) {
+                    const auto old = data[level.previous()];
+                    const auto now = data[level];
                     for_each(at.patch.nodes, [&](const Index& i) { now[i] = old[i] / 2; });
                   });
   const TaskGraph graph({fall}, layout, {"only"}, {{&level}, {}});

@@ -13,10 +13,10 @@ namespace
 
 using Kind = GraphProblem::Kind;
 
-const NodeLabel<double> mass{"node mass"};
-const NodeLabel<double> velocity{"node velocity"};
-const NodeLabel<double> acceleration{"node acceleration"};
-const ParticleLabel<double> weight{"weight"};
+const NodeLabel<double, "node mass"> mass;
+const NodeLabel<double, "node velocity"> velocity;
+const NodeLabel<double, "node acceleration"> acceleration;
+const ParticleLabel<double, "weight"> weight;
 
 const Grid line{2, {0, 0, 0}, 1, {12, 4, 1}};
 
@@ -74,7 +74,7 @@ TEST_CASE("a task that reads what none makes is a missing producer", "[graph]")
 
 TEST_CASE("a missing producer names the label that was probably meant", "[graph]")
 {
-  const NodeLabel<double> misspelt{"node mas"};
+  const NodeLabel<double, "node mas"> misspelt;
   auto wrong = task("move").over_patches_and_groups().reads(misspelt, mass).computes(velocity).body(nothing());
 
   const auto found = problems({gather(1), wrong});

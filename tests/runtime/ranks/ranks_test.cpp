@@ -17,18 +17,18 @@ namespace
 
 using Point = std::array<double, 2>;
 
-const ParticleLabel<Point> place{"place"};
-const ParticleLabel<double> warmth{"warmth"};
-const NodeLabel<double> heat{"heat"};
-const CellLabel<double> smooth{"smooth"};
-const CellLabel<double> edges{"edges"};
-const CellLabel<double> smoother{"smoother"};
+const ParticleLabel<Point, "place"> place;
+const ParticleLabel<double, "warmth"> warmth;
+const NodeLabel<double, "heat"> heat;
+const CellLabel<double, "smooth"> smooth;
+const CellLabel<double, "edges"> edges;
+const CellLabel<double, "smoother"> smoother;
 
 struct Sum {
   double value = 0;
   void combine(const Sum& other) { value += other.value; }
 };
-const ReductionLabel<Sum> total{"total"};
+const ReductionLabel<Sum, "total"> total;
 
 /// Particles that wander, warm the nodes and are warmed by their neighbourhood: every kind of message there is. The
 /// numbers are such that another order of sums shows.
@@ -39,7 +39,10 @@ std::vector<TaskDeclaration> wandering()
           .over_patches_and_groups()
           .reads(place.previous(), warmth.previous())
           .accumulates(heat.halo(1))
-          .body([](const TaskContext&, std::span<const Point> x, std::span<const double> w, GridView<double> h) {
+          .body([](const TaskContext&, auto data) {
+            const auto x = data[place.previous()];
+            const auto w = data[warmth.previous()];
+            const auto h = data[heat];
             for (std::size_t p = 0; p < x.size(); ++p) {
               const Index cell{static_cast<int>(x[p][0]), static_cast<int>(x[p][1]), 0};
               for_each(IndexBox{{cell[0] - 1, cell[1] - 1, 0}, {cell[0] + 2, cell[1] + 2, 1}},
@@ -50,37 +53,45 @@ std::vector<TaskDeclaration> wandering()
                    .over_patches_and_groups()
                    .reads(smooth.previous())
                    .accumulates(heat.halo(1))
-                   .body([](const TaskContext& at, GridView<const double> old, GridView<double> h) {
+                   .body([](const TaskContext& at, auto data) {
+                     const auto old = data[smooth.previous()];
+                     const auto h = data[heat];
                      for_each(at.patch.cells, [&](const Index& i) { h[i] -= 0.01 * old[i] * (1 + h[i]); });
                    });
-  auto average =
-      task("average")
-          .over_patches_and_groups()
-          .reads(heat.halo(1), smooth.previous().halo(1))
-          .computes(smooth)
-          .body([](const TaskContext& at, GridView<const double> h, GridView<const double> old, GridView<double> now) {
-            const IndexBox all = at.layout.grid().cells();
-            for_each(at.patch.cells, [&](const Index& i) {
-              double sum = h[i] + h[{i[0] + 1, i[1] + 1, 0}];
-              for_each(intersection(grown(IndexBox{i, {i[0] + 1, i[1] + 1, 1}}, 1, 2), all),
-                       [&](const Index& j) { sum += 0.1 * old[j]; });
-              now[i] = sum / 3;
-            });
-          });
+  auto average = task("average")
+                     .over_patches_and_groups()
+                     .reads(heat.halo(1), smooth.previous().halo(1))
+                     .computes(smooth)
+                     .body([](const TaskContext& at, auto data) {
+                       const auto h = data[heat];
+                       const auto old = data[smooth.previous()];
+                       const auto now = data[smooth];
+                       const IndexBox all = at.layout.grid().cells();
+                       for_each(at.patch.cells, [&](const Index& i) {
+                         double sum = h[i] + h[{i[0] + 1, i[1] + 1, 0}];
+                         for_each(intersection(grown(IndexBox{i, {i[0] + 1, i[1] + 1, 1}}, 1, 2), all),
+                                  [&](const Index& j) { sum += 0.1 * old[j]; });
+                         now[i] = sum / 3;
+                       });
+                     });
   // What has been sent is changed where it came from, in the same step.
-  auto sharpen =
-      task("sharpen")
-          .over_patches_and_groups()
-          .reads(edges, smoother)
-          .updates(smooth)
-          .body([](const TaskContext& at, GridView<const double> e, GridView<const double> t, GridView<double> s) {
-            for_each(at.patch.cells, [&](const Index& i) { s[i] += 0.25 * e[i] - 0.5 * t[i]; });
-          });
+  auto sharpen = task("sharpen")
+                     .over_patches_and_groups()
+                     .reads(edges, smoother)
+                     .updates(smooth)
+                     .body([](const TaskContext& at, auto data) {
+                       const auto e = data[edges];
+                       const auto t = data[smoother];
+                       const auto s = data[smooth];
+                       for_each(at.patch.cells, [&](const Index& i) { s[i] += 0.25 * e[i] - 0.5 * t[i]; });
+                     });
   auto find_edges = task("find edges")
                         .over_patches_and_groups()
                         .reads(smooth.halo(1))
                         .computes(edges)
-                        .body([](const TaskContext& at, GridView<const double> s, GridView<double> e) {
+                        .body([](const TaskContext& at, auto data) {
+                          const auto s = data[smooth];
+                          const auto e = data[edges];
                           const IndexBox all = at.layout.grid().cells();
                           for_each(at.patch.cells, [&](const Index& i) {
                             e[i] = 0;
@@ -93,7 +104,10 @@ std::vector<TaskDeclaration> wandering()
                            .reads(smooth.halo(1))
                            .computes(smoother)
                            .reduces(total)
-                           .body([](const TaskContext& at, GridView<const double> s, GridView<double> now, Sum& sum) {
+                           .body([](const TaskContext& at, auto data) {
+                             const auto s = data[smooth];
+                             const auto now = data[smoother];
+                             Sum& sum = data[total];
                              const IndexBox all = at.layout.grid().cells();
                              for_each(at.patch.cells, [&](const Index& i) {
                                now[i] = 0;
@@ -102,21 +116,25 @@ std::vector<TaskDeclaration> wandering()
                                sum.value += now[i];
                              });
                            });
-  auto wander =
-      task("wander")
-          .over_patches_and_groups()
-          .reads(smooth, total, place.previous(), warmth.previous())
-          .computes(place, warmth)
-          .body([](const TaskContext& at, GridView<const double> s, const Sum& sum, std::span<const Point> old,
-                   std::span<const double> was, std::span<Point> now, std::span<double> is) {
-            const Index n = at.layout.grid().n_cells;
-            for (std::size_t p = 0; p < old.size(); ++p) {
-              const double w = s[{static_cast<int>(old[p][0]), static_cast<int>(old[p][1]), 0}];
-              is[p] = 0.5 * was[p] + w / (1 + std::abs(sum.value));
-              now[p] = {old[p][0] + 0.9 * std::sin(37 * w), old[p][1] + 0.9 * std::cos(91 * w)};
-              for (std::size_t k = 0; k < 2; ++k) now[p][k] = std::clamp(now[p][k], 0.01, n[k] - 0.01);
-            }
-          });
+  auto wander = task("wander")
+                    .over_patches_and_groups()
+                    .reads(smooth, total, place.previous(), warmth.previous())
+                    .computes(place, warmth)
+                    .body([](const TaskContext& at, auto data) {
+                      const auto s = data[smooth];
+                      const Sum& sum = data[total];
+                      const auto old = data[place.previous()];
+                      const auto was = data[warmth.previous()];
+                      const auto now = data[place];
+                      const auto is = data[warmth];
+                      const Index n = at.layout.grid().n_cells;
+                      for (std::size_t p = 0; p < old.size(); ++p) {
+                        const double w = s[{static_cast<int>(old[p][0]), static_cast<int>(old[p][1]), 0}];
+                        is[p] = 0.5 * was[p] + w / (1 + std::abs(sum.value));
+                        now[p] = {old[p][0] + 0.9 * std::sin(37 * w), old[p][1] + 0.9 * std::cos(91 * w)};
+                        for (std::size_t k = 0; k < 2; ++k) now[p][k] = std::clamp(now[p][k], 0.01, n[k] - 0.01);
+                      }
+                    });
   return {warm, chill, average, find_edges, average_again, sharpen, wander, migration(place, total)};
 }
 
@@ -269,16 +287,15 @@ TEST_CASE("a task that throws on one rank stops the others, which hear why", "[r
   const int thrower = all.size() - 1;
   PatchLayout layout({2, {0, 0, 0}, 1, {16, 12, 1}}, World::n_patches());
   layout.give_to_ranks(along_curve(all.size()), all.size());
-  auto make =
-      task("make").over_patches_and_groups().computes(smooth).body([&](const TaskContext& at, GridView<double>) {
-        if (at.patch.rank == thrower && at.step.index == 3) throw std::runtime_error("no luck");
-      });
+  auto make = task("make").over_patches_and_groups().computes(smooth).body([&](const TaskContext& at, auto) {
+    if (at.patch.rank == thrower && at.step.index == 3) throw std::runtime_error("no luck");
+  });
   auto use = task("use")
                  .over_patches_and_groups()
                  .reads(smooth.halo(1))
                  .computes(smoother)
                  .reduces(total)
-                 .body([](const TaskContext&, GridView<const double>, GridView<double>, Sum&) {});
+                 .body([](const TaskContext&, auto) {});
   const TaskGraph graph({make, use}, layout, {"only"}, {{}, {&total, &smoother}});
   Warehouse warehouse(std::vector<const TaskGraph*>{&graph}, all.rank());
   BoundGraph bound(graph, warehouse, all);

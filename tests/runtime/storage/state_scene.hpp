@@ -18,12 +18,12 @@ using Point = std::array<double, 2>;
 /// Of a size that is no multiple of eight.
 using Colour = std::array<unsigned char, 3>;
 
-inline const ParticleLabel<Point> place{"place"};
-inline const ParticleLabel<std::int64_t> number{"number"};
-inline const ParticleLabel<Colour> colour{"colour"};
-inline const CellLabel<double> warmth{"warmth"};
-inline const NodeLabel<Point> drift{"drift"};
-inline const CellLabel<std::int64_t> age{"age"};
+inline const ParticleLabel<Point, "place"> place;
+inline const ParticleLabel<std::int64_t, "number"> number;
+inline const ParticleLabel<Colour, "colour"> colour;
+inline const CellLabel<double, "warmth"> warmth;
+inline const NodeLabel<Point, "drift"> drift;
+inline const CellLabel<std::int64_t, "age"> age;
 
 inline const std::vector<std::string> groups{"sand", "clay"};
 
@@ -49,11 +49,7 @@ struct StateScene {
   /// Makes `age` a field of all groups together, with a halo that is no part of the state.
   static TaskDeclaration ageing()
   {
-    return task("age")
-        .over_patches()
-        .reads(age.previous().halo(1))
-        .computes(age)
-        .body([](const TaskContext&, GridView<const std::int64_t>, GridView<std::int64_t>) {});
+    return task("age").over_patches().reads(age.previous().halo(1)).computes(age).body([](const TaskContext&, auto) {});
   }
 
   static std::size_t n_particles(int patch, int group) { return static_cast<std::size_t>(patch + 3 * group) % 4; }
