@@ -1,5 +1,6 @@
 #include "tasks/demand.hpp"
 
+#include <algorithm>
 #include <array>
 #include <string>
 #include <variant>
@@ -24,9 +25,15 @@ std::vector<std::size_t> particles_of_materials(const Scene& scene)
 /// Numbers that a particle has in an output file, see FieldColumns.
 int n_output_numbers(const SceneMaterial& material)
 {
-  constexpr int id = 1, vectors = 2 * 3, stress = 6, scalars = 4, of_sand = 4;
-  return id + vectors + stress + scalars +
-         (std::holds_alternative<components::TabularCap>(material.model) ? of_sand : 0);
+  constexpr int id = 1, vectors = 2 * 3, stress = 6, scalars = 4;
+  const auto of_state = std::visit(
+      []<class Model>(const Model&) {
+        const auto& columns = components::state_columns<Model>();
+        return std::count_if(columns.begin(), columns.end(),
+                             [](const auto& column) { return column.shown != components::Shown::by_drive; });
+      },
+      material.model);
+  return id + vectors + stress + scalars + static_cast<int>(of_state);
 }
 
 template <class Interpolator>

@@ -1,7 +1,6 @@
 #include "tasks/field_columns.hpp"
 
-#include <cmath>
-
+#include "components/materials/state_columns.hpp"
 #include "components/portable_math.hpp"
 #include "runtime/storage/particle_share.hpp"
 #include "tasks/labels.hpp"
@@ -31,13 +30,6 @@ template <class T>
 void append(std::vector<double>& all, const T& values)
 {
   all.insert(all.end(), values.data(), values.data() + values.size());
-}
-
-template <int D>
-double q_of(const SymmetricTensor<D>& stress)
-{
-  const SymmetricTensor<D> s = deviator(stress);
-  return std::sqrt(1.5 * double_dot(s, s));
 }
 
 }  // namespace
@@ -72,30 +64,31 @@ std::vector<runtime::ParticleBlock> FieldColumns<Interpolator>::particles(const 
         [&](int patch, std::size_t p, auto& all) { append(all, state(particle::velocity<D>, patch, p)); });
     add("stress", ColumnKind::tensor,
         [&](int patch, std::size_t p, auto& all) { append(all, state(particle::stress<D>, patch, p)); });
-    add("p", ColumnKind::scalar,
-        [&](int patch, std::size_t p, auto& all) { all.push_back(-trace(state(particle::stress<D>, patch, p)) / 3); });
-    add("q", ColumnKind::scalar,
-        [&](int patch, std::size_t p, auto& all) { all.push_back(q_of<D>(state(particle::stress<D>, patch, p))); });
+    add("p", ColumnKind::scalar, [&](int patch, std::size_t p, auto& all) {
+      all.push_back(components::invariants(state(particle::stress<D>, patch, p)).pressure);
+    });
+    add("q", ColumnKind::scalar, [&](int patch, std::size_t p, auto& all) {
+      all.push_back(components::invariants(state(particle::stress<D>, patch, p)).q());
+    });
     add("density", ColumnKind::scalar, [&](int patch, std::size_t p, auto& all) {
       all.push_back(state(particle::mass, patch, p) / state(particle::volume, patch, p));
     });
     add("J", ColumnKind::scalar, [&](int patch, std::size_t p, auto& all) {
       all.push_back(state(particle::deformation_gradient<D>, patch, p).determinant());
     });
-    if (const auto* sand = std::get_if<components::TabularCap>(&material.model)) {
-      add("elastic_volumetric", ColumnKind::scalar, [&](int patch, std::size_t p, auto& all) {
-        all.push_back(state(particle::cap_state, patch, p).elastic_volumetric);
-      });
-      add("plastic_volumetric", ColumnKind::scalar, [&](int patch, std::size_t p, auto& all) {
-        all.push_back(state(particle::cap_state, patch, p).plastic_volumetric);
-      });
-      add("cap", ColumnKind::scalar, [&](int patch, std::size_t p, auto& all) {
-        all.push_back(sand->crush_pressure(state(particle::cap_state, patch, p).plastic_volumetric));
-      });
-      add("failed_updates", ColumnKind::scalar, [&](int patch, std::size_t p, auto& all) {
-        all.push_back(static_cast<double>(state(particle::cap_state, patch, p).n_failures));
-      });
-    }
+    std::visit(
+        [&]<class Model>(const Model& model) {
+          if constexpr (components::has_state<Model>) {
+            for (const components::StateColumn<Model>& column : components::state_columns<Model>()) {
+              if (column.shown == components::Shown::by_drive) continue;
+              add(std::string(column.name), ColumnKind::scalar, [&](int patch, std::size_t p, auto& all) {
+                all.push_back(column.value(model, state(particle::state<Model>, patch, p),
+                                           components::invariants(state(particle::stress<D>, patch, p))));
+              });
+            }
+          }
+        },
+        material.model);
     blocks.push_back(std::move(block));
   }
   return blocks;

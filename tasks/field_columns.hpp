@@ -17,8 +17,8 @@ template <class Interpolator>
 class FieldColumns
 {
  public:
-  /// For each material: id, position, velocity, stress, mean stress p and q (compression positive), density, J; and of
-  /// sand elastic and plastic volumetric strain and crush pressure. Collective.
+  /// For each material: id, position, velocity, stress, mean stress p and q (compression positive), density, J, and
+  /// what its model shows of its state. Collective.
   std::vector<runtime::ParticleBlock> particles(const Method<Interpolator>& method, runtime::Warehouse& warehouse,
                                                 const runtime::Communicator& communicator);
   /// Of the last step, all materials together: density and velocity at the nodes.

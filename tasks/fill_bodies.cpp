@@ -163,7 +163,7 @@ void BodyParticles<D>::store(const Particles& particles, int patch, int material
     if (!scene_.bodies[number].initial_stress) continue;
     const auto settled = settled_.at(number).at(particles.position[p]);
     state(particle::stress<D>)[p] = settled.stress;
-    state(particle::cap_state)[p] = settled.state;
+    state(particle::state<components::TabularCap>)[p] = settled.state;
   }
 }
 

@@ -7,25 +7,9 @@
 namespace tamp::tasks
 {
 
-namespace
-{
-
-template <class Elastic>
-components::TangentModuli moduli_of(const Elastic& solid)
-{
-  return {solid.bulk_modulus, solid.shear_modulus};
-}
-
-components::TangentModuli moduli_of(const components::TabularCap& sand)
-{
-  return {sand.initial_bulk_modulus(), sand.initial_shear_modulus()};
-}
-
-}  // namespace
-
 components::TangentModuli initial_moduli(const SceneMaterial& material)
 {
-  return std::visit([](const auto& model) { return moduli_of(model); }, material.model);
+  return std::visit([](const auto& model) { return model.initial_moduli(); }, material.model);
 }
 
 double initial_wave_speed(const SceneMaterial& material)

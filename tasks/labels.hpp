@@ -3,7 +3,6 @@
 #include <cstdint>
 
 #include "components/contact/logistic_plane.hpp"
-#include "components/materials/tabular_cap.hpp"
 #include "components/shapes/node_sums.hpp"
 #include "components/tensors.hpp"
 #include "runtime/data/label.hpp"
@@ -42,8 +41,9 @@ template <int D>
 inline const runtime::ParticleLabel<SymmetricTensor<D>, "stress"> stress;
 /// Of artificial viscosity [Pa], compression positive.
 inline const runtime::ParticleLabel<double, "viscous pressure"> viscous_pressure;
-/// Of particles whose material is a tabular cap model.
-inline const runtime::ParticleLabel<components::CapState, "cap state"> cap_state;
+/// What a material model keeps of its particles, where it keeps something.
+template <class Model>
+inline const runtime::ParticleLabel<typename Model::State, Model::state_name> state;
 /// In the nodes of this step, see components::own_stiffness; 0 where the rule for the time step does not ask.
 inline const runtime::ParticleLabel<double, "own stiffness"> own_stiffness;
 /// Of this step, in the frame of its end.

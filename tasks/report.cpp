@@ -8,21 +8,10 @@
 namespace tamp::tasks
 {
 
-using components::CapState;
 using runtime::TaskContext;
 
 namespace
 {
-
-template <int D>
-auto report_task(const std::string& material, int group)
-{
-  return runtime::task("report: " + material)
-      .over_patches_and_groups({group})
-      .reads(particle::body.previous(), particle::mass.previous(), particle::position<D>.previous(),
-             particle::reference_position<D>.previous(), particle::velocity<D>.previous(),
-             particle::stress<D>.previous());
-}
 
 /// Per mass, of the loads that have one [J/kg].
 template <class Interpolator, int D = Interpolator::dimension>
@@ -51,11 +40,9 @@ void report_motion(const Method<Interpolator>& method, const TaskContext& at, co
   const auto position = data[particle::position<D>.previous()];
   const auto reference = data[particle::reference_position<D>.previous()];
   const auto velocity = data[particle::velocity<D>.previous()];
-  const auto stress = data[particle::stress<D>.previous()];
   ParticleReport& report = data[particle_report];
   for (std::size_t p = 0; p < mass.size(); ++p) {
     report.gravity_work += mass[p] * work_function(method, position[p]);
-    report.materials[static_cast<std::size_t>(at.group)].add(stress[p]);
   }
   if (const RigidBody* rigid = method.rigid_body(at.group)) {
     report_rigid_motion(at, *rigid, report);
@@ -68,28 +55,47 @@ void report_motion(const Method<Interpolator>& method, const TaskContext& at, co
   }
 }
 
-/// Of what is elastic, and so has no more to tell than its motion and stress.
-template <class Interpolator, class Elastic>
-runtime::TaskDeclaration report_of(const Method<Interpolator>& method, int group, const std::string& name,
-                                   const Elastic&)
+/// Adds the particles `p` of a patch to the peaks of their material for which `is_wanted(p)`.
+template <int D, class Model, class Data, class IsWanted>
+void add_peaks(const Model& model, const Data& data, MaterialPeaks& peaks, const IsWanted& is_wanted)
 {
-  return report_task<Interpolator::dimension>(name, group)
-      .reduces(particle_report)
-      .body([&method](const TaskContext& at, auto data) { report_motion(method, at, data); });
+  const auto stress = data[particle::stress<D>.previous()];
+  for (std::size_t p = 0; p < stress.size(); ++p) {
+    if (!is_wanted(p)) continue;
+    const components::Invariants of_stress = components::invariants(stress[p]);
+    peaks.add(of_stress);
+    if constexpr (components::has_state<Model>) {
+      peaks.add(model, data[particle::state<Model>.previous()][p], of_stress);
+    }
+  }
 }
 
-template <class Interpolator>
-runtime::TaskDeclaration report_of(const Method<Interpolator>& method, int group, const std::string& name,
-                                   const components::TabularCap& sand)
+/// The task with the state of a model, if there is one, and a body.
+template <class Model, class Task, class Body>
+runtime::TaskDeclaration with_state(Task task, const Body& body)
 {
-  return report_task<Interpolator::dimension>(name, group)
-      .reads(particle::cap_state.previous())
-      .reduces(particle_report)
-      .body([&method, &sand](const TaskContext& at, auto data) {
-        report_motion(method, at, data);
-        MaterialPeaks& peaks = data[particle_report].materials[static_cast<std::size_t>(at.group)];
-        for (const CapState& s : data[particle::cap_state.previous()]) peaks.add(sand, s);
-      });
+  if constexpr (components::has_state<Model>) {
+    return std::move(task).reads(particle::state<Model>.previous()).body(body);
+  } else {
+    return std::move(task).body(body);
+  }
+}
+
+template <class Interpolator, class Model>
+runtime::TaskDeclaration report_of(const Method<Interpolator>& method, int group, const Model& model)
+{
+  constexpr int D = Interpolator::dimension;
+  auto task = runtime::task("report: " + method.materials[static_cast<std::size_t>(group)].name)
+                  .over_patches_and_groups({group})
+                  .reads(particle::body.previous(), particle::mass.previous(), particle::position<D>.previous(),
+                         particle::reference_position<D>.previous(), particle::velocity<D>.previous(),
+                         particle::stress<D>.previous())
+                  .reduces(particle_report);
+  return with_state<Model>(std::move(task), [&method, &model](const TaskContext& at, auto data) {
+    report_motion(method, at, data);
+    add_peaks<D>(model, data, data[particle_report].materials[static_cast<std::size_t>(at.group)],
+                 [](std::size_t) { return true; });
+  });
 }
 
 /// Where the noses of bodies are now, and how far "near" reaches.
@@ -116,46 +122,20 @@ class Noses
 };
 
 /// Waits for the report of the bodies, which tells where their noses are.
-template <int D>
-auto nose_task(const std::string& material, int group)
-{
-  return runtime::task("report near noses: " + material)
-      .over_patches_and_groups({group})
-      .reads(particle_report, particle::position<D>.previous(), particle::stress<D>.previous());
-}
-
-template <class Interpolator>
-runtime::TaskDeclaration report_near_noses(const Method<Interpolator>& method, int group)
+template <class Interpolator, class Model>
+runtime::TaskDeclaration report_near_noses(const Method<Interpolator>& method, int group, const Model& model)
 {
   constexpr int D = Interpolator::dimension;
-  const SceneMaterial& m = method.materials[static_cast<std::size_t>(group)];
-  const auto* sand = std::get_if<components::TabularCap>(&m.model);
-  if (sand == nullptr) {
-    return nose_task<D>(m.name, group).reduces(nose_report).body([&method](const TaskContext& at, auto data) {
-      const Noses noses(method.scene, data[particle_report]);
-      const auto position = data[particle::position<D>.previous()];
-      const auto stress = data[particle::stress<D>.previous()];
-      MaterialPeaks& peaks = data[nose_report].materials[static_cast<std::size_t>(at.group)];
-      for (std::size_t p = 0; p < position.size(); ++p) {
-        if (noses.are_near(in_space<D>(position[p]))) peaks.add(stress[p]);
-      }
-    });
-  }
-  return nose_task<D>(m.name, group)
-      .reads(particle::cap_state.previous())
-      .reduces(nose_report)
-      .body([&method, sand](const TaskContext& at, auto data) {
-        const Noses noses(method.scene, data[particle_report]);
-        const auto position = data[particle::position<D>.previous()];
-        const auto stress = data[particle::stress<D>.previous()];
-        const auto state = data[particle::cap_state.previous()];
-        MaterialPeaks& peaks = data[nose_report].materials[static_cast<std::size_t>(at.group)];
-        for (std::size_t p = 0; p < position.size(); ++p) {
-          if (!noses.are_near(in_space<D>(position[p]))) continue;
-          peaks.add(stress[p]);
-          peaks.add(*sand, state[p]);
-        }
-      });
+  auto task = runtime::task("report near noses: " + method.materials[static_cast<std::size_t>(group)].name)
+                  .over_patches_and_groups({group})
+                  .reads(particle_report, particle::position<D>.previous(), particle::stress<D>.previous())
+                  .reduces(nose_report);
+  return with_state<Model>(std::move(task), [&method, &model](const TaskContext& at, auto data) {
+    const Noses noses(method.scene, data[particle_report]);
+    const auto position = data[particle::position<D>.previous()];
+    add_peaks<D>(model, data, data[nose_report].materials[static_cast<std::size_t>(at.group)],
+                 [&](std::size_t p) { return noses.are_near(in_space<D>(position[p])); });
+  });
 }
 
 void combine(PeaksOfMaterials& into, const PeaksOfMaterials& other)
@@ -165,28 +145,28 @@ void combine(PeaksOfMaterials& into, const PeaksOfMaterials& other)
 
 }  // namespace
 
-template <int Size>
-void MaterialPeaks::add(const Eigen::Matrix<double, Size, 1>& stress)
+void MaterialPeaks::add(const components::Invariants& stress)
 {
-  const Eigen::Matrix<double, Size, 1> s = deviator(stress);
-  pressure = std::max(pressure, -trace(stress) / 3);
-  q = std::max(q, std::sqrt(1.5 * double_dot(s, s)));
+  pressure = std::max(pressure, stress.pressure);
+  q = std::max(q, stress.q());
 }
 
-void MaterialPeaks::add(const components::TabularCap& sand, const CapState& state)
+template <class Model>
+void MaterialPeaks::add(const Model& model, const typename Model::State& state, const components::Invariants& stress)
 {
-  cap = std::max(cap, sand.crush_pressure(state.plastic_volumetric));
-  plastic_volumetric = std::max(plastic_volumetric, state.plastic_volumetric);
-  least_plastic_volumetric = std::min(least_plastic_volumetric, state.plastic_volumetric);
+  std::size_t k = 0;
+  for (const auto& [column, greatest] : components::state_extremes<Model>()) {
+    const double value = components::state_columns<Model>()[column].value(model, state, stress);
+    extremes_[k] = std::max(extremes_[k], greatest ? value : -value);
+    ++k;
+  }
 }
 
 void MaterialPeaks::combine(const MaterialPeaks& other)
 {
   pressure = std::max(pressure, other.pressure);
   q = std::max(q, other.q);
-  cap = std::max(cap, other.cap);
-  plastic_volumetric = std::max(plastic_volumetric, other.plastic_volumetric);
-  least_plastic_volumetric = std::min(least_plastic_volumetric, other.least_plastic_volumetric);
+  for (std::size_t k = 0; k < extremes_.size(); ++k) extremes_[k] = std::max(extremes_[k], other.extremes_[k]);
 }
 
 void ParticleReport::combine(const ParticleReport& other)
@@ -213,14 +193,15 @@ template <class Interpolator>
 std::vector<runtime::TaskDeclaration> report_tasks(const Method<Interpolator>& method)
 {
   std::vector<runtime::TaskDeclaration> tasks;
-  for (int group = 0; group < static_cast<int>(method.materials.size()); ++group) {
-    const SceneMaterial& m = method.materials[static_cast<std::size_t>(group)];
-    tasks.push_back(std::visit([&](const auto& model) { return report_of(method, group, m.name, model); }, m.model));
-  }
-  if (method.scene.has_nose()) {
+  const auto add_for_all = [&](const auto& report) {
     for (int group = 0; group < static_cast<int>(method.materials.size()); ++group) {
-      tasks.push_back(report_near_noses(method, group));
+      const MaterialModel& any = method.materials[static_cast<std::size_t>(group)].model;
+      tasks.push_back(std::visit([&](const auto& model) { return report(group, model); }, any));
     }
+  };
+  add_for_all([&](int group, const auto& model) { return report_of(method, group, model); });
+  if (method.scene.has_nose()) {
+    add_for_all([&](int group, const auto& model) { return report_near_noses(method, group, model); });
   }
   return tasks;
 }

@@ -7,6 +7,7 @@
 #include <limits>
 #include <vector>
 
+#include "components/materials/state_columns.hpp"
 #include "runtime/data/views.hpp"
 #include "runtime/graph/task_graph.hpp"
 #include "tasks/body_sums.hpp"
@@ -16,19 +17,30 @@ namespace tamp::tasks
 {
 
 /// Extremes over the particles of one material; compression positive.
-struct MaterialPeaks {
+class MaterialPeaks
+{
+ public:
+  MaterialPeaks() { extremes_.fill(-std::numeric_limits<double>::infinity()); }
+
   /// Mean stress -tr sigma / 3 and q = sqrt(3 J2) [Pa].
   double pressure = -std::numeric_limits<double>::infinity();
   double q = 0;
-  /// Of tabular caps: crush pressure [Pa] and plastic volumetric strain.
-  double cap = 0;
-  double plastic_volumetric = -std::numeric_limits<double>::infinity();
-  double least_plastic_volumetric = std::numeric_limits<double>::infinity();
 
-  template <int Size>
-  void add(const Eigen::Matrix<double, Size, 1>& stress);
-  void add(const components::TabularCap& sand, const components::CapState& state);
+  void add(const components::Invariants& stress);
+  /// Takes in the state of a particle, with its stress.
+  template <class Model>
+  void add(const Model& model, const typename Model::State& state, const components::Invariants& stress);
   void combine(const MaterialPeaks& other);
+
+  /// The one of `state_extremes` at this place; infinite where there was no particle.
+  double extreme(std::size_t k, const components::StateExtreme& of) const
+  {
+    return of.greatest ? extremes_[k] : -extremes_[k];
+  }
+
+ private:
+  /// The greatest values, and the greatest negative ones for the least.
+  std::array<double, components::max_state_columns> extremes_;
 };
 
 using PeaksOfMaterials = std::array<MaterialPeaks, runtime::PerGroup<int>::max_groups>;

@@ -13,9 +13,7 @@
 #include "components/geometry/solid.hpp"
 #include "components/loads/artificial_viscosity.hpp"
 #include "components/loads/rotating_frame.hpp"
-#include "components/materials/hypoelastic.hpp"
-#include "components/materials/neo_hookean.hpp"
-#include "components/materials/tabular_cap.hpp"
+#include "components/materials/material_model.hpp"
 #include "runtime/grid/patch_layout.hpp"
 
 /// A scene that has been checked: what a run is made from. SI units. Two-dimensional scenes (plane strain) use the
@@ -46,7 +44,7 @@ struct SceneTime {
   double maximum_step = std::numeric_limits<double>::infinity();
 };
 
-using MaterialModel = std::variant<components::Hypoelastic, components::NeoHookean, components::TabularCap>;
+using components::MaterialModel;
 
 /// Materials are the contact groups too: each has its own velocity field on the grid.
 struct SceneMaterial {

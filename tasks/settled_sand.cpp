@@ -9,6 +9,7 @@
 
 #include "components/errors.hpp"
 #include "components/geometry/fill.hpp"
+#include "components/materials/invariants.hpp"
 #include "components/shapes/gimp.hpp"
 #include "tasks/method.hpp"
 
@@ -140,16 +141,14 @@ SymmetricTensor<D> SettledSand<D>::stress(const std::array<std::size_t, std::siz
 template <int D>
 typename SettledSand<D>::Particle SettledSand<D>::settled(const SymmetricTensor<D>& stress) const
 {
-  const double pressure = -trace(stress) / 3;
-  const SymmetricTensor<D> s = deviator(stress);
-  const double sqrt_j2 = std::sqrt(0.5 * double_dot(s, s));
+  const components::Invariants now = components::invariants(stress);
   const double plastic = sand_->plastic_volumetric_at_crush(-stress[static_cast<Eigen::Index>(vertical_)]);
-  const double limit = sand_->parameters().yield.limit(pressure, sand_->crush_pressure(plastic));
-  if (!(sqrt_j2 <= limit)) {
-    throw BadValue(fmt::format("q = {:.4g} Pa at p = {:.4g} Pa", std::sqrt(3.0) * sqrt_j2, pressure),
+  const double limit = sand_->parameters().yield.limit(now.pressure, sand_->crush_pressure(plastic));
+  if (!(now.sqrt_j2() <= limit)) {
+    throw BadValue(fmt::format("q = {:.4g} Pa at p = {:.4g} Pa", now.q(), now.pressure),
                    fmt::format("at most the sand's strength there, q = {:.4g} Pa", std::sqrt(3.0) * limit));
   }
-  return {stress, sand_->state_at_pressure(pressure, plastic)};
+  return {stress, sand_->state_at_pressure(now.pressure, plastic)};
 }
 
 template <int D>

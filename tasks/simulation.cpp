@@ -270,10 +270,10 @@ class SimulationOf : public Simulation
     if (accepts(step)) return;
     const std::size_t failures = totals_.updates.failures + step.updates.failures;
     const FailedUpdate& failed = step.failed;
-    throw SimulationError(fmt::format("{}; {} stress updates have failed, {} are allowed", failed.reason(), failures,
-                                      scene_.failed_updates_allowed),
-                          scene_.materials[static_cast<std::size_t>(failed.material)].name, failed.particle,
-                          {failed.position.begin(), failed.position.begin() + D});
+    const SceneMaterial& material = scene_.materials[static_cast<std::size_t>(failed.material)];
+    throw SimulationError(fmt::format("{}; {} stress updates have failed, {} are allowed",
+                                      failed.reason(material.model), failures, scene_.failed_updates_allowed),
+                          material.name, failed.particle, {failed.position.begin(), failed.position.begin() + D});
   }
 
   void take_totals()

@@ -5,14 +5,30 @@
 namespace tamp::tasks
 {
 
-std::string FailedUpdate::reason() const
+namespace
 {
+
+template <class Model>
+std::string state_in_words(const Model&, std::span<const double> values)
+{
+  std::string words;
+  std::size_t k = 0;
+  for (const auto& column : components::state_columns<Model>()) {
+    const bool has_unit = !column.unit.empty() && column.unit != "-";
+    words += fmt::format(", {} {:.6g}{}{}", column.name, values[k++], has_unit ? " " : "", has_unit ? column.unit : "");
+  }
+  return words;
+}
+
+}  // namespace
+
+std::string FailedUpdate::reason(const components::MaterialModel& model) const
+{
+  const std::string words = std::visit([&](const auto& m) { return state_in_words(m, state); }, model);
   return fmt::format(
-      "{}; its stress stays p = {:.6g} Pa, q = {:.6g} Pa, its elastic and plastic volumetric strain {:.6g} and {:.6g} "
-      "(compression positive), the strain increment was {:.3g} of volume and {:.3g} of shape, and {} of its updates "
-      "have failed",
-      to_string(fault), pressure, q, state.elastic_volumetric, state.plastic_volumetric, volumetric_increment,
-      deviatoric_increment, state.n_failures);
+      "{}; its stress stays p = {:.6g} Pa, q = {:.6g} Pa, the strain increment was {:.3g} of volume and {:.3g} of "
+      "shape (compression positive){}",
+      to_string(fault), pressure, q, volumetric_increment, deviatoric_increment, words);
 }
 
 }  // namespace tamp::tasks

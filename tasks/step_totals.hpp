@@ -8,7 +8,8 @@
 #include <string>
 
 #include "components/errors.hpp"
-#include "components/materials/tabular_cap.hpp"
+#include "components/materials/material_model.hpp"
+#include "components/materials/state_columns.hpp"
 
 namespace tamp::tasks
 {
@@ -19,12 +20,13 @@ struct FailedUpdate {
   int material = -1;
   std::array<double, 3> position{};  ///< m
   components::UpdateFault fault{};
-  components::CapState state;
   double pressure = 0, q = 0;                                 ///< Pa, compression positive
   double volumetric_increment = 0, deviatoric_increment = 0;  ///< of strain, refused; compression positive
+  /// The columns of its model's state.
+  std::array<double, components::max_state_columns> state{};
 
   /// With all of the above in words.
-  std::string reason() const;
+  std::string reason(const components::MaterialModel& model) const;
 };
 
 /// Sums and bounds over all particles and nodes of one step.

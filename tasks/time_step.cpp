@@ -1,10 +1,30 @@
 #include "tasks/time_step.hpp"
 
+#include <algorithm>
+
 #include "tasks/labels.hpp"
 #include "tasks/phases.hpp"
 
 namespace tamp::tasks
 {
+
+namespace
+{
+
+void add_state_of(const MaterialModel& model, runtime::HostData& data)
+{
+  std::visit(
+      [&]<class Model>(const Model&) {
+        if constexpr (components::has_state<Model>) {
+          const runtime::Label* const label = &particle::state<Model>;
+          const bool is_new = std::find(data.state.begin(), data.state.end(), label) == data.state.end();
+          if (is_new) data.state.push_back(label);
+        }
+      },
+      model);
+}
+
+}  // namespace
 
 template <class Interpolator>
 std::vector<runtime::TaskDeclaration> time_step(const Method<Interpolator>& method,
@@ -36,8 +56,9 @@ runtime::HostData host_data(const Method<Interpolator>& method)
   constexpr int D = Interpolator::dimension;
   runtime::HostData data{{&particle::id, &particle::body, &particle::reference_position<D>, &particle::mass,
                           &particle::position<D>, &particle::velocity<D>, &particle::deformation_gradient<D>,
-                          &particle::volume, &particle::stress<D>, &particle::viscous_pressure, &particle::cap_state},
+                          &particle::volume, &particle::stress<D>, &particle::viscous_pressure},
                          {&step_totals, &grid_impulse, &contact_impulses}};
+  for (const SceneMaterial& material : method.materials) add_state_of(material.model, data);
   if (method.transfer == Transfer::affine) data.state.push_back(&particle::velocity_gradient<D>);
   return data;
 }

@@ -1,9 +1,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <type_traits>
 
 #include "components/errors.hpp"
 #include "components/loads/time_step.hpp"
+#include "components/materials/state_columns.hpp"
 #include "components/materials/wave_speed.hpp"
 #include "tasks/labels.hpp"
 #include "tasks/phases.hpp"
@@ -12,7 +14,7 @@
 namespace tamp::tasks
 {
 
-using components::CapState;
+using components::MaterialBatch;
 using runtime::TaskContext;
 
 namespace
@@ -22,7 +24,7 @@ namespace
 /// what lives only within the update stays in the first cache.
 constexpr std::size_t batch_size = 256;
 
-/// What the material tells of a batch beside the stress.
+/// What the material tells of a batch beside the stress and the state.
 struct BatchAnswer {
   std::array<double, batch_size> bulk_modulus;
   std::array<double, batch_size> shear_modulus;
@@ -30,189 +32,152 @@ struct BatchAnswer {
   std::array<double, batch_size> plastic_work;
 };
 
-template <int D>
-struct StressArguments {
-  template <class Data>
-  explicit StressArguments(const Data& data)
-      : id(data[particle::id.previous()]),
-        mass(data[particle::mass.previous()]),
-        position(data[particle::position<D>]),
-        velocity(data[particle::velocity<D>]),
-        old_volume(data[particle::volume.previous()]),
-        volume(data[particle::volume]),
-        old_viscous_pressure(data[particle::viscous_pressure.previous()]),
-        own_stiffness(data[particle::own_stiffness]),
-        strain(data[particle::strain_increment<D>]),
-        stress(data[particle::stress<D>]),
-        viscous_pressure(data[particle::viscous_pressure])
-  {
+/// The particles from `first`, as many as there is room for in `answer`.
+template <int D, class Model, class Data>
+MaterialBatch<D, typename Model::State> batch_at(std::size_t first, const Data& data, BatchAnswer& answer)
+{
+  const std::size_t n = std::min(batch_size, data[particle::stress<D>].size() - first);
+  MaterialBatch<D, typename Model::State> batch{
+      .strain_increment = data[particle::strain_increment<D>].subspan(first, n),
+      .deformation_gradient = data[particle::deformation_gradient<D>].subspan(first, n),
+      .old_state = {},
+      .stress = data[particle::stress<D>].subspan(first, n),
+      .state = {},
+      .bulk_modulus = std::span(answer.bulk_modulus).first(n),
+      .shear_modulus = std::span(answer.shear_modulus).first(n),
+      .plastic_work = std::span(answer.plastic_work).first(n)};
+  if constexpr (components::has_state<Model>) {
+    batch.old_state = data[particle::state<Model>.previous()].subspan(first, n);
+    batch.state = data[particle::state<Model>].subspan(first, n);
   }
-
-  std::span<const std::int64_t> id;
-  std::span<const double> mass;
-  std::span<const Vector<D>> position;
-  std::span<const Vector<D>> velocity;
-  std::span<const double> old_volume;
-  std::span<const double> volume;
-  std::span<const double> old_viscous_pressure;
-  std::span<const double> own_stiffness;
-  std::span<const SymmetricTensor<D>> strain;
-  std::span<SymmetricTensor<D>> stress;
-  std::span<double> viscous_pressure;
-};
+  return batch;
+}
 
 /// One batch after the material has answered: artificial viscosity, energies, and the bound on the next step.
-template <class Interpolator, int D = Interpolator::dimension>
-void account(const Method<Interpolator>& method, double dt, const StressArguments<D>& s, std::size_t first,
-             std::span<const SymmetricTensor<D>> old_stress, const BatchAnswer& answer, StepTotals& totals)
+template <class Interpolator, class Data, int D = Interpolator::dimension>
+void account(const Method<Interpolator>& method, double dt, const Data& data, std::size_t first,
+             std::span<const SymmetricTensor<D>> old_stress, const BatchAnswer& answer)
 {
+  const auto mass = data[particle::mass.previous()];
+  const auto velocity = data[particle::velocity<D>];
+  const auto old_volume = data[particle::volume.previous()];
+  const auto volume = data[particle::volume];
+  const auto strain = data[particle::strain_increment<D>];
+  const auto stress = data[particle::stress<D>];
+  const auto old_viscous_pressure = data[particle::viscous_pressure.previous()];
+  const auto viscous_pressure = data[particle::viscous_pressure];
+  const auto own_stiffness = data[particle::own_stiffness];
+  StepTotals& totals = data[step_totals];
   for (std::size_t k = 0; k < old_stress.size(); ++k) {
     const std::size_t p = first + k;
     const double bulk = answer.bulk_modulus[k], shear = answer.shear_modulus[k];
-    const double density = s.mass[p] / s.volume[p];
-    const double volume_rate = trace(s.strain[p]) / dt;
-    s.viscous_pressure[p] =
+    const double density = mass[p] / volume[p];
+    const double volume_rate = trace(strain[p]) / dt;
+    viscous_pressure[p] =
         method.viscosity ? method.viscosity->pressure(density, bulk, volume_rate, method.cell_size) : 0;
 
     // Work at the middle of the step; the viscous pressure that acted was that of the step before.
-    const double mid_volume = 0.5 * (s.old_volume[p] + s.volume[p]);
-    const SymmetricTensor<D> mid_stress = 0.5 * (old_stress[k] + s.stress[p]);
-    const double plastic = answer.plastic_work[k] * s.volume[p];
-    totals.elastic += double_dot(mid_stress, s.strain[p]) * mid_volume - plastic;
+    const double mid_volume = 0.5 * (old_volume[p] + volume[p]);
+    const SymmetricTensor<D> mid_stress = 0.5 * (old_stress[k] + stress[p]);
+    const double plastic = answer.plastic_work[k] * volume[p];
+    totals.elastic += double_dot(mid_stress, strain[p]) * mid_volume - plastic;
     totals.plastic += plastic;
-    totals.viscous += s.old_viscous_pressure[p] * (s.old_volume[p] - s.volume[p]);
+    totals.viscous += old_viscous_pressure[p] * (old_volume[p] - volume[p]);
 
-    const double bound =
-        method.time_step_rule == StepRule::published
-            ? components::published_time_step<D>(method.cell_size, components::wave_speed(bulk, shear, density),
-                                                 s.velocity[p])
-            : components::viscous_time_step<D>(method.cell_size,
-                                               {density, bulk, shear, s.velocity[p], volume_rate, s.own_stiffness[p]},
-                                               method.viscosity.value_or(components::ArtificialViscosity{0, 0}));
+    const double bound = method.time_step_rule == StepRule::published
+                             ? components::published_time_step<D>(
+                                   method.cell_size, components::wave_speed(bulk, shear, density), velocity[p])
+                             : components::viscous_time_step<D>(
+                                   method.cell_size, {density, bulk, shear, velocity[p], volume_rate, own_stiffness[p]},
+                                   method.viscosity.value_or(components::ArtificialViscosity{0, 0}));
     // Written so that what is not a number does not pass for a bound.
     totals.stable_step = bound >= totals.stable_step ? totals.stable_step : bound;
   }
 }
 
-/// Takes all particles to the material batch by batch; `update(first, n, answer)` updates the stress in place.
-template <class Interpolator, int D, class Update>
-void in_batches(const Method<Interpolator>& method, const TaskContext& at, const StressArguments<D>& s,
-                StepTotals& totals, const Update& update)
+/// Throws SimulationError for the first of `n` particles whose stress or velocity is not finite.
+template <class Interpolator, class Data>
+void check_finite(const Method<Interpolator>& method, int group, const Data& data, std::size_t first, std::size_t n)
 {
+  constexpr int D = Interpolator::dimension;
+  const auto stress = data[particle::stress<D>];
+  const auto velocity = data[particle::velocity<D>];
+  for (std::size_t p = first; p < first + n; ++p) {
+    if (stress[p].allFinite() && velocity[p].allFinite()) continue;
+    const Vector<D>& x = data[particle::position<D>][p];
+    throw SimulationError("stress or velocity is not finite", method.materials[static_cast<std::size_t>(group)].name,
+                          data[particle::id.previous()][p], {x.begin(), x.end()});
+  }
+}
+
+/// What is known of the particle that a batch of a group failed with.
+template <int D, class Model, class Data>
+FailedUpdate failed_update(const Model& model, int group, std::size_t p, components::UpdateFault fault,
+                           const Data& data)
+{
+  const SymmetricTensor<D>& strain = data[particle::strain_increment<D>][p];
+  const SymmetricTensor<D> shape = deviator(strain);
+  const components::Invariants stress = components::invariants(data[particle::stress<D>][p]);
+  FailedUpdate failed{.particle = data[particle::id.previous()][p],
+                      .material = group,
+                      .fault = fault,
+                      .pressure = stress.pressure,
+                      .q = stress.q(),
+                      .volumetric_increment = -trace(strain),
+                      .deviatoric_increment = std::sqrt(double_dot(shape, shape))};
+  if constexpr (components::has_state<Model>) {
+    std::size_t k = 0;
+    for (const auto& column : components::state_columns<Model>()) {
+      failed.state[k++] = column.value(model, data[particle::state<Model>][p], stress);
+    }
+  }
+  const Vector<D>& x = data[particle::position<D>][p];
+  std::copy(x.begin(), x.end(), failed.position.begin());
+  return failed;
+}
+
+/// Takes all particles to the material batch by batch.
+template <class Interpolator, class Model, class Data>
+void update_batches(const Method<Interpolator>& method, const Model& model, const TaskContext& at, const Data& data)
+{
+  constexpr int D = Interpolator::dimension;
+  StepTotals& totals = data[step_totals];
   // Here, as this task runs on every patch, with particles or without.
   totals.host_requests = at.step.host_requests;
   std::array<SymmetricTensor<D>, batch_size> old_stress;
   BatchAnswer answer;
-  for (std::size_t first = 0; first < s.id.size(); first += batch_size) {
-    const std::size_t n = std::min(batch_size, s.id.size() - first);
-    std::copy_n(s.stress.begin() + static_cast<std::ptrdiff_t>(first), n, old_stress.begin());
-    update(first, n, answer);
-    for (std::size_t p = first; p < first + n; ++p) {
-      if (s.stress[p].allFinite() && s.velocity[p].allFinite()) continue;
-      throw SimulationError("stress or velocity is not finite",
-                            method.materials[static_cast<std::size_t>(at.group)].name, s.id[p],
-                            {s.position[p].begin(), s.position[p].end()});
+  for (std::size_t first = 0; first < data[particle::stress<D>].size(); first += batch_size) {
+    const auto batch = batch_at<D, Model>(first, data, answer);
+    const std::size_t n = batch.stress.size();
+    std::copy(batch.stress.begin(), batch.stress.end(), old_stress.begin());
+    if (const auto failure = update(model, batch, totals.updates)) {
+      totals.note(failed_update<D>(model, at.group, first + failure->particle, failure->fault, data));
     }
-    account<Interpolator>(method, at.step.size, s, first, std::span<const SymmetricTensor<D>>(old_stress.data(), n),
-                          answer, totals);
+    check_finite(method, at.group, data, first, n);
+    account<Interpolator>(method, at.step.size, data, first, std::span<const SymmetricTensor<D>>(old_stress.data(), n),
+                          answer);
   }
 }
 
-template <int D>
-FailedUpdate failed_update(std::int64_t id, int material, components::UpdateFault fault, const Vector<D>& position,
-                           const CapState& state, const SymmetricTensor<D>& stress, const SymmetricTensor<D>& strain)
-{
-  const SymmetricTensor<D> s = deviator(stress), e = deviator(strain);
-  FailedUpdate failed{.particle = id,
-                      .material = material,
-                      .fault = fault,
-                      .state = state,
-                      .pressure = -trace(stress) / 3,
-                      .q = std::sqrt(1.5 * double_dot(s, s)),
-                      .volumetric_increment = -trace(strain),
-                      .deviatoric_increment = std::sqrt(double_dot(e, e))};
-  std::copy(position.begin(), position.end(), failed.position.begin());
-  return failed;
-}
-
-/// What every material's task reads and makes.
-template <int D>
-auto stress_task(const std::string& material, int group)
-{
-  return runtime::task("update stress: " + material)
-      .over_patches_and_groups({group})
-      .reads(particle::id.previous(), particle::mass.previous(), particle::position<D>, particle::velocity<D>,
-             particle::volume.previous(), particle::volume, particle::viscous_pressure.previous(),
-             particle::own_stiffness, particle::strain_increment<D>)
-      .updates(particle::stress<D>)
-      .computes(particle::viscous_pressure)
-      .reduces(step_totals);
-}
-
-template <class Interpolator>
-runtime::TaskDeclaration update(const Method<Interpolator>& method, int group, const std::string& name,
-                                const components::Hypoelastic& steel)
+template <class Interpolator, class Model>
+runtime::TaskDeclaration update_of(const Method<Interpolator>& method, int group, const Model& model)
 {
   constexpr int D = Interpolator::dimension;
-  return stress_task<D>(name, group).body([&method, &steel](const TaskContext& at, auto data) {
-    const StressArguments<D> s(data);
-    StepTotals& totals = data[step_totals];
-    in_batches(method, at, s, totals, [&](std::size_t first, std::size_t n, BatchAnswer& answer) {
-      std::fill_n(answer.plastic_work.begin(), n, 0.0);
-      std::fill_n(answer.bulk_modulus.begin(), n, steel.bulk_modulus);
-      std::fill_n(answer.shear_modulus.begin(), n, steel.shear_modulus);
-      components::update<D>(steel, s.strain.subspan(first, n), s.stress.subspan(first, n));
-    });
-  });
-}
-
-template <class Interpolator>
-runtime::TaskDeclaration update(const Method<Interpolator>& method, int group, const std::string& name,
-                                const components::NeoHookean& rubber)
-{
-  constexpr int D = Interpolator::dimension;
-  return stress_task<D>(name, group)
-      .reads(particle::deformation_gradient<D>)
-      .body([&method, &rubber](const TaskContext& at, auto data) {
-        const StressArguments<D> s(data);
-        StepTotals& totals = data[step_totals];
-        in_batches(method, at, s, totals, [&](std::size_t first, std::size_t n, BatchAnswer& answer) {
-          std::fill_n(answer.plastic_work.begin(), n, 0.0);
-          components::update<D>(rubber, data[particle::deformation_gradient<D>].subspan(first, n),
-                                s.stress.subspan(first, n));
-          for (std::size_t k = 0; k < n; ++k) {
-            const auto moduli =
-                components::tangent_moduli<D>(rubber, data[particle::deformation_gradient<D>][first + k]);
-            answer.bulk_modulus[k] = moduli.bulk_modulus;
-            answer.shear_modulus[k] = moduli.shear_modulus;
-          }
-        });
-      });
-}
-
-template <class Interpolator>
-runtime::TaskDeclaration update(const Method<Interpolator>& method, int group, const std::string& name,
-                                const components::TabularCap& sand)
-{
-  constexpr int D = Interpolator::dimension;
-  return stress_task<D>(name, group)
-      .reads(particle::cap_state.previous())
-      .computes(particle::cap_state)
-      .body([&method, &sand](const TaskContext& at, auto data) {
-        const StressArguments<D> s(data);
-        StepTotals& totals = data[step_totals];
-        in_batches(method, at, s, totals, [&](std::size_t first, std::size_t n, BatchAnswer& answer) {
-          const auto failure = components::update<D>(
-              sand, s.strain.subspan(first, n), data[particle::cap_state.previous()].subspan(first, n),
-              s.stress.subspan(first, n), data[particle::cap_state].subspan(first, n),
-              std::span(answer.bulk_modulus).first(n), std::span(answer.plastic_work).first(n), totals.updates);
-          for (std::size_t k = 0; k < n; ++k) answer.shear_modulus[k] = sand.shear_ratio() * answer.bulk_modulus[k];
-          if (!failure) return;
-          const std::size_t p = first + failure->particle;
-          totals.note(failed_update<D>(s.id[p], at.group, failure->fault, s.position[p], data[particle::cap_state][p],
-                                       s.stress[p], s.strain[p]));
-        });
-      });
+  auto task =
+      runtime::task("update stress: " + method.materials[static_cast<std::size_t>(group)].name)
+          .over_patches_and_groups({group})
+          .reads(particle::id.previous(), particle::mass.previous(), particle::position<D>, particle::velocity<D>,
+                 particle::deformation_gradient<D>, particle::volume.previous(), particle::volume,
+                 particle::viscous_pressure.previous(), particle::own_stiffness, particle::strain_increment<D>)
+          .updates(particle::stress<D>)
+          .computes(particle::viscous_pressure)
+          .reduces(step_totals);
+  const auto body = [&method, &model](const TaskContext& at, auto data) { update_batches(method, model, at, data); };
+  if constexpr (components::has_state<Model>) {
+    return std::move(task).reads(particle::state<Model>.previous()).computes(particle::state<Model>).body(body);
+  } else {
+    return std::move(task).body(body);
+  }
 }
 
 }  // namespace
@@ -220,8 +185,8 @@ runtime::TaskDeclaration update(const Method<Interpolator>& method, int group, c
 template <class Interpolator>
 runtime::TaskDeclaration update_stress(const Method<Interpolator>& method, int material)
 {
-  const SceneMaterial& m = method.materials[static_cast<std::size_t>(material)];
-  return std::visit([&](const auto& model) { return update(method, material, m.name, model); }, m.model);
+  return std::visit([&](const auto& model) { return update_of(method, material, model); },
+                    method.materials[static_cast<std::size_t>(material)].model);
 }
 
 template runtime::TaskDeclaration update_stress(const Method<components::Gimp<2>>&, int);

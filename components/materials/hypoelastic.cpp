@@ -1,21 +1,26 @@
 #include "components/materials/hypoelastic.hpp"
 
-#include <cmath>
-#include <string>
-
-#include "components/errors.hpp"
+#include <algorithm>
+#include <cstddef>
 
 namespace tamp::components
 {
 
-void check(const Hypoelastic& solid)
+template <int D>
+BatchFailure update(const Hypoelastic& solid, const MaterialBatch<D, NoState>& batch, UpdateCounts&)
 {
-  if (!(std::isfinite(solid.bulk_modulus) && solid.bulk_modulus > 0)) {
-    throw BadValue("bulk modulus " + std::to_string(solid.bulk_modulus), "a positive number of Pa");
+  for (std::size_t i = 0; i < batch.stress.size(); ++i) {
+    const SymmetricTensor<D>& strain = batch.strain_increment[i];
+    batch.stress[i] +=
+        2 * solid.shear_modulus * deviator(strain) + isotropic<n_symmetric<D>>(solid.bulk_modulus * trace(strain));
   }
-  if (!(std::isfinite(solid.shear_modulus) && solid.shear_modulus > 0)) {
-    throw BadValue("shear modulus " + std::to_string(solid.shear_modulus), "a positive number of Pa");
-  }
+  std::ranges::fill(batch.bulk_modulus, solid.bulk_modulus);
+  std::ranges::fill(batch.shear_modulus, solid.shear_modulus);
+  std::ranges::fill(batch.plastic_work, 0.0);
+  return std::nullopt;
 }
+
+template BatchFailure update<2>(const Hypoelastic&, const MaterialBatch<2, NoState>&, UpdateCounts&);
+template BatchFailure update<3>(const Hypoelastic&, const MaterialBatch<3, NoState>&, UpdateCounts&);
 
 }  // namespace tamp::components

@@ -1,33 +1,34 @@
 #pragma once
 
-#include <cstddef>
-#include <span>
+#include <array>
+#include <string_view>
 
-#include "components/tensors.hpp"
+#include "components/materials/material_batch.hpp"
+#include "components/materials/parameter.hpp"
 
 namespace tamp::components
 {
 
 /// A metal-like solid in the elastic range: stress grows with strain at constant moduli, Pa.
 struct Hypoelastic {
+  using State = NoState;
+  static constexpr std::string_view type = "hypoelastic";
+  static constexpr std::array<Parameter<Hypoelastic>, 2> parameters();
+
   double bulk_modulus;
   double shear_modulus;
+
+  TangentModuli initial_moduli() const { return {bulk_modulus, shear_modulus}; }
 };
 
-/// Throws BadValue unless both moduli are positive and finite.
-void check(const Hypoelastic& solid);
-
-/// stress += (K - 2G/3) tr(de) 1 + 2G de for each particle: spans of equal length, tension positive, `stress` already
-/// rotated to the end-of-step frame.
-template <int D>
-void update(const Hypoelastic& solid, std::span<const SymmetricTensor<D>> strain_increment,
-            std::span<SymmetricTensor<D>> stress)
+constexpr std::array<Parameter<Hypoelastic>, 2> Hypoelastic::parameters()
 {
-  for (std::size_t i = 0; i < strain_increment.size(); ++i) {
-    const SymmetricTensor<D>& strain = strain_increment[i];
-    stress[i] +=
-        2 * solid.shear_modulus * deviator(strain) + isotropic<n_symmetric<D>>(solid.bulk_modulus * trace(strain));
-  }
+  return {{{"bulk_modulus", "Pa", above_zero, &Hypoelastic::bulk_modulus},
+           {"shear_modulus", "Pa", above_zero, &Hypoelastic::shear_modulus}}};
 }
+
+/// stress += (K - 2G/3) tr(de) 1 + 2G de for each particle.
+template <int D>
+BatchFailure update(const Hypoelastic& solid, const MaterialBatch<D, NoState>& batch, UpdateCounts& counts);
 
 }  // namespace tamp::components

@@ -48,15 +48,19 @@ Extremes principal_extremes(const SymmetricTensor<3>& b)
 }  // namespace
 
 template <int D>
-void update(const NeoHookean& solid, std::span<const Matrix<D>> deformation_gradient,
-            std::span<SymmetricTensor<D>> stress)
+BatchFailure update(const NeoHookean& solid, const MaterialBatch<D, NoState>& batch, UpdateCounts&)
 {
-  for (std::size_t i = 0; i < stress.size(); ++i) {
-    const Matrix<D>& f = deformation_gradient[i];
+  for (std::size_t i = 0; i < batch.stress.size(); ++i) {
+    const Matrix<D>& f = batch.deformation_gradient[i];
     const double J = f.determinant();
-    stress[i] = isotropic<n_symmetric<D>>(0.5 * solid.bulk_modulus * (J - 1 / J)) +
-                solid.shear_modulus * portable::pow(J, -5.0 / 3.0) * deviator(left_cauchy_green<D>(f));
+    batch.stress[i] = isotropic<n_symmetric<D>>(0.5 * solid.bulk_modulus * (J - 1 / J)) +
+                      solid.shear_modulus * portable::pow(J, -5.0 / 3.0) * deviator(left_cauchy_green<D>(f));
+    const TangentModuli moduli = tangent_moduli<D>(solid, f);
+    batch.bulk_modulus[i] = moduli.bulk_modulus;
+    batch.shear_modulus[i] = moduli.shear_modulus;
   }
+  std::ranges::fill(batch.plastic_work, 0.0);
+  return std::nullopt;
 }
 
 template <int D>
@@ -69,8 +73,8 @@ TangentModuli tangent_moduli(const NeoHookean& solid, const Matrix<D>& deformati
   return {0.5 * solid.bulk_modulus * (J + 1 / J), 0.75 * solid.shear_modulus * portable::pow(J, -5.0 / 3.0) * stretch};
 }
 
-template void update<2>(const NeoHookean&, std::span<const Matrix<2>>, std::span<SymmetricTensor<2>>);
-template void update<3>(const NeoHookean&, std::span<const Matrix<3>>, std::span<SymmetricTensor<3>>);
+template BatchFailure update<2>(const NeoHookean&, const MaterialBatch<2, NoState>&, UpdateCounts&);
+template BatchFailure update<3>(const NeoHookean&, const MaterialBatch<3, NoState>&, UpdateCounts&);
 template TangentModuli tangent_moduli<2>(const NeoHookean&, const Matrix<2>&);
 template TangentModuli tangent_moduli<3>(const NeoHookean&, const Matrix<3>&);
 

@@ -1,8 +1,10 @@
 #pragma once
 
-#include <span>
+#include <array>
+#include <string_view>
 
-#include "components/tensors.hpp"
+#include "components/materials/material_batch.hpp"
+#include "components/materials/parameter.hpp"
 
 namespace tamp::components
 {
@@ -15,21 +17,26 @@ namespace tamp::components
 /// which is without bound both for J -> 0 and J -> infinity (J. C. Simo and T. J. R. Hughes, Computational
 /// Inelasticity, Springer 1998, section 9.2).
 struct NeoHookean {
+  using State = NoState;
+  static constexpr std::string_view type = "neo_hookean";
+  static constexpr std::array<Parameter<NeoHookean>, 2> parameters();
+
   double bulk_modulus;
   double shear_modulus;
+
+  TangentModuli initial_moduli() const { return {bulk_modulus, shear_modulus}; }
 };
 
-/// Cauchy stress sigma = K/2 (J - 1/J) 1 + G J^(-5/3) dev b of each particle, from its deformation gradient: spans of
-/// equal length, tension positive, det F above 0.
+constexpr std::array<Parameter<NeoHookean>, 2> NeoHookean::parameters()
+{
+  return {{{"bulk_modulus", "Pa", above_zero, &NeoHookean::bulk_modulus},
+           {"shear_modulus", "Pa", above_zero, &NeoHookean::shear_modulus}}};
+}
+
+/// Cauchy stress sigma = K/2 (J - 1/J) 1 + G J^(-5/3) dev b of each particle, from its deformation gradient, whose
+/// determinant is above 0; and its tangent moduli.
 template <int D>
-void update(const NeoHookean& solid, std::span<const Matrix<D>> deformation_gradient,
-            std::span<SymmetricTensor<D>> stress);
-
-/// Moduli of a strained solid for waves in it as it now is, of density rho now.
-struct TangentModuli {
-  double bulk_modulus;
-  double shear_modulus;
-};
+BatchFailure update(const NeoHookean& solid, const MaterialBatch<D, NoState>& batch, UpdateCounts& counts);
 
 /// Moduli whose wave speed sqrt((K_t + 4/3 G_t) / rho) no wave exceeds, whatever its direction and polarisation. A wave
 /// with normal n and polarisation a, unit vectors with m = a . n, deforms to (1 + s a (x) n) F, and rho c^2 is the

@@ -46,6 +46,12 @@ double TabularCap::bulk_modulus(const CapState& state, double pressure) const
       parameters_.modulus);
 }
 
+TangentModuli TabularCap::initial_moduli() const
+{
+  const double bulk = bulk_modulus({}, 0);
+  return {bulk, shear_ratio_ * bulk};
+}
+
 double TabularCap::pressure(const CapState& state) const
 {
   return std::visit(
@@ -75,6 +81,34 @@ double TabularCap::plastic_volumetric_at_crush(double pressure) const
 namespace
 {
 
+double in_range(const TabularCap& sand, const CapState& state, const Invariants&)
+{
+  return std::visit(
+      [&](const auto& model) { return model.in_range(state.elastic_volumetric, state.plastic_volumetric) ? 1.0 : 0.0; },
+      sand.parameters().modulus);
+}
+
+double outside(const TabularCap& sand, const CapState& state, const Invariants& stress)
+{
+  const YieldSurface& surface = sand.parameters().yield;
+  const double p = stress.pressure, vertex = surface.vertex_pressure();
+  const double crush = sand.crush_pressure(state.plastic_volumetric);
+  return std::max({stress.sqrt_j2() - surface.limit(p, crush), p - crush, vertex - p, 0.0}) / (crush - vertex);
+}
+
+constexpr std::array<StateColumn<TabularCap>, 6> cap_columns{{
+    {"elastic_volumetric", "-", [](const auto&, const CapState& s, const auto&) { return s.elastic_volumetric; }},
+    {"plastic_volumetric", "-", [](const auto&, const CapState& s, const auto&) { return s.plastic_volumetric; }},
+    {"cap", "Pa",
+     [](const auto& sand, const CapState& s, const auto&) { return sand.crush_pressure(s.plastic_volumetric); }},
+    {"failed_updates", "",
+     [](const auto&, const CapState& s, const auto&) { return static_cast<double>(s.n_failures); },
+     Shown::in_field_files},
+    {"in_range", "", in_range, Shown::by_drive},
+    {"outside", "-", outside, Shown::by_drive},
+}};
+constexpr std::array<StateExtreme, 3> cap_extremes{{{.column = 2}, {.column = 1}, {.column = 1, .greatest = false}}};
+
 /// A strain increment larger than this in one step is no step of a sound simulation, and is refused.
 constexpr double largest_increment = 0.2;
 
@@ -92,52 +126,57 @@ std::optional<UpdateFault> fault_of(const SymmetricTensor<D>& strain, const Symm
 
 }  // namespace
 
-template <int D>
-std::optional<UpdateFailure> update(const TabularCap& sand, std::span<const SymmetricTensor<D>> strain_increment,
-                                    std::span<const CapState> state_old, std::span<SymmetricTensor<D>> stress,
-                                    std::span<CapState> state, std::span<double> bulk_modulus,
-                                    std::span<double> plastic_work, UpdateCounts& counts)
+std::span<const StateColumn<TabularCap>, 6> TabularCap::columns()
 {
-  std::optional<UpdateFailure> first_failure;
+  return cap_columns;
+}
+
+std::span<const StateExtreme, 3> TabularCap::extremes()
+{
+  return cap_extremes;
+}
+
+template <int D>
+BatchFailure update(const TabularCap& sand, const MaterialBatch<D, CapState>& batch, UpdateCounts& counts)
+{
+  BatchFailure first_failure;
   const auto fail = [&](std::size_t i, UpdateFault fault) {
     if (!first_failure) first_failure = UpdateFailure{i, fault};
     ++counts.failures;
-    state[i] = state_old[i];
-    ++state[i].n_failures;
-    bulk_modulus[i] = state[i].bulk_modulus > 0 ? state[i].bulk_modulus : sand.initial_bulk_modulus();
-    plastic_work[i] = 0;
+    batch.state[i] = batch.old_state[i];
+    ++batch.state[i].n_failures;
+    const double last = batch.state[i].bulk_modulus;
+    batch.bulk_modulus[i] = last > 0 ? last : sand.initial_moduli().bulk_modulus;
+    batch.plastic_work[i] = 0;
   };
   std::visit(
       [&]<class Model>(const Model& model) {
         CapIntegrator<D, Model> integrator(sand, model);
-        for (std::size_t i = 0; i < strain_increment.size(); ++i) {
-          if (const auto fault = fault_of<D>(strain_increment[i], stress[i], state_old[i])) {
+        for (std::size_t i = 0; i < batch.stress.size(); ++i) {
+          if (const auto fault = fault_of<D>(batch.strain_increment[i], batch.stress[i], batch.old_state[i])) {
             fail(i, *fault);
             continue;
           }
-          const CapParticle<D> now = integrator.advance(stress[i], state_old[i], strain_increment[i]);
+          const CapParticle<D> now = integrator.advance(batch.stress[i], batch.old_state[i], batch.strain_increment[i]);
           if (!now.returned) {
             fail(i, UpdateFault::no_return);
             continue;
           }
-          bulk_modulus[i] = now.state.bulk_modulus;
-          stress[i] = now.deviator - isotropic<n_symmetric<D>>(now.pressure);
-          state[i] = now.state;
-          plastic_work[i] = now.plastic_work;
+          batch.bulk_modulus[i] = now.state.bulk_modulus;
+          batch.stress[i] = now.deviator - isotropic<n_symmetric<D>>(now.pressure);
+          batch.state[i] = now.state;
+          batch.plastic_work[i] = now.plastic_work;
         }
         counts.add(integrator.counts());
       },
       sand.parameters().modulus);
+  for (std::size_t i = 0; i < batch.stress.size(); ++i) {
+    batch.shear_modulus[i] = sand.shear_ratio() * batch.bulk_modulus[i];
+  }
   return first_failure;
 }
 
-template std::optional<UpdateFailure> update<2>(const TabularCap&, std::span<const SymmetricTensor<2>>,
-                                                std::span<const CapState>, std::span<SymmetricTensor<2>>,
-                                                std::span<CapState>, std::span<double>, std::span<double>,
-                                                UpdateCounts&);
-template std::optional<UpdateFailure> update<3>(const TabularCap&, std::span<const SymmetricTensor<3>>,
-                                                std::span<const CapState>, std::span<SymmetricTensor<3>>,
-                                                std::span<CapState>, std::span<double>, std::span<double>,
-                                                UpdateCounts&);
+template BatchFailure update<2>(const TabularCap&, const MaterialBatch<2, CapState>&, UpdateCounts&);
+template BatchFailure update<3>(const TabularCap&, const MaterialBatch<3, CapState>&, UpdateCounts&);
 
 }  // namespace tamp::components

@@ -1,13 +1,15 @@
 #pragma once
 
-#include <cstddef>
+#include <array>
 #include <cstdint>
-#include <optional>
 #include <span>
+#include <string_view>
 
 #include "components/errors.hpp"
 #include "components/materials/crush_curve.hpp"
+#include "components/materials/material_batch.hpp"
 #include "components/materials/piecewise_linear.hpp"
+#include "components/materials/state_columns.hpp"
 #include "components/materials/yield_surface.hpp"
 #include "components/tensors.hpp"
 
@@ -44,6 +46,15 @@ struct TabularCapParameters {
 class TabularCap
 {
  public:
+  using State = CapState;
+  static constexpr std::string_view type = "tabular_cap";
+  static constexpr char state_name[] = "cap state";
+  /// Strains, the crush pressure X "cap", failed updates; of a single point also whether the elastic model was asked
+  /// within its range, and how far the stress is outside of the yield surface, over the length of that, crush pressure
+  /// less tension vertex.
+  static std::span<const StateColumn<TabularCap>, 6> columns();
+  static std::span<const StateExtreme, 3> extremes();
+
   /// Throws BadValue for a Poisson's ratio outside (-1, 0.5), or a crush curve that falls or starts at or below zero.
   explicit TabularCap(TabularCapParameters parameters);
 
@@ -58,8 +69,7 @@ class TabularCap
 
   /// Tangent bulk modulus of a state; `pressure` is read in rate form only.
   double bulk_modulus(const CapState& state, double pressure) const;
-  double initial_bulk_modulus() const { return bulk_modulus({}, 0); }
-  double initial_shear_modulus() const { return shear_ratio_ * initial_bulk_modulus(); }
+  TangentModuli initial_moduli() const;
 
   /// The pressure that the state form gives a state: what the stress of a particle must have before its first update.
   double pressure(const CapState& state) const;
@@ -76,41 +86,14 @@ class TabularCap
   double shear_ratio_;
 };
 
-/// What a batch has cost, and what was out of the ordinary in it.
-struct UpdateCounts {
-  std::size_t substeps = 0;             ///< taken, a whole increment counting as one
-  std::size_t split_updates = 0;        ///< that took more than one substep
-  std::size_t limited_substeps = 0;     ///< accepted with an estimated error beyond the tolerance
-  std::size_t modulus_evaluations = 0;  ///< of the elastic model
-  std::size_t extrapolated = 0;         ///< updates that ended outside the range that the elastic model was made for
-  std::size_t failures = 0;             ///< updates that found no stress
-
-  void add(const UpdateCounts& other)
-  {
-    substeps += other.substeps;
-    split_updates += other.split_updates;
-    limited_substeps += other.limited_substeps;
-    modulus_evaluations += other.modulus_evaluations;
-    extrapolated += other.extrapolated;
-    failures += other.failures;
-  }
-};
-
-/// Advances a batch of particles by one strain increment each (spans of equal length, all in the frame that turns with
-/// the material).
-///  - `stress` holds the old stress, already rotated to the end-of-step frame, and is replaced by the new. In state
-///    form its mean must be that of the old state.
-///  - `state` receives the new states; it may be the same memory as `state_old`.
-///  - `bulk_modulus` receives the tangent: in state form of the new state, in rate form of the last substep's middle.
-///  - `plastic_work` receives the work on the step's plastic strain, J per m3 of current volume; it is not negative.
+/// Advances each particle of a batch by its strain increment.
+///  - In state form the mean of the old stress must be that of the old state.
+///  - The bulk modulus is the tangent: in state form of the new state, in rate form of the last substep's middle.
 /// A large increment is cut into substeps so that the estimated stress error stays within the tolerance; none is
 /// smaller than the increment over `max_substeps`, and one of that size is taken whatever its error, and counted. An
 /// increment larger than 0.2 is refused. A particle that cannot be updated keeps its stress and strains, and is marked
 /// in its state and counted; the answer is the first of them. `counts` is added to.
 template <int D>
-std::optional<UpdateFailure> update(const TabularCap& sand, std::span<const SymmetricTensor<D>> strain_increment,
-                                    std::span<const CapState> state_old, std::span<SymmetricTensor<D>> stress,
-                                    std::span<CapState> state, std::span<double> bulk_modulus,
-                                    std::span<double> plastic_work, UpdateCounts& counts);
+BatchFailure update(const TabularCap& sand, const MaterialBatch<D, CapState>& batch, UpdateCounts& counts);
 
 }  // namespace tamp::components

@@ -32,9 +32,9 @@ void drive_point(const DriveArguments& options)
   const DeformationPath path = read_path(options.path);
   std::optional<runtime::CsvWriter> file;
   if (options.out.empty()) {
-    print_out("{}\n", fmt::join(drive_columns(), ","));
+    print_out("{}\n", fmt::join(drive_columns(material.model), ","));
   } else {
-    file.emplace(options.out, drive_columns());
+    file.emplace(options.out, drive_columns(material.model));
   }
   drive(material, path, options.increment, [&](double time, const MaterialPoint& point) {
     const std::vector<double> values = drive_values(material.model, time, point);

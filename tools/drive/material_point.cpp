@@ -1,9 +1,5 @@
 #include "tools/drive/material_point.hpp"
 
-#include <algorithm>
-#include <cmath>
-#include <numbers>
-
 #include "components/kinematics/strain_increment.hpp"
 
 namespace tamp::tools
@@ -12,65 +8,39 @@ namespace tamp::tools
 namespace
 {
 
-using components::Hypoelastic;
-using components::NeoHookean;
-using components::TabularCap;
-
-std::optional<std::string> answer(const Hypoelastic& solid, const SymmetricTensor<3>& strain, MaterialPoint& point)
+/// The material's answer to a strain increment, in the frame that turns with it.
+template <class Model>
+std::optional<std::string> update(const Model& model, const SymmetricTensor<3>& strain, MaterialPoint& point)
 {
-  components::update<3>(solid, {&strain, 1}, {&point.stress, 1});
-  return std::nullopt;
-}
-
-std::optional<std::string> answer(const NeoHookean& solid, const SymmetricTensor<3>&, MaterialPoint& point)
-{
-  components::update<3>(solid, {&point.deformation_gradient, 1}, {&point.stress, 1});
-  const auto moduli = components::tangent_moduli<3>(solid, point.deformation_gradient);
-  point.bulk_modulus = moduli.bulk_modulus;
-  point.shear_modulus = moduli.shear_modulus;
-  return std::nullopt;
-}
-
-std::optional<std::string> answer(const TabularCap& sand, const SymmetricTensor<3>& strain, MaterialPoint& point)
-{
+  using State = typename Model::State;
   double plastic_work = 0;
+  auto& state = std::any_cast<State&>(point.state);
   point.last_update = {};
-  const auto failure =
-      components::update<3>(sand, {&strain, 1}, {&point.state, 1}, {&point.stress, 1}, {&point.state, 1},
-                            {&point.bulk_modulus, 1}, {&plastic_work, 1}, point.last_update);
-  if (failure) return to_string(failure->fault);
-  point.shear_modulus = sand.shear_ratio() * point.bulk_modulus;
+  const components::MaterialBatch<3, State> batch{.strain_increment = {&strain, 1},
+                                                  .deformation_gradient = {&point.deformation_gradient, 1},
+                                                  .old_state = {&state, 1},
+                                                  .stress = {&point.stress, 1},
+                                                  .state = {&state, 1},
+                                                  .bulk_modulus = {&point.bulk_modulus, 1},
+                                                  .shear_modulus = {&point.shear_modulus, 1},
+                                                  .plastic_work = {&plastic_work, 1}};
+  if (const auto failure = components::update(model, batch, point.last_update)) return to_string(failure->fault);
   point.plastic_work += plastic_work * point.volume;
   return std::nullopt;
 }
 
 }  // namespace
 
-double MaterialPoint::sqrt_j2() const
-{
-  const SymmetricTensor<3> s = deviator(stress);
-  return std::sqrt(0.5 * double_dot(s, s));
-}
-
-double MaterialPoint::equivalent_stress() const
-{
-  return std::numbers::sqrt3 * sqrt_j2();
-}
-
 MaterialPoint fresh_point(const tasks::MaterialModel& material, const Matrix<3>& deformation_gradient)
 {
   MaterialPoint point{.deformation_gradient = deformation_gradient};
-  if (const auto* sand = std::get_if<TabularCap>(&material)) {
-    point.bulk_modulus = sand->initial_bulk_modulus();
-    point.shear_modulus = sand->initial_shear_modulus();
-  } else if (const auto* elastic = std::get_if<NeoHookean>(&material)) {
-    // Its stress is that of its deformation, wherever it starts.
-    answer(*elastic, SymmetricTensor<3>::Zero(), point);
-  } else {
-    const auto& solid = std::get<Hypoelastic>(material);
-    point.bulk_modulus = solid.bulk_modulus;
-    point.shear_modulus = solid.shear_modulus;
-  }
+  std::visit(
+      [&]<class Model>(const Model& model) {
+        point.state = typename Model::State{};
+        update(model, SymmetricTensor<3>::Zero(), point);
+        point.last_update = {};
+      },
+      material);
   return point;
 }
 
@@ -84,18 +54,9 @@ std::optional<std::string> deform(const tasks::MaterialModel& material, const Ma
   point.volume *= step.volume_ratio;
   point.stress = rotated<3>(point.stress, step.rotation_increment);
   const auto failure =
-      std::visit([&](const auto& model) { return answer(model, step.strain_increment, point); }, material);
+      std::visit([&](const auto& model) { return update(model, step.strain_increment, point); }, material);
   if (!failure && !point.stress.allFinite()) return "stress is not finite";
   return failure;
-}
-
-double outside(const TabularCap& sand, const MaterialPoint& point)
-{
-  const components::YieldSurface& surface = sand.parameters().yield;
-  const double p = point.pressure(), vertex = surface.vertex_pressure();
-  const double crush = sand.crush_pressure(point.state.plastic_volumetric);
-  const double beyond = std::max({point.sqrt_j2() - surface.limit(p, crush), p - crush, vertex - p, 0.0});
-  return beyond / (crush - vertex);
 }
 
 }  // namespace tamp::tools

@@ -36,18 +36,27 @@ std::vector<std::size_t> moving_bodies(const tasks::Scene& scene)
   return moving;
 }
 
-bool is_sand(const tasks::SceneMaterial& material)
+/// Calls `visit(k, extreme, column)` for every extreme over a material's states that a row shows.
+template <class Visit>
+void for_each_extreme(const tasks::SceneMaterial& material, const Visit& visit)
 {
-  return std::holds_alternative<components::TabularCap>(material.model);
+  std::visit(
+      [&]<class Model>(const Model&) {
+        std::size_t k = 0;
+        for (const components::StateExtreme& extreme : components::state_extremes<Model>()) {
+          visit(k++, extreme, components::state_columns<Model>()[extreme.column]);
+        }
+      },
+      material.model);
 }
 
 void add_peak_columns(const tasks::SceneMaterial& material, const std::string& where, std::vector<std::string>& names)
 {
   const std::string name = material.name + where;
   names.insert(names.end(), {name + ".p_max[Pa]", name + ".q_max[Pa]"});
-  if (!is_sand(material)) return;
-  names.insert(names.end(),
-               {name + ".cap_max[Pa]", name + ".plastic_volumetric_max[-]", name + ".plastic_volumetric_min[-]"});
+  for_each_extreme(material, [&](std::size_t, const components::StateExtreme& extreme, const auto& column) {
+    names.push_back(fmt::format("{}.{}_{}[{}]", name, column.name, extreme.greatest ? "max" : "min", column.unit));
+  });
 }
 
 /// Of gravity and the centrifuge on matter at rest, anywhere in the grid [m/s^2].
@@ -226,9 +235,10 @@ void RunHistory::add_body(std::size_t body, const std::vector<Eigen::Vector3d>& 
 void RunHistory::add_peaks(std::size_t material, const tasks::MaterialPeaks& peaks, std::vector<double>& row) const
 {
   row.insert(row.end(), {extreme_or_nothing(peaks.pressure), peaks.q});
-  if (!is_sand(simulation_.scene().materials[material])) return;
-  row.insert(row.end(), {peaks.cap, extreme_or_nothing(peaks.plastic_volumetric),
-                         extreme_or_nothing(peaks.least_plastic_volumetric)});
+  for_each_extreme(simulation_.scene().materials[material],
+                   [&](std::size_t k, const components::StateExtreme& extreme, const auto&) {
+                     row.push_back(extreme_or_nothing(peaks.extreme(k, extreme)));
+                   });
 }
 
 void RunHistory::write_row()

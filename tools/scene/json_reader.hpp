@@ -7,26 +7,16 @@
 #include <utility>
 #include <vector>
 
+#include "components/range.hpp"
 #include "tools/scene/document.hpp"
 
 namespace tamp::tools
 {
 
-/// The numbers that a key may have.
-struct Range {
-  double lower = -std::numeric_limits<double>::infinity();
-  double upper = std::numeric_limits<double>::infinity();
-  bool holds_lower = true;
-  bool holds_upper = true;
-
-  bool contains(double x) const;
-  /// Such as "above 0" or "from 0 to 1"; empty if every number will do.
-  std::string words() const;
-};
-
-inline constexpr Range any_number{};
-inline constexpr Range above_zero{.lower = 0, .holds_lower = false};
-inline constexpr Range zero_or_above{.lower = 0};
+using components::above_zero;
+using components::any_number;
+using components::Range;
+using components::zero_or_above;
 
 /// Reads the keys of one object of a document. Each function that reads a key notes that the key is known, writes a
 /// default back where there is one, and adds what is wrong to the document's problems; it then returns something

@@ -1,5 +1,7 @@
 #include "tools/scene/read_material.hpp"
 
+#include <algorithm>
+
 #include "components/errors.hpp"
 #include "components/materials/tabular_cap.hpp"
 #include "tools/scene/read_modulus.hpp"
@@ -117,31 +119,52 @@ std::optional<tasks::MaterialModel> read_tabular_cap(JsonReader& reader)
   }
 }
 
-/// A model that two elastic moduli define.
-template <class Elastic>
-tasks::MaterialModel read_elastic(JsonReader& reader)
+/// A model that consists of numbers.
+template <class Model>
+std::optional<tasks::MaterialModel> read_model(JsonReader& reader)
 {
-  Elastic model{};
-  model.bulk_modulus = reader.number("bulk_modulus", above_zero, "Pa");
-  model.shear_modulus = reader.number("shear_modulus", above_zero, "Pa");
+  Model model{};
+  for (const components::Parameter<Model>& parameter : Model::parameters()) {
+    model.*parameter.value = reader.number(std::string(parameter.key), parameter.range, std::string(parameter.unit));
+  }
   return model;
 }
 
-std::optional<tasks::MaterialModel> read_model(const std::string& type, JsonReader& reader)
+template <>
+std::optional<tasks::MaterialModel> read_model<components::TabularCap>(JsonReader& reader)
 {
-  if (type == "hypoelastic") return read_elastic<components::Hypoelastic>(reader);
-  if (type == "neo_hookean") return read_elastic<components::NeoHookean>(reader);
   return read_tabular_cap(reader);
+}
+
+/// A type of material in scenes, and what reads it.
+struct MaterialType {
+  std::string name;
+  std::optional<tasks::MaterialModel> (*read)(JsonReader& reader);
+};
+
+template <class... Model>
+std::vector<MaterialType> types_of(const std::variant<Model...>*)
+{
+  return {{std::string(Model::type), read_model<Model>}...};
+}
+
+const std::vector<MaterialType>& material_types()
+{
+  static const auto types = types_of(static_cast<const tasks::MaterialModel*>(nullptr));
+  return types;
 }
 
 }  // namespace
 
 std::optional<tasks::SceneMaterial> read_material(const std::string& name, JsonReader reader)
 {
-  const std::string type = reader.choice("type", {"hypoelastic", "neo_hookean", "tabular_cap"});
-  if (type.empty()) return std::nullopt;
+  const std::vector<MaterialType>& types = material_types();
+  std::vector<std::string> names;
+  for (const MaterialType& known : types) names.push_back(known.name);
+  const auto named = std::find(names.begin(), names.end(), reader.choice("type", names));
+  if (named == names.end()) return std::nullopt;
   const double density = reader.number("density", above_zero, "kg/m^3");
-  const auto model = read_model(type, reader);
+  const auto model = types[static_cast<std::size_t>(named - names.begin())].read(reader);
   reader.allow("particles_per_axis");
   std::optional<int> particles_per_axis;
   if (reader.has("particles_per_axis")) particles_per_axis = reader.integer("particles_per_axis", 1, 16);

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "components/materials/tabular_cap.hpp"
+#include "tests/components/materials/one_particle.hpp"
 
 /// The concrete sand of inputs/materials/concrete-sand, for tests.
 namespace concrete_sand
@@ -64,32 +65,7 @@ inline tamp::components::TabularCap sand(tamp::components::ElasticUpdate form)
   return TabularCap({0.189, form, unloading(), crush, yield_surface()});
 }
 
-/// One particle and its update.
 template <int D>
-struct Sample {
-  tamp::SymmetricTensor<D> stress = tamp::SymmetricTensor<D>::Zero();
-  tamp::components::CapState state;
-  double bulk_modulus = 0, plastic_work = 0;
-  tamp::components::UpdateCounts counts;
-
-  void strain(const tamp::components::TabularCap& material, const tamp::SymmetricTensor<D>& increment)
-  {
-    const auto failure = tamp::components::update<D>(material, {&increment, 1}, {&state, 1}, {&stress, 1}, {&state, 1},
-                                                     {&bulk_modulus, 1}, {&plastic_work, 1}, counts);
-    if (failure) throw std::runtime_error(to_string(failure->fault));
-  }
-
-  void strain(const tamp::components::TabularCap& material, const tamp::SymmetricTensor<D>& total, int n_steps)
-  {
-    for (int i = 0; i < n_steps; ++i) strain(material, total / n_steps);
-  }
-
-  double pressure() const { return -tamp::trace(stress) / 3; }
-  double sqrt_j2() const
-  {
-    const auto s = tamp::deviator(stress);
-    return std::sqrt(0.5 * tamp::double_dot(s, s));
-  }
-};
+using Sample = tamp::test::OneParticle<D, tamp::components::TabularCap>;
 
 }  // namespace concrete_sand

@@ -5,6 +5,7 @@
 #include <random>
 
 #include "components/materials/tabular_cap.hpp"
+#include "tests/components/materials/one_particle.hpp"
 
 /// Random strain paths for a sand, and what its update makes of them.
 namespace random_paths
@@ -56,29 +57,28 @@ inline double outside(const tamp::components::TabularCap& sand, const tamp::Symm
                       const tamp::components::CapState& state)
 {
   const tamp::components::YieldSurface& surface = sand.parameters().yield;
-  const tamp::SymmetricTensor<3> s = tamp::deviator(stress);
-  const double p = -tamp::trace(stress) / 3, sqrt_j2 = std::sqrt(0.5 * tamp::double_dot(s, s));
-  const double crush = sand.crush_pressure(state.plastic_volumetric), vertex = surface.vertex_pressure();
-  return std::max({sqrt_j2 - surface.limit(p, crush), p - crush, vertex - p, 0.0}) / (crush - vertex);
+  const tamp::components::Invariants at = tamp::components::invariants(stress);
+  const double p = at.pressure, crush = sand.crush_pressure(state.plastic_volumetric);
+  const double vertex = surface.vertex_pressure();
+  return std::max({at.sqrt_j2() - surface.limit(p, crush), p - crush, vertex - p, 0.0}) / (crush - vertex);
 }
 
 inline void follow_one(const tamp::components::TabularCap& sand, std::mt19937_64& random, Outcome& outcome)
 {
   constexpr int n_steps = 20;
   Increments increments(random);
-  tamp::SymmetricTensor<3> stress = tamp::SymmetricTensor<3>::Zero();
-  tamp::components::CapState state;
+  tamp::test::OneParticle<3, tamp::components::TabularCap> sample;
   for (int i = 0; i < n_steps; ++i) {
     const tamp::SymmetricTensor<3> increment = increments.next();
-    double bulk_modulus = 0, plastic_work = 0;
-    tamp::components::update<3>(sand, {&increment, 1}, {&state, 1}, {&stress, 1}, {&state, 1}, {&bulk_modulus, 1},
-                                {&plastic_work, 1}, outcome.counts);
+    sample.update(sand, increment);
     ++outcome.n_steps;
-    const double sum = stress.sum() + state.elastic_volumetric + state.plastic_volumetric + state.equivalent_plastic +
-                       bulk_modulus + plastic_work;
-    if (!(std::isfinite(sum) && bulk_modulus > 0)) ++outcome.n_not_finite;
-    outcome.outside = std::max(outcome.outside, outside(sand, stress, state));
+    const tamp::components::CapState& state = sample.state;
+    const double sum = sample.stress.sum() + state.elastic_volumetric + state.plastic_volumetric +
+                       state.equivalent_plastic + sample.bulk_modulus + sample.plastic_work;
+    if (!(std::isfinite(sum) && sample.bulk_modulus > 0)) ++outcome.n_not_finite;
+    outcome.outside = std::max(outcome.outside, outside(sand, sample.stress, state));
   }
+  outcome.counts.add(sample.counts);
 }
 
 /// Paths of 20 steps from fresh sand.

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <cstdlib>
 
+#include "tests/components/materials/one_particle.hpp"
+
 using namespace tamp;
 using namespace tamp::components;
 
@@ -17,9 +19,9 @@ const NeoHookean solid{K, G};
 template <int D>
 SymmetricTensor<D> stress_of(const Matrix<D>& f)
 {
-  SymmetricTensor<D> stress;
-  update<D>(solid, {&f, 1}, {&stress, 1});
-  return stress;
+  test::OneParticle<D, NeoHookean> particle{.deformation_gradient = f};
+  particle.strain(solid, SymmetricTensor<D>::Zero());
+  return particle.stress;
 }
 
 double energy(const Matrix<3>& f)

@@ -120,9 +120,9 @@ struct Oedometer {
 
 TEST_CASE("unstrained sand has the measured softest modulus and no pressure")
 {
-  CHECK(state_sand().initial_bulk_modulus() == Approx(424.5e6).epsilon(1e-3));
-  CHECK(state_sand().initial_shear_modulus() == Approx(0.78469 * 424.5e6).epsilon(1e-3));
-  CHECK(rate_sand().initial_bulk_modulus() == Approx(424.5e6).epsilon(1e-3));
+  CHECK(state_sand().initial_moduli().bulk_modulus == Approx(424.5e6).epsilon(1e-3));
+  CHECK(state_sand().initial_moduli().shear_modulus == Approx(0.78469 * 424.5e6).epsilon(1e-3));
+  CHECK(rate_sand().initial_moduli().bulk_modulus == Approx(424.5e6).epsilon(1e-3));
   CHECK(state_sand().pressure({}) == 0);
   CHECK(rate_sand().crush_pressure(0) == Approx(3.163e6).epsilon(1e-3));
 }
@@ -307,8 +307,9 @@ TEST_CASE("within a tolerance of 1e-3, flowing steps of 1e-3 need fewer than thr
     std::size_t n = 0;
     for (const Case& c : random_cases(300, 1e-3 / std::sqrt(3.0))) {
       Sample<3> sample = c.sample;
-      REQUIRE_FALSE(update<3>(sand, {&c.increment, 1}, {&c.sample.state, 1}, {&sample.stress, 1}, {&sample.state, 1},
-                              {&sample.bulk_modulus, 1}, {&sample.plastic_work, 1}, counts));
+      sample.counts = {};
+      REQUIRE_FALSE(sample.update(sand, c.increment));
+      counts.add(sample.counts);
       ++n;
     }
 
@@ -326,14 +327,11 @@ TEST_CASE("substeps that max_substeps keeps from being accurate are counted, and
   Sample<3> sample;
   sample.strain(limited, compaction(0.1), 100);
   const SymmetricTensor<3> increment = tensor(-0.01, 0.02, 0, 0.02);
-  UpdateCounts counts;
+  sample.counts = {};
 
-  const auto failure = update<3>(limited, {&increment, 1}, {&sample.state, 1}, {&sample.stress, 1}, {&sample.state, 1},
-                                 {&sample.bulk_modulus, 1}, {&sample.plastic_work, 1}, counts);
-
-  REQUIRE_FALSE(failure);
-  CHECK(counts.substeps <= 4);
-  CHECK(counts.limited_substeps > 0);
+  REQUIRE_FALSE(sample.update(limited, increment));
+  CHECK(sample.counts.substeps <= 4);
+  CHECK(sample.counts.limited_substeps > 0);
 }
 
 TEST_CASE("a closed elastic loop gives the stress back")
@@ -421,64 +419,89 @@ TEST_CASE("plane strain is space without out-of-plane shear")
   }
 }
 
+namespace
+{
+
+/// Fresh particles of the sand in state form, side by side.
+struct Particles {
+  explicit Particles(std::size_t n)
+      : increment(n, SymmetricTensor<3>::Zero()),
+        stress(n, SymmetricTensor<3>::Zero()),
+        state(n),
+        bulk_modulus(n),
+        shear_modulus(n),
+        plastic_work(n)
+  {
+  }
+
+  BatchFailure update()
+  {
+    const MaterialBatch<3, CapState> batch{.strain_increment = increment,
+                                           .deformation_gradient = {},
+                                           .old_state = state,
+                                           .stress = stress,
+                                           .state = state,
+                                           .bulk_modulus = bulk_modulus,
+                                           .shear_modulus = shear_modulus,
+                                           .plastic_work = plastic_work};
+    return components::update(state_sand(), batch, counts);
+  }
+
+  std::vector<SymmetricTensor<3>> increment, stress;
+  std::vector<CapState> state;
+  std::vector<double> bulk_modulus, shear_modulus, plastic_work;
+  UpdateCounts counts;
+};
+
+}  // namespace
+
 TEST_CASE("a batch gives bitwise what its particles give alone")
 {
   const std::vector<Case> cases = random_cases(100, 1e-3);
   const std::size_t n = cases.size();
-  std::vector<SymmetricTensor<3>> increment, stress;
-  std::vector<CapState> state;
-  for (const Case& c : cases) {
-    increment.push_back(c.increment);
-    stress.push_back(c.sample.stress);
-    state.push_back(c.sample.state);
+  Particles particles(n);
+  for (std::size_t i = 0; i < n; ++i) {
+    particles.increment[i] = cases[i].increment;
+    particles.stress[i] = cases[i].sample.stress;
+    particles.state[i] = cases[i].sample.state;
   }
-  std::vector<CapState> state_new(n);
-  std::vector<double> modulus(n), work(n);
 
-  UpdateCounts counts;
-  const auto failure = update<3>(state_sand(), increment, state, stress, state_new, modulus, work, counts);
-
-  REQUIRE(!failure);
+  REQUIRE(!particles.update());
   for (std::size_t i = 0; i < n; ++i) {
     Sample<3> alone = cases[i].sample;
     alone.strain(state_sand(), cases[i].increment);
-    REQUIRE(alone.stress == stress[i]);
-    REQUIRE(alone.state.plastic_volumetric == state_new[i].plastic_volumetric);
-    REQUIRE(alone.state.equivalent_plastic == state_new[i].equivalent_plastic);
-    REQUIRE(alone.bulk_modulus == modulus[i]);
-    REQUIRE(alone.plastic_work == work[i]);
+    REQUIRE(alone.stress == particles.stress[i]);
+    REQUIRE(alone.state.plastic_volumetric == particles.state[i].plastic_volumetric);
+    REQUIRE(alone.state.equivalent_plastic == particles.state[i].equivalent_plastic);
+    REQUIRE(alone.bulk_modulus == particles.bulk_modulus[i]);
+    REQUIRE(alone.plastic_work == particles.plastic_work[i]);
   }
 }
 
 TEST_CASE("an increment that is no number is reported and marked, and only its particle is left as it was")
 {
-  std::vector<SymmetricTensor<3>> increment(3, compaction(1e-3)), stress(3, SymmetricTensor<3>::Zero());
-  increment[1][4] = NAN;
-  std::vector<CapState> state(3);
-  std::vector<double> modulus(3), work(3);
+  Particles particles(3);
+  std::ranges::fill(particles.increment, compaction(1e-3));
+  particles.increment[1][4] = NAN;
 
-  UpdateCounts counts;
-  const auto failure = update<3>(state_sand(), increment, state, stress, state, modulus, work, counts);
+  const auto failure = particles.update();
 
   REQUIRE(failure);
   CHECK(failure->particle == 1);
   CHECK(failure->fault == UpdateFault::not_finite);
-  CHECK(state[0].elastic_volumetric > 0);
-  CHECK(state[1].elastic_volumetric == 0);
-  CHECK(state[1].n_failures == 1);
-  CHECK(modulus[1] == state_sand().initial_bulk_modulus());
-  CHECK(state[2].elastic_volumetric > 0);
-  CHECK(counts.failures == 1);
+  CHECK(particles.state[0].elastic_volumetric > 0);
+  CHECK(particles.state[1].elastic_volumetric == 0);
+  CHECK(particles.state[1].n_failures == 1);
+  CHECK(particles.bulk_modulus[1] == state_sand().initial_moduli().bulk_modulus);
+  CHECK(particles.state[2].elastic_volumetric > 0);
+  CHECK(particles.counts.failures == 1);
 }
 
 TEST_CASE("an increment of half the sand's volume in one step is refused")
 {
-  std::vector<SymmetricTensor<3>> increment(1, compaction(0.5)), stress(1, SymmetricTensor<3>::Zero());
-  std::vector<CapState> state(1);
-  std::vector<double> modulus(1), work(1);
+  Sample<3> sample;
 
-  UpdateCounts counts;
-  const auto failure = update<3>(state_sand(), increment, state, stress, state, modulus, work, counts);
+  const auto failure = sample.update(state_sand(), compaction(0.5));
 
   REQUIRE(failure);
   CHECK(failure->fault == UpdateFault::too_large);

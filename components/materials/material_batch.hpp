@@ -1,0 +1,79 @@
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <span>
+#include <type_traits>
+
+#include "components/errors.hpp"
+#include "components/tensors.hpp"
+
+/// What every material model has:
+///
+///  - `State`, what a particle keeps from step to step beside its stress, or NoState; with a state goes `state_name`;
+///  - `type`, its name in scenes;
+///  - `initial_moduli()`, K and G without strain;
+///  - `update(model, batch, counts)`, which answers a batch of particles;
+///  - `columns()` and `extremes()`, what output shows of the state, see state_columns.hpp.
+///
+/// A model stands in the list of material_model.hpp; the tasks and tools loop over that.
+namespace tamp::components
+{
+
+/// Of a model whose stress and deformation are all there is to know.
+struct NoState {
+};
+
+template <class Model>
+inline constexpr bool has_state = !std::is_same_v<typename Model::State, NoState>;
+
+/// Elastic moduli [Pa].
+struct TangentModuli {
+  double bulk_modulus;
+  double shear_modulus;
+};
+
+/// Particles of a model for one step, in the frame that turns with the material, tension positive: spans of equal
+/// length, those of states empty where the model has none.
+template <int D, class State>
+struct MaterialBatch {
+  std::span<const SymmetricTensor<D>> strain_increment;
+  /// At the end of the step, in the axes of space.
+  std::span<const Matrix<D>> deformation_gradient;
+  std::span<const State> old_state;
+
+  /// The old stress, turned to the frame of the step's end; the update makes it the new one.
+  std::span<SymmetricTensor<D>> stress;
+  /// New; may be the same memory as `old_state`.
+  std::span<State> state;
+  /// For waves in the material as it now is [Pa].
+  std::span<double> bulk_modulus;
+  std::span<double> shear_modulus;
+  /// Work on the step's plastic strain [J per m3 of current volume], not negative.
+  std::span<double> plastic_work;
+};
+
+/// What batches have cost, and what was out of the ordinary in them.
+struct UpdateCounts {
+  std::size_t substeps = 0;             ///< taken, a whole increment counting as one
+  std::size_t split_updates = 0;        ///< that took more than one substep
+  std::size_t limited_substeps = 0;     ///< accepted with an estimated error beyond the tolerance
+  std::size_t modulus_evaluations = 0;  ///< of the elastic model
+  std::size_t extrapolated = 0;         ///< updates that ended outside the range that the elastic model was made for
+  std::size_t failures = 0;             ///< updates that found no stress
+
+  void add(const UpdateCounts& other)
+  {
+    substeps += other.substeps;
+    split_updates += other.split_updates;
+    limited_substeps += other.limited_substeps;
+    modulus_evaluations += other.modulus_evaluations;
+    extrapolated += other.extrapolated;
+    failures += other.failures;
+  }
+};
+
+/// The first particle of a batch that could not be updated, if any. Such particles keep their stress.
+using BatchFailure = std::optional<UpdateFailure>;
+
+}  // namespace tamp::components

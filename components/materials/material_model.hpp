@@ -1,0 +1,15 @@
+#pragma once
+
+#include <variant>
+
+#include "components/materials/hypoelastic.hpp"
+#include "components/materials/neo_hookean.hpp"
+#include "components/materials/tabular_cap.hpp"
+
+namespace tamp::components
+{
+
+/// All the models there are; one more is added here.
+using MaterialModel = std::variant<Hypoelastic, NeoHookean, TabularCap>;
+
+}  // namespace tamp::components

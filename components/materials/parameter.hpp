@@ -1,0 +1,20 @@
+#pragma once
+
+#include <string_view>
+
+#include "components/range.hpp"
+
+namespace tamp::components
+{
+
+/// A number that a scene gives a model. A model that consists of such numbers lists them as `parameters()`, from which
+/// scenes are read.
+template <class Model>
+struct Parameter {
+  std::string_view key;
+  std::string_view unit;
+  Range range;
+  double Model::*value;
+};
+
+}  // namespace tamp::components
