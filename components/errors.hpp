@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 namespace tamp::components
 {
@@ -21,6 +22,16 @@ struct BadValue : std::runtime_error {
   std::string found;
   std::string expected;
   std::ptrdiff_t row;
+};
+
+/// A number of a scene that does not go with the others.
+struct BadParameter : BadValue {
+  BadParameter(std::string key_, std::string found_, std::string expected_)
+      : BadValue(std::move(found_), std::move(expected_)), key(std::move(key_))
+  {
+  }
+
+  std::string key;
 };
 
 /// Why the stress of a particle could not be updated.

@@ -2,6 +2,7 @@
 
 #include <variant>
 
+#include "components/materials/drucker_prager.hpp"
 #include "components/materials/hypoelastic.hpp"
 #include "components/materials/neo_hookean.hpp"
 #include "components/materials/tabular_cap.hpp"
@@ -10,6 +11,6 @@ namespace tamp::components
 {
 
 /// All the models there are; one more is added here.
-using MaterialModel = std::variant<Hypoelastic, NeoHookean, TabularCap>;
+using MaterialModel = std::variant<Hypoelastic, NeoHookean, DruckerPrager, TabularCap>;
 
 }  // namespace tamp::components

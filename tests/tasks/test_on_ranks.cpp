@@ -68,6 +68,26 @@ TEST_CASE("a collision with losses ends with the same bits on any ranks and thre
   CHECK(ending(*simulation) == expected);
 }
 
+TEST_CASE("soil that lands on a floor ends with the same bits on any ranks and threads", "[ranks]")
+{
+  Scene scene = empty_scene(2, {24, 12, 1}, 0.1);
+  scene.n_patches = {6, 3, 1};
+  add_walls(scene, 1);
+  scene.materials.push_back(
+      {"soil", 1600,
+       components::DruckerPrager{
+           .bulk_modulus = 2e6, .shear_modulus = 1e6, .friction_angle = 30, .dilation_angle = 5, .cohesion = 100}});
+  add_box(scene, 0, {0.8, 0.2, 0}, {1.4, 0.8, 0}, {1, -3, 0});
+  const Ending expected = alone(scene, 0.2);
+  REQUIRE(expected.plastic > 0);
+  const int n_threads = GENERATE(1, 3);
+
+  const auto simulation = on_all_ranks(scene, n_threads);
+  advance_to(*simulation, 0.2);
+
+  CHECK(ending(*simulation) == expected);
+}
+
 TEST_CASE("a collision in three dimensions ends with the same bits on any ranks", "[ranks]")
 {
   Scene scene = empty_scene(3, {12, 8, 8}, 0.1);

@@ -1,6 +1,7 @@
 #include "tools/scene/read_material.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "components/errors.hpp"
 #include "components/materials/tabular_cap.hpp"
@@ -123,9 +124,27 @@ std::optional<tasks::MaterialModel> read_tabular_cap(JsonReader& reader)
 template <class Model>
 std::optional<tasks::MaterialModel> read_model(JsonReader& reader)
 {
+  const std::size_t n_problems = reader.document().problems.size();
   Model model{};
   for (const components::Parameter<Model>& parameter : Model::parameters()) {
-    model.*parameter.value = reader.number(std::string(parameter.key), parameter.range, std::string(parameter.unit));
+    double& value = model.*parameter.value;
+    const std::string key(parameter.key);
+    if (!parameter.optional) {
+      value = reader.number(key, parameter.range, std::string(parameter.unit));
+    } else if (std::isfinite(value)) {
+      value = reader.number(key, parameter.range, value);
+    } else {
+      value = reader.optional_number(key, parameter.range).value_or(value);
+    }
+  }
+  if (reader.document().problems.size() > n_problems) return std::nullopt;
+  if constexpr (requires { model.check(); }) {
+    try {
+      model.check();
+    } catch (const components::BadParameter& bad) {
+      reader.add_problem(bad.key, bad.found, "expected " + bad.expected);
+      return std::nullopt;
+    }
   }
   return model;
 }

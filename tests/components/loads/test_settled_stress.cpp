@@ -50,7 +50,7 @@ double greatest_acceleration(const LayerColumn& column, const std::vector<double
 
   double greatest = 0;
   for (std::size_t j = 2; j < (column.upper_wall ? 9 : 11); ++j) {
-    for (const std::size_t i : {1, 2}) {
+    for (const std::size_t i : {1UL, 2UL}) {
       const NodeSums<2>& node = sums[4 * j + i];
       if (node.mass() < 1e-20 * density * volume) continue;
       const double y = (static_cast<double>(j) - 1) * h;

@@ -278,9 +278,8 @@ TEST_CASE("a projectile that starts inside the sand is told with where")
 TEST_CASE("a name that is none of the choices is told with the choices")
 {
   CHECK(problems_with({"/materials/steel/type=hypoelastik"}) ==
-        "--set#/materials/steel/type: \"hypoelastik\"; expected one of hypoelastic, neo_hookean, tabular_cap, did you "
-        "mean "
-        "\"hypoelastic\"?");
+        "--set#/materials/steel/type: \"hypoelastik\"; expected one of hypoelastic, neo_hookean, drucker_prager, "
+        "tabular_cap, did you mean \"hypoelastic\"?");
   CHECK(problems_with({"/interpolator=linear"}) == "--set#/interpolator: \"linear\"; expected gimp");
   CHECK(problems_with({"/transfer=apic"}) == "--set#/transfer: \"apic\"; expected one of flip, affine");
   CHECK(problems_with({"/boundaries/x-=wall"}) == "--set#/boundaries/x-: \"wall\"; expected one of symmetry, open");
@@ -426,7 +425,8 @@ TEST_CASE("a missing file is told with the path that was tried")
 {
   CHECK(problems_with_sand({"/materials/sand/file=nothing.json"}) ==
         "--set#/materials/sand/file: there is no file nothing.json; expected the path of a JSON file\n"
-        "scenes/scene.json#/materials/sand/type: missing; expected one of hypoelastic, neo_hookean, tabular_cap");
+        "scenes/scene.json#/materials/sand/type: missing; expected one of hypoelastic, neo_hookean, drucker_prager, "
+        "tabular_cap");
   CHECK(problems_with_sand({"/materials/sand/crush_curve=no.csv"}) ==
         "--set#/materials/sand/crush_curve: there is no file no.csv; expected the path of a file");
 }
