@@ -29,9 +29,9 @@ void take_up(const std::array<std::array<bool, 2>, 3>& mirrors, const runtime::G
 }
 
 /// Of a node with this velocity, over a kick, by the acceleration that its force gives it and those of the scene.
-template <class Interpolator, int D = Interpolator::dimension>
-Vector<D> velocity_change(const Method<Interpolator>& method, const TaskContext& at, const Index& node,
-                          const Vector<D>& velocity, const Vector<D>& by_force, double kick)
+template <int D>
+Vector<D> velocity_change(const Method<D>& method, const TaskContext& at, const Index& node, const Vector<D>& velocity,
+                          const Vector<D>& by_force, double kick)
 {
   Vector<D> acceleration = by_force + method.gravity;
   if constexpr (D == 3) {
@@ -52,15 +52,14 @@ Vector<D> velocity_change(const Method<Interpolator>& method, const TaskContext&
 /// Leapfrog: velocities live at the middle of the steps, so the kick spans half of the step before and half of this
 /// one. With v_n = v_{n-1/2} + a dt/2 the positions then move by v_n dt + a dt^2/2, which is eq. 42 of
 /// PAR-10021867-092020-6. At the very start velocity and position are of one time, and the kick is half a step.
-template <class Interpolator>
-runtime::TaskDeclaration accelerate_nodes(const Method<Interpolator>& method)
+template <int D>
+runtime::TaskDeclaration accelerate_nodes(const Method<D>& method)
 {
-  constexpr int D = Interpolator::dimension;
   return runtime::task("accelerate nodes")
       .over_patches_and_groups(method.deformable_groups)
       .sparse()
-      .reads(node::sums<D>.halo(1))
-      .computes(node::motion<D>.halo(1), node::inverse_mass.halo(1))
+      .reads(node::sums<D>.halo(method.halo))
+      .computes(node::motion<D>.halo(method.halo), node::inverse_mass.halo(method.halo))
       .body([&method](const TaskContext& at, auto data) {
         const auto sums = data[node::sums<D>];
         const auto motion = data[node::motion<D>];
@@ -78,14 +77,14 @@ runtime::TaskDeclaration accelerate_nodes(const Method<Interpolator>& method)
           const Vector<D> by_force = node.internal_force() / mass;
           Vector<D> change = Vector<D>::Zero();
           if (mass > method.least_node_mass) {
-            change = velocity_change<Interpolator>(method, at, i, velocity, by_force, kick);
+            change = velocity_change(method, at, i, velocity, by_force, kick);
           }
           motion[i].set(velocity + change, change);
         });
       });
 }
 
-template runtime::TaskDeclaration accelerate_nodes(const Method<components::Gimp<2>>&);
-template runtime::TaskDeclaration accelerate_nodes(const Method<components::Gimp<3>>&);
+template runtime::TaskDeclaration accelerate_nodes(const Method<2>&);
+template runtime::TaskDeclaration accelerate_nodes(const Method<3>&);
 
 }  // namespace tamp::tasks

@@ -39,8 +39,8 @@ struct NodeImpulses {
 
 /// Hands on the velocities after the impulses, at the node `i` at `x`; a rigid body's stays, and it takes what the
 /// others together gave.
-template <class Interpolator, int D = Interpolator::dimension>
-NodeImpulses<D> give_back(const Method<Interpolator>& method, const NodeOfGroups<D>& node, const RigidBody* rigid,
+template <int D>
+NodeImpulses<D> give_back(const Method<D>& method, const NodeOfGroups<D>& node, const RigidBody* rigid,
                           const PerGroup<GridView<const NodeSums<D>>>& sums,
                           const PerGroup<GridView<NodeMotion<D>>>& motions, const Index& i, const Vector<D>& x)
 {
@@ -63,9 +63,9 @@ NodeImpulses<D> give_back(const Method<Interpolator>& method, const NodeOfGroups
   return done;
 }
 
-template <class Interpolator, int D = Interpolator::dimension>
-void add_impulses(const Method<Interpolator>& method, const NodeOfGroups<D>& node, const NodeImpulses<D>& done,
-                  const Vector<D>& x, ContactImpulses& impulses)
+template <int D>
+void add_impulses(const Method<D>& method, const NodeOfGroups<D>& node, const NodeImpulses<D>& done, const Vector<D>& x,
+                  ContactImpulses& impulses)
 {
   for (std::size_t g = 0; g < method.materials.size(); ++g) {
     if (!(node.mass[g] > method.least_node_mass)) continue;
@@ -80,15 +80,14 @@ void add_impulses(const Method<Interpolator>& method, const NodeOfGroups<D>& nod
 
 }  // namespace
 
-template <class Interpolator>
-runtime::TaskDeclaration contact(const Method<Interpolator>& method)
+template <int D>
+runtime::TaskDeclaration contact(const Method<D>& method)
 {
-  constexpr int D = Interpolator::dimension;
   return runtime::task("contact")
       .over_patches()
       .sparse()
-      .reads(node::sums<D>.halo(1).every_group())
-      .updates(node::motion<D>.halo(1).every_group())
+      .reads(node::sums<D>.halo(method.halo).every_group())
+      .updates(node::motion<D>.halo(method.halo).every_group())
       .reduces(step_totals, contact_impulses)
       .body([&method](const TaskContext& at, auto data) {
         const auto sums = data[node::sums<D>];
@@ -123,7 +122,7 @@ runtime::TaskDeclaration contact(const Method<Interpolator>& method)
       });
 }
 
-template runtime::TaskDeclaration contact(const Method<components::Gimp<2>>&);
-template runtime::TaskDeclaration contact(const Method<components::Gimp<3>>&);
+template runtime::TaskDeclaration contact(const Method<2>&);
+template runtime::TaskDeclaration contact(const Method<3>&);
 
 }  // namespace tamp::tasks

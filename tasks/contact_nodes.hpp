@@ -13,10 +13,10 @@
 namespace tamp::tasks
 {
 
-template <class Interpolator>
-components::ContactThresholds contact_thresholds(const Method<Interpolator>& method)
+template <int D>
+components::ContactThresholds contact_thresholds(const Method<D>& method)
 {
-  return {method.least_node_mass, 1e-9 * portable::pow(method.cell_size, Interpolator::dimension - 1)};
+  return {method.least_node_mass, 1e-9 * portable::pow(method.cell_size, D - 1)};
 }
 
 /// The materials at one node, side by side.
@@ -29,10 +29,9 @@ struct NodeOfGroups {
   std::array<Vector<D>, max_groups> velocity;
 
   /// How many of the groups have mass here.
-  template <class Interpolator, class Motions>
-  int gather(const Method<Interpolator>& method,
-             const runtime::PerGroup<runtime::GridView<const components::NodeSums<D>>>& sums, const Motions& motions,
-             const runtime::Index& i)
+  template <class Motions>
+  int gather(const Method<D>& method, const runtime::PerGroup<runtime::GridView<const components::NodeSums<D>>>& sums,
+             const Motions& motions, const runtime::Index& i)
   {
     int n_present = 0;
     for (std::size_t g = 0; g < sums.size(); ++g) {
@@ -46,8 +45,7 @@ struct NodeOfGroups {
   }
 
   /// The rigid body here, or null. Throws SimulationError where two meet, whose impulse no node can tell.
-  template <class Interpolator>
-  const RigidBody* rigid_body(const Method<Interpolator>& method) const
+  const RigidBody* rigid_body(const Method<D>& method) const
   {
     const RigidBody* found = nullptr;
     for (const RigidBody& body : method.rigid_bodies) {

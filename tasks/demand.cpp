@@ -36,10 +36,10 @@ int n_output_numbers(const SceneMaterial& material)
   return id + vectors + stress + scalars + static_cast<int>(of_state);
 }
 
-template <class Interpolator>
+template <int D>
 double field_bytes(const Scene& scene, const std::vector<std::size_t>& n_particles)
 {
-  const Method<Interpolator> method(scene);
+  const Method<D> method(scene);
   std::vector<std::string> names;
   for (const SceneMaterial& material : scene.materials) names.push_back(material.name);
   const runtime::PatchLayout layout(scene.grid, scene.n_patches);
@@ -63,8 +63,7 @@ Demand demand_of(const Scene& scene)
     demand.n_particles += n_particles[m];
     demand.output_file += bytes_of_number * n_output_numbers(scene.materials[m]) * static_cast<double>(n_particles[m]);
   }
-  demand.fields = scene.grid.dimension == 2 ? field_bytes<components::Gimp<2>>(scene, n_particles)
-                                            : field_bytes<components::Gimp<3>>(scene, n_particles);
+  demand.fields = scene.grid.dimension == 2 ? field_bytes<2>(scene, n_particles) : field_bytes<3>(scene, n_particles);
   // Vectors that grow as they are filled have room to spare.
   demand.output_room = 1.3 * demand.output_file;
   // The state, without what the next step makes of it.

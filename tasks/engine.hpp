@@ -18,14 +18,13 @@ namespace tamp::tasks
 {
 
 /// What runs a scene on one dealing of its patches to ranks: the graphs of a step and of a report, and their data.
-template <class Interpolator>
+template <int D>
 class Engine
 {
  public:
   /// A step that is not `accepted` leaves the state before it whole. Collective.
-  Engine(const Method<Interpolator>& method, const std::vector<std::string>& material_names,
-         const runtime::PatchLayout& dealt, const runtime::Communicator& communicator, int n_workers,
-         std::function<bool(const StepTotals&)> accepted)
+  Engine(const Method<D>& method, const std::vector<std::string>& material_names, const runtime::PatchLayout& dealt,
+         const runtime::Communicator& communicator, int n_workers, std::function<bool(const StepTotals&)> accepted)
       : layout(dealt),
         step_graph(time_step(method, std::move(accepted)), layout, material_names, host_data(method)),
         report_graph(report_tasks(method), layout, material_names,

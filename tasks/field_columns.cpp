@@ -34,12 +34,10 @@ void append(std::vector<double>& all, const T& values)
 
 }  // namespace
 
-template <class Interpolator>
-std::vector<runtime::ParticleBlock> FieldColumns<Interpolator>::particles(const Method<Interpolator>& method,
-                                                                          runtime::Warehouse& warehouse,
-                                                                          const runtime::Communicator& communicator)
+template <int D>
+std::vector<runtime::ParticleBlock> FieldColumns<D>::particles(const Method<D>& method, runtime::Warehouse& warehouse,
+                                                               const runtime::Communicator& communicator)
 {
-  constexpr int D = Interpolator::dimension;
   numbers_.clear();
   ids_.clear();
   std::vector<runtime::ParticleBlock> blocks;
@@ -94,10 +92,9 @@ std::vector<runtime::ParticleBlock> FieldColumns<Interpolator>::particles(const 
   return blocks;
 }
 
-template <class Interpolator>
-runtime::NodeBlock FieldColumns<Interpolator>::nodes(const Method<Interpolator>& method, runtime::Warehouse& warehouse)
+template <int D>
+runtime::NodeBlock FieldColumns<D>::nodes(const Method<D>& method, runtime::Warehouse& warehouse)
 {
-  constexpr int D = Interpolator::dimension;
   const runtime::PatchLayout& layout = warehouse.layout();
   const runtime::Grid& grid = layout.grid();
   runtime::NodeBlock block;
@@ -130,7 +127,7 @@ runtime::NodeBlock FieldColumns<Interpolator>::nodes(const Method<Interpolator>&
   return block;
 }
 
-template class FieldColumns<components::Gimp<2>>;
-template class FieldColumns<components::Gimp<3>>;
+template class FieldColumns<2>;
+template class FieldColumns<3>;
 
 }  // namespace tamp::tasks

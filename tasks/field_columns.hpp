@@ -13,16 +13,16 @@ namespace tamp::tasks
 
 /// What a run's field file holds of the state: this rank's part, gathered over its patches. The columns point into this
 /// object and are valid until it is asked for the next ones.
-template <class Interpolator>
+template <int D>
 class FieldColumns
 {
  public:
   /// For each material: id, position, velocity, stress, mean stress p and q (compression positive), density, J, and
   /// what its model shows of its state. Collective.
-  std::vector<runtime::ParticleBlock> particles(const Method<Interpolator>& method, runtime::Warehouse& warehouse,
+  std::vector<runtime::ParticleBlock> particles(const Method<D>& method, runtime::Warehouse& warehouse,
                                                 const runtime::Communicator& communicator);
   /// Of the last step, all materials together: density and velocity at the nodes.
-  runtime::NodeBlock nodes(const Method<Interpolator>& method, runtime::Warehouse& warehouse);
+  runtime::NodeBlock nodes(const Method<D>& method, runtime::Warehouse& warehouse);
 
  private:
   std::deque<std::vector<double>> numbers_;

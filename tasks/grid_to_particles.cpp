@@ -20,15 +20,14 @@ constexpr std::size_t batch = 32;
 /// Particles keep their velocity and take the nodes' changes of it (FLIP). What deforms them is the gradient of the
 /// velocity at the middle of the step, over the shape at its middle (eqs 54-58); the old stress turns with them, and
 /// what the material answers is added by the next phase.
-template <class Interpolator>
-runtime::TaskDeclaration grid_to_particles(const Method<Interpolator>& method)
+template <int D>
+runtime::TaskDeclaration grid_to_particles(const Method<D>& method)
 {
-  constexpr int D = Interpolator::dimension;
   auto task =
       runtime::task("grid to particles")
           .over_patches_and_groups(method.deformable_groups)
           .sparse()
-          .reads(node::inverse_mass.halo(1), node::motion<D>.halo(1), particle::id.previous(),
+          .reads(node::inverse_mass.halo(method.halo), node::motion<D>.halo(method.halo), particle::id.previous(),
                  particle::mass.previous(), particle::position<D>.previous(), particle::velocity<D>.previous(),
                  particle::deformation_gradient<D>.previous(), particle::volume.previous(),
                  particle::stress<D>.previous())
@@ -51,7 +50,7 @@ runtime::TaskDeclaration grid_to_particles(const Method<Interpolator>& method)
     const auto strain = data[particle::strain_increment<D>];
     const auto own_stiffness = data[particle::own_stiffness];
     const auto block = block_of<D>(at.layout, nodes);
-    const auto& interpolator = method.interpolator(at.group);
+    const components::Interpolation<D>& interpolation = method.interpolation(at.group);
     const bool viscous_rule = method.time_step_rule == StepRule::viscous;
     const double dt = at.step.size;
     std::array<ParticleMotion<D>, batch> motion;
@@ -59,10 +58,9 @@ runtime::TaskDeclaration grid_to_particles(const Method<Interpolator>& method)
     std::array<StrainIncrement<D>, batch> steps;
     for (std::size_t first = 0; first < position.size(); first += batch) {
       const std::size_t size = std::min(batch, position.size() - first);
-      for (std::size_t i = 0; i < size; ++i) {
-        motion[i] = components::grid_to_particle(interpolator, block, old_position[first + i], nodes.data());
-        g[i] = dt * motion[i].velocity_gradient;
-      }
+      interpolation.grid_to_particles(block, old_position.subspan(first, size), nodes.data(),
+                                      std::span(motion).first(size));
+      for (std::size_t i = 0; i < size; ++i) g[i] = dt * motion[i].velocity_gradient;
       components::strain_increments<D>(old_deformation.subspan(first, size), std::span(g).first(size),
                                        std::span(steps).first(size));
       for (std::size_t i = 0; i < size; ++i) {
@@ -79,9 +77,12 @@ runtime::TaskDeclaration grid_to_particles(const Method<Interpolator>& method)
         volume[p] = old_volume[p] * step.volume_ratio;
         stress[p] = rotated<D>(old_stress[p], step.rotation_increment);
         strain[p] = step.strain_increment;
-        own_stiffness[p] =
-            viscous_rule ? components::own_stiffness(interpolator, block, old_position[p], mass[p], inverse_mass.data())
-                         : 0;
+      }
+      if (viscous_rule) {
+        interpolation.own_stiffness(block, old_position.subspan(first, size), mass.subspan(first, size),
+                                    inverse_mass.data(), own_stiffness.subspan(first, size));
+      } else {
+        std::ranges::fill(own_stiffness.subspan(first, size), 0.0);
       }
       if constexpr (data.has(particle::velocity_gradient<D>)) {
         const auto gradient = data[particle::velocity_gradient<D>].subspan(first, size);
@@ -93,7 +94,7 @@ runtime::TaskDeclaration grid_to_particles(const Method<Interpolator>& method)
   return std::move(task).computes(particle::velocity_gradient<D>).body(body);
 }
 
-template runtime::TaskDeclaration grid_to_particles(const Method<components::Gimp<2>>&);
-template runtime::TaskDeclaration grid_to_particles(const Method<components::Gimp<3>>&);
+template runtime::TaskDeclaration grid_to_particles(const Method<2>&);
+template runtime::TaskDeclaration grid_to_particles(const Method<3>&);
 
 }  // namespace tamp::tasks

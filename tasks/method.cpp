@@ -28,13 +28,14 @@ double least_particle_mass(const Scene& scene)
 
 }  // namespace
 
-template <class Interpolator>
-Method<Interpolator>::Method(const Scene& given)
+template <int D>
+Method<D>::Method(const Scene& given)
     : scene(given),
+      halo(components::n_layers_beyond(scene.interpolator)),
       transfer(scene.transfer),
       cell_size(scene.grid.cell_size),
       least_node_mass(least_weight * least_particle_mass(scene)),
-      gravity(vector_of<dimension>(scene.gravity)),
+      gravity(vector_of<D>(scene.gravity)),
       centrifuge(scene.centrifuge),
       viscosity(scene.artificial_viscosity),
       time_step_rule(scene.time.rule),
@@ -42,7 +43,7 @@ Method<Interpolator>::Method(const Scene& given)
       materials(scene.materials)
 {
   for (int m = 0; m < static_cast<int>(scene.materials.size()); ++m) {
-    interpolators.emplace_back(scene.particles_per_axis_of(m));
+    interpolations.push_back(components::Interpolation<D>::make(scene.interpolator, scene.particles_per_axis_of(m)));
     const auto is_rigid = [m](const SceneBody& body) { return body.rigid && body.material == m; };
     const auto body = std::find_if(scene.bodies.begin(), scene.bodies.end(), is_rigid);
     if (body == scene.bodies.end()) {
@@ -51,22 +52,22 @@ Method<Interpolator>::Method(const Scene& given)
       rigid_bodies.push_back({.body = static_cast<int>(body - scene.bodies.begin()), .group = m});
     }
   }
-  for (std::size_t k = 0; k < std::size_t{dimension}; ++k) {
+  for (std::size_t k = 0; k < std::size_t{D}; ++k) {
     for (std::size_t side = 0; side < 2; ++side) mirrors[k][side] = scene.faces[k][side] == Face::symmetry;
   }
   for (const SceneContact& pair : scene.contacts)
     contacts.set(pair.material_a, pair.material_b, pair.friction, pair.normal_of);
 }
 
-template <class Interpolator>
-const RigidBody* Method<Interpolator>::rigid_body(int group) const
+template <int D>
+const RigidBody* Method<D>::rigid_body(int group) const
 {
   const auto has_group = [group](const RigidBody& body) { return body.group == group; };
   const auto body = std::find_if(rigid_bodies.begin(), rigid_bodies.end(), has_group);
   return body == rigid_bodies.end() ? nullptr : &*body;
 }
 
-template struct Method<components::Gimp<2>>;
-template struct Method<components::Gimp<3>>;
+template struct Method<2>;
+template struct Method<3>;
 
 }  // namespace tamp::tasks

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <memory>
 #include <optional>
 #include <span>
 #include <vector>
@@ -8,8 +9,8 @@
 #include "components/contact/contact_table.hpp"
 #include "components/geometry/fill.hpp"
 #include "components/loads/artificial_viscosity.hpp"
-#include "components/shapes/gimp.hpp"
 #include "components/shapes/grid_block.hpp"
+#include "components/shapes/interpolation.hpp"
 #include "components/tensors.hpp"
 #include "runtime/data/views.hpp"
 #include "runtime/graph/declaration.hpp"
@@ -51,32 +52,34 @@ components::ParticleLattice<D> lattice_of(const Scene& scene, int material)
   return {vector_of<D>(scene.grid.lower), scene.grid.cell_size, scene.particles_per_axis_of(material)};
 }
 
-/// What the phases of a step need to know of a scene, typed by its interpolator and so by its dimension.
-template <class Interpolator_>
+/// What the phases of a step need to know of a scene.
+template <int D>
 struct Method {
-  using Interpolator = Interpolator_;
-  static constexpr int dimension = Interpolator::dimension;
-
   /// `scene` must outlive the method.
   explicit Method(const Scene& scene);
 
-  /// The interpolator of a material's particles; they differ in the particles' size.
-  const Interpolator& interpolator(int group) const { return interpolators[static_cast<std::size_t>(group)]; }
+  /// Of a material's particles.
+  const components::Interpolation<D>& interpolation(int group) const
+  {
+    return *interpolations[static_cast<std::size_t>(group)];
+  }
   /// The rigid body that a material is, or null.
   const RigidBody* rigid_body(int group) const;
 
   const Scene& scene;
-  std::vector<Interpolator> interpolators;
+  std::vector<std::unique_ptr<const components::Interpolation<D>>> interpolations;
+  /// Layers of nodes beyond a patch that its particles reach.
+  int halo;
   Transfer transfer;
   double cell_size;
   /// Nodes with less mass [kg] are not accelerated: they are touched by an edge of a particle to within round-off, and
   /// as force goes with the slope of the weight but mass with its square, they would turn round-off into finite strain.
   double least_node_mass;
-  Vector<dimension> gravity;
+  Vector<D> gravity;
   /// In three dimensions only.
   std::optional<components::RotatingFrame> centrifuge;
   /// Faces of the domain that mirror, as [axis][side]: side 0 is the lower.
-  std::array<std::array<bool, 2>, std::size_t{dimension}> mirrors;
+  std::array<std::array<bool, 2>, std::size_t{D}> mirrors;
   std::optional<components::ArtificialViscosity> viscosity;
   StepRule time_step_rule;
   components::ContactTable contacts;

@@ -33,9 +33,8 @@ struct Pair {
 
 /// The pair that gets a plane at a node, where no third material is: its own contact with either would take their
 /// plane's normal for theirs. Where three meet, all pairs take the normal of the flatter surface.
-template <class Interpolator, int D = Interpolator::dimension>
-std::optional<Pair> pair_at(const Method<Interpolator>& method, const PerGroup<GridView<const NodeSums<D>>>& sums,
-                            const Index& i)
+template <int D>
+std::optional<Pair> pair_at(const Method<D>& method, const PerGroup<GridView<const NodeSums<D>>>& sums, const Index& i)
 {
   std::array<std::size_t, 2> here;
   std::size_t n_here = 0;
@@ -63,26 +62,13 @@ std::optional<Pair> parted_at(const Planes& planes, const Index& i)
   return pair;
 }
 
-template <class Interpolator, int D = Interpolator::dimension>
-void mirror(const Method<Interpolator>& method, const TaskContext& at,
-            const PerGroup<GridView<ContactPlane<D>>>& planes)
+template <int D>
+void mirror(const Method<D>& method, const TaskContext& at, const PerGroup<GridView<ContactPlane<D>>>& planes)
 {
   for (const GridView<ContactPlane<D>>& plane : planes) {
     for_each_wall(method, at, plane.box(),
                   [&](const SymmetryWall<D>& wall) { wall.constrain_and_mirror(plane.data()); });
   }
-}
-
-/// Marks where the stencils of particles start that reach a node with a plane.
-template <int D>
-void mark_starts(const GridView<ContactPlane<D>>& planes, int support)
-{
-  for_each(planes.box(), [&](const Index& i) {
-    if (planes[i].side == 0) return;
-    runtime::IndexBox starts = {i, {i[0] + 1, i[1] + 1, i[2] + 1}};
-    for (std::size_t k = 0; k < D; ++k) starts.lower[k] -= support - 1;
-    for_each(intersection(starts, planes.box()), [&](const Index& start) { planes[start].starts_near = true; });
-  });
 }
 
 template <int D>
@@ -93,15 +79,14 @@ bool any_starts(const GridView<const ContactPlane<D>>& planes)
   return any;
 }
 
-template <class Interpolator>
-runtime::TaskDeclaration lay_planes(const Method<Interpolator>& method)
+template <int D>
+runtime::TaskDeclaration lay_planes(const Method<D>& method)
 {
-  constexpr int D = Interpolator::dimension;
   return runtime::task("lay contact planes")
       .over_patches()
       .sparse()
-      .reads(node::sums<D>.halo(1).every_group())
-      .computes(node::contact_plane<D>.halo(1).every_group())
+      .reads(node::sums<D>.halo(method.halo).every_group())
+      .computes(node::contact_plane<D>.halo(method.halo).every_group())
       .body([&method](const TaskContext& at, auto data) {
         const auto sums = data[node::sums<D>];
         const auto planes = data[node::contact_plane<D>];
@@ -113,45 +98,40 @@ runtime::TaskDeclaration lay_planes(const Method<Interpolator>& method)
           }
         });
         mirror(method, at, planes);
-        for (const GridView<ContactPlane<D>>& plane : planes) mark_starts<D>(plane, Interpolator::support);
+        for (std::size_t g = 0; g < planes.size(); ++g) {
+          method.interpolation(static_cast<int>(g)).mark_planes(block_of<D>(at.layout, planes[g]), planes[g].data());
+        }
       });
 }
 
-/// A pass over the particles that adds to `sums`, as `add(plane, S_ip, x, size, sum)` says, at nodes with a plane.
-template <class Interpolator, class Label, class Add>
-runtime::TaskDeclaration sum_at_planes(const Method<Interpolator>& method, std::string name, const Label& label,
-                                       Add add)
+/// A pass over the particles that adds to the sums of nodes with a plane, as `add(interpolation, block, position,
+/// planes, sums)` does.
+template <int D, class Label, class Add>
+runtime::TaskDeclaration sum_at_planes(const Method<D>& method, std::string name, const Label& label, Add add)
 {
-  constexpr int D = Interpolator::dimension;
   return runtime::task(std::move(name))
       .over_patches_and_groups()
       .sparse()
-      .reads(node::contact_plane<D>.halo(1), particle::position<D>.previous())
-      .accumulates(label.halo(1))
+      .reads(node::contact_plane<D>.halo(method.halo), particle::position<D>.previous())
+      .accumulates(label.halo(method.halo))
       .body([&method, &label, add](const TaskContext& at, auto data) {
         const auto planes = data[node::contact_plane<D>];
-        const auto position = data[particle::position<D>.previous()];
         const auto sums = data[label];
         if (!any_starts(planes)) return;
-        const Interpolator& interpolator = method.interpolator(at.group);
-        const double size = 2 * interpolator.half_size();
-        components::for_each_parted(interpolator, block_of<D>(at.layout, planes), planes.data(), position,
-                                    [&](std::ptrdiff_t node, double shape, const Vector<D>& x) {
-                                      add(planes.data()[node], shape, x, size, sums.data()[node]);
-                                    });
+        add(method.interpolation(at.group), block_of<D>(at.layout, planes), data[particle::position<D>.previous()],
+            planes.data(), sums.data());
         for_each_wall(method, at, sums.box(), [&](const SymmetryWall<D>& wall) { wall.fold(sums.data()); });
       });
 }
 
-template <class Interpolator, class Label>
-runtime::TaskDeclaration turn_planes(const Method<Interpolator>& method, std::string name, const Label& label)
+template <int D, class Label>
+runtime::TaskDeclaration turn_planes(const Method<D>& method, std::string name, const Label& label)
 {
-  constexpr int D = Interpolator::dimension;
   return runtime::task(std::move(name))
       .over_patches()
       .sparse()
-      .reads(label.halo(1).every_group())
-      .updates(node::contact_plane<D>.halo(1).every_group())
+      .reads(label.halo(method.halo).every_group())
+      .updates(node::contact_plane<D>.halo(method.halo).every_group())
       .body([&method, &label](const TaskContext& at, auto data) {
         const auto sums = data[label];
         const auto planes = data[node::contact_plane<D>];
@@ -170,23 +150,22 @@ runtime::TaskDeclaration turn_planes(const Method<Interpolator>& method, std::st
 
 /// Materials touch that would close their gap within the step. They face each other along the plane's normal; others
 /// have no surface here, which leaves them alone.
-template <class Interpolator>
-runtime::TaskDeclaration face_materials(const Method<Interpolator>& method)
+template <int D>
+runtime::TaskDeclaration face_materials(const Method<D>& method)
 {
-  constexpr int D = Interpolator::dimension;
   return runtime::task("face materials")
       .over_patches()
       .sparse()
-      .reads(node::contact_plane<D>.halo(1).every_group(), node::edge_sums<D>.halo(1).every_group(),
-             node::motion<D>.halo(1).every_group())
-      .updates(node::sums<D>.halo(1).every_group())
+      .reads(node::contact_plane<D>.halo(method.halo).every_group(), node::edge_sums<D>.halo(method.halo).every_group(),
+             node::motion<D>.halo(method.halo).every_group())
+      .updates(node::sums<D>.halo(method.halo).every_group())
       .body([&method](const TaskContext& at, auto data) {
         const auto planes = data[node::contact_plane<D>];
         const auto edges = data[node::edge_sums<D>];
         const auto motions = data[node::motion<D>];
         const auto sums = data[node::sums<D>];
         const auto edge = [&](std::size_t g, const Index& i) {
-          return method.cell_size * edges[g][i].edge(2 * method.interpolator(static_cast<int>(g)).half_size());
+          return method.cell_size * edges[g][i].edge(1.0 / method.scene.particles_per_axis_of(static_cast<int>(g)));
         };
         for_each(planes[0].box(), [&](const Index& i) {
           const auto pair = parted_at<D>(planes, i);
@@ -206,27 +185,26 @@ runtime::TaskDeclaration face_materials(const Method<Interpolator>& method)
 
 }  // namespace
 
-template <class Interpolator>
-std::vector<runtime::TaskDeclaration> part_materials(const Method<Interpolator>& method)
+template <int D>
+std::vector<runtime::TaskDeclaration> part_materials(const Method<D>& method)
 {
-  constexpr int D = Interpolator::dimension;
   std::vector<runtime::TaskDeclaration> phases{lay_planes(method)};
   const auto regress = [&](const std::string& pass, const auto& label) {
-    phases.push_back(sum_at_planes(method, "regress contact " + pass, label,
-                                   [](const ContactPlane<D>& plane, double shape, const Vector<D>& x, double,
-                                      RegressionSums<D>& sums) { sums.add(plane, shape, x); }));
+    phases.push_back(sum_at_planes(
+        method, "regress contact " + pass, label,
+        [](const auto& interpolation, const auto&... arguments) { interpolation.add_regression(arguments...); }));
     phases.push_back(turn_planes(method, "turn contact planes " + pass, label));
   };
   regress("1", node::first_regression_sums<D>);
   regress("2", node::second_regression_sums<D>);
-  phases.push_back(sum_at_planes(method, "find edges", node::edge_sums<D>,
-                                 [](const ContactPlane<D>& plane, double shape, const Vector<D>& x, double size,
-                                    EdgeSums<D>& sums) { sums.add(plane, shape, x, size); }));
+  phases.push_back(sum_at_planes(
+      method, "find edges", node::edge_sums<D>,
+      [](const auto& interpolation, const auto&... arguments) { interpolation.add_edges(arguments...); }));
   phases.push_back(face_materials(method));
   return phases;
 }
 
-template std::vector<runtime::TaskDeclaration> part_materials(const Method<components::Gimp<2>>&);
-template std::vector<runtime::TaskDeclaration> part_materials(const Method<components::Gimp<3>>&);
+template std::vector<runtime::TaskDeclaration> part_materials(const Method<2>&);
+template std::vector<runtime::TaskDeclaration> part_materials(const Method<3>&);
 
 }  // namespace tamp::tasks

@@ -14,8 +14,8 @@ namespace
 {
 
 /// Per mass, of the loads that have one [J/kg].
-template <class Interpolator, int D = Interpolator::dimension>
-double work_function(const Method<Interpolator>& method, const Vector<D>& x)
+template <int D>
+double work_function(const Method<D>& method, const Vector<D>& x)
 {
   double work = method.gravity.dot(x);
   if constexpr (D == 3) {
@@ -32,8 +32,8 @@ void report_rigid_motion(const TaskContext& at, const RigidBody& body, ParticleR
   report.bodies[static_cast<std::size_t>(body.body)] = sums_of(body.properties, body.state);
 }
 
-template <class Interpolator, class Data, int D = Interpolator::dimension>
-void report_motion(const Method<Interpolator>& method, const TaskContext& at, const Data& data)
+template <int D, class Data>
+void report_motion(const Method<D>& method, const TaskContext& at, const Data& data)
 {
   const auto body = data[particle::body.previous()];
   const auto mass = data[particle::mass.previous()];
@@ -81,10 +81,9 @@ runtime::TaskDeclaration with_state(Task task, const Body& body)
   }
 }
 
-template <class Interpolator, class Model>
-runtime::TaskDeclaration report_of(const Method<Interpolator>& method, int group, const Model& model)
+template <int D, class Model>
+runtime::TaskDeclaration report_of(const Method<D>& method, int group, const Model& model)
 {
-  constexpr int D = Interpolator::dimension;
   auto task = runtime::task("report: " + method.materials[static_cast<std::size_t>(group)].name)
                   .over_patches_and_groups({group})
                   .reads(particle::body.previous(), particle::mass.previous(), particle::position<D>.previous(),
@@ -122,10 +121,9 @@ class Noses
 };
 
 /// Waits for the report of the bodies, which tells where their noses are.
-template <class Interpolator, class Model>
-runtime::TaskDeclaration report_near_noses(const Method<Interpolator>& method, int group, const Model& model)
+template <int D, class Model>
+runtime::TaskDeclaration report_near_noses(const Method<D>& method, int group, const Model& model)
 {
-  constexpr int D = Interpolator::dimension;
   auto task = runtime::task("report near noses: " + method.materials[static_cast<std::size_t>(group)].name)
                   .over_patches_and_groups({group})
                   .reads(particle_report, particle::position<D>.previous(), particle::stress<D>.previous())
@@ -189,8 +187,8 @@ Eigen::Vector3d ParticleReport::momentum() const
   return sum;
 }
 
-template <class Interpolator>
-std::vector<runtime::TaskDeclaration> report_tasks(const Method<Interpolator>& method)
+template <int D>
+std::vector<runtime::TaskDeclaration> report_tasks(const Method<D>& method)
 {
   std::vector<runtime::TaskDeclaration> tasks;
   const auto add_for_all = [&](const auto& report) {
@@ -206,7 +204,7 @@ std::vector<runtime::TaskDeclaration> report_tasks(const Method<Interpolator>& m
   return tasks;
 }
 
-template std::vector<runtime::TaskDeclaration> report_tasks(const Method<components::Gimp<2>>&);
-template std::vector<runtime::TaskDeclaration> report_tasks(const Method<components::Gimp<3>>&);
+template std::vector<runtime::TaskDeclaration> report_tasks(const Method<2>&);
+template std::vector<runtime::TaskDeclaration> report_tasks(const Method<3>&);
 
 }  // namespace tamp::tasks

@@ -72,7 +72,7 @@ inline const runtime::ReductionLabel<NoseReport, "nose report"> nose_report;
 
 /// The tasks that make a `particle_report`, and a `nose_report` if a body has a nose, of the state at the end of the
 /// last step.
-template <class Interpolator>
-std::vector<runtime::TaskDeclaration> report_tasks(const Method<Interpolator>& method);
+template <int D>
+std::vector<runtime::TaskDeclaration> report_tasks(const Method<D>& method);
 
 }  // namespace tamp::tasks

@@ -56,15 +56,15 @@ struct RigidCouplings {
 components::RigidState accelerated(const RigidBody& body, const Eigen::Vector3d& gravity,
                                    const std::optional<components::RotatingFrame>& frame, double time, double kick);
 
-/// Do the nodes that a particle at `x` reaches lie within the grid, whose edges nothing is known to hold? `half_size`
-/// is half its edge in cells.
+/// Do the nodes that a particle at `x` reaches lie within the grid, whose edges nothing is known to hold? `reach`
+/// is how far it reaches in cells.
 template <int D>
-bool is_off_edges(const runtime::Grid& grid, double half_size, const Vector<D>& x)
+bool is_off_edges(const runtime::Grid& grid, double reach, const Vector<D>& x)
 {
-  const double reach = (1 + half_size) * grid.cell_size;
+  const double distance = reach * grid.cell_size;
   for (int k = 0; k < D; ++k) {
-    if (x[k] < grid.coordinate(k, 0) + reach) return false;
-    if (x[k] > grid.coordinate(k, grid.n_cells[static_cast<std::size_t>(k)]) - reach) return false;
+    if (x[k] < grid.coordinate(k, 0) + distance) return false;
+    if (x[k] > grid.coordinate(k, grid.n_cells[static_cast<std::size_t>(k)]) - distance) return false;
   }
   return true;
 }

@@ -24,9 +24,9 @@ namespace
 {
 
 /// What the materials at a node ask of the rigid body there.
-template <class Interpolator, int D = Interpolator::dimension>
-void add_node(const Method<Interpolator>& method, const RigidBody& body, const NodeOfGroups<D>& node,
-              const Vector<D>& x, RigidCouplings& couplings)
+template <int D>
+void add_node(const Method<D>& method, const RigidBody& body, const NodeOfGroups<D>& node, const Vector<D>& x,
+              RigidCouplings& couplings)
 {
   const auto self = static_cast<std::size_t>(body.group);
   for (const int g : method.deformable_groups) {
@@ -45,16 +45,15 @@ void add_node(const Method<Interpolator>& method, const RigidBody& body, const N
 
 }  // namespace
 
-template <class Interpolator>
-runtime::TaskDeclaration release_rigid_nodes(const Method<Interpolator>& method, int group)
+template <int D>
+runtime::TaskDeclaration release_rigid_nodes(const Method<D>& method, int group)
 {
-  constexpr int D = Interpolator::dimension;
   const std::string& name = method.materials[static_cast<std::size_t>(group)].name;
   return runtime::task("release rigid nodes: " + name)
       .over_patches_and_groups({group})
       .sparse()
-      .reads(node::sums<D>.halo(1))
-      .computes(node::motion<D>.halo(1))
+      .reads(node::sums<D>.halo(method.halo))
+      .computes(node::motion<D>.halo(method.halo))
       .body([&method](const TaskContext& at, auto data) {
         const auto sums = data[node::sums<D>];
         const auto motion = data[node::motion<D>];
@@ -70,14 +69,13 @@ runtime::TaskDeclaration release_rigid_nodes(const Method<Interpolator>& method,
 
 /// All nodes of a rigid body share its six degrees of freedom, so its contact is gathered from all patches before any
 /// of them can say how fast it moves.
-template <class Interpolator>
-runtime::TaskDeclaration gather_rigid_contact(const Method<Interpolator>& method)
+template <int D>
+runtime::TaskDeclaration gather_rigid_contact(const Method<D>& method)
 {
-  constexpr int D = Interpolator::dimension;
   return runtime::task("gather rigid contact")
       .over_patches()
       .sparse()
-      .reads(node::sums<D>.halo(1).every_group(), node::motion<D>.halo(1).every_group())
+      .reads(node::sums<D>.halo(method.halo).every_group(), node::motion<D>.halo(method.halo).every_group())
       .reduces(rigid_couplings)
       .body([&method](const TaskContext& at, auto data) {
         const auto sums = data[node::sums<D>];
@@ -94,15 +92,14 @@ runtime::TaskDeclaration gather_rigid_contact(const Method<Interpolator>& method
 }
 
 /// Nodes of rigid bodies take the velocity that the bodies have after contact.
-template <class Interpolator>
-runtime::TaskDeclaration move_rigid_nodes(const Method<Interpolator>& method)
+template <int D>
+runtime::TaskDeclaration move_rigid_nodes(const Method<D>& method)
 {
-  constexpr int D = Interpolator::dimension;
   return runtime::task("move rigid nodes")
       .over_patches()
       .sparse()
-      .reads(rigid_couplings, node::sums<D>.halo(1).every_group())
-      .updates(node::motion<D>.halo(1).every_group())
+      .reads(rigid_couplings, node::sums<D>.halo(method.halo).every_group())
+      .updates(node::motion<D>.halo(method.halo).every_group())
       .body([&method](const TaskContext& at, auto data) {
         const RigidCouplings& couplings = data[rigid_couplings];
         const auto sums = data[node::sums<D>];
@@ -120,10 +117,9 @@ runtime::TaskDeclaration move_rigid_nodes(const Method<Interpolator>& method)
 }
 
 /// A rigid body's particles keep their places in it.
-template <class Interpolator>
-runtime::TaskDeclaration move_rigid_body(const Method<Interpolator>& method, int group)
+template <int D>
+runtime::TaskDeclaration move_rigid_body(const Method<D>& method, int group)
 {
-  constexpr int D = Interpolator::dimension;
   const std::string& name = method.materials[static_cast<std::size_t>(group)].name;
   return runtime::task("move rigid body: " + name)
       .over_patches_and_groups({group})
@@ -157,7 +153,7 @@ runtime::TaskDeclaration move_rigid_body(const Method<Interpolator>& method, int
           volume[p] = old_volume[p];
           stress[p].setZero();
           viscous_pressure[p] = 0;
-          if (!is_off_edges<D>(at.layout.grid(), method.interpolator(at.group).half_size(), position[p])) {
+          if (!is_off_edges<D>(at.layout.grid(), method.scene.reach_of(at.group), position[p])) {
             throw SimulationError("a rigid body reaches the edge of the domain, where nothing is known to hold it",
                                   method.materials[static_cast<std::size_t>(at.group)].name, id[p],
                                   {position[p].begin(), position[p].end()});
@@ -168,13 +164,13 @@ runtime::TaskDeclaration move_rigid_body(const Method<Interpolator>& method, int
       });
 }
 
-template runtime::TaskDeclaration release_rigid_nodes(const Method<components::Gimp<2>>&, int);
-template runtime::TaskDeclaration release_rigid_nodes(const Method<components::Gimp<3>>&, int);
-template runtime::TaskDeclaration gather_rigid_contact(const Method<components::Gimp<2>>&);
-template runtime::TaskDeclaration gather_rigid_contact(const Method<components::Gimp<3>>&);
-template runtime::TaskDeclaration move_rigid_nodes(const Method<components::Gimp<2>>&);
-template runtime::TaskDeclaration move_rigid_nodes(const Method<components::Gimp<3>>&);
-template runtime::TaskDeclaration move_rigid_body(const Method<components::Gimp<2>>&, int);
-template runtime::TaskDeclaration move_rigid_body(const Method<components::Gimp<3>>&, int);
+template runtime::TaskDeclaration release_rigid_nodes(const Method<2>&, int);
+template runtime::TaskDeclaration release_rigid_nodes(const Method<3>&, int);
+template runtime::TaskDeclaration gather_rigid_contact(const Method<2>&);
+template runtime::TaskDeclaration gather_rigid_contact(const Method<3>&);
+template runtime::TaskDeclaration move_rigid_nodes(const Method<2>&);
+template runtime::TaskDeclaration move_rigid_nodes(const Method<3>&);
+template runtime::TaskDeclaration move_rigid_body(const Method<2>&, int);
+template runtime::TaskDeclaration move_rigid_body(const Method<3>&, int);
 
 }  // namespace tamp::tasks

@@ -14,6 +14,7 @@
 #include "components/loads/artificial_viscosity.hpp"
 #include "components/loads/rotating_frame.hpp"
 #include "components/materials/material_model.hpp"
+#include "components/shapes/interpolator.hpp"
 #include "runtime/grid/patch_layout.hpp"
 
 /// A scene that has been checked: what a run is made from. SI units. Two-dimensional scenes (plane strain) use the
@@ -29,7 +30,7 @@ enum class Face { symmetry, open };
 /// How the time step is bounded, see components/loads/time_step.hpp.
 enum class StepRule { published, viscous };
 
-enum class Interpolator { gimp };
+using components::Interpolator;
 
 /// How velocities go between particles and grid. `flip`: particles bring theirs, and take the nodes' changes of them.
 /// `affine`: they bring the velocities' gradient too, which they took from the grid in the step before.
@@ -105,9 +106,12 @@ struct SceneLimits {
   double energy_error = 0.2;
 };
 
-/// Cells that a patch needs along an axis that is cut. Its particles reach a layer of nodes beyond each end; where
+/// Cells that a patch needs along an axis that is cut. Its particles reach layers of nodes beyond each end; where
 /// those of both ends met, some nodes would lack a part of their sums.
-constexpr int least_patch_width = 3;
+constexpr int least_patch_width(Interpolator interpolator)
+{
+  return 2 * components::n_layers_beyond(interpolator) + 1;
+}
 
 struct Scene {
   /// The file's name without its ending; what a run's folder is called by default.
@@ -142,6 +146,8 @@ struct Scene {
   {
     return materials[static_cast<std::size_t>(material)].own_particles_per_axis.value_or(particles_per_axis);
   }
+  /// How far beside a particle of a material the furthest node lies that it may reach, in cells.
+  double reach_of(int material) const { return components::reach(interpolator, particles_per_axis_of(material)); }
 };
 
 }  // namespace tamp::tasks

@@ -10,7 +10,7 @@
 #include "components/errors.hpp"
 #include "components/geometry/fill.hpp"
 #include "components/materials/invariants.hpp"
-#include "components/shapes/gimp.hpp"
+#include "components/shapes/interpolators.hpp"
 #include "tasks/method.hpp"
 
 namespace tamp::tasks
@@ -119,9 +119,10 @@ SettledSand<D>::SettledSand(const Scene& scene, const SceneBody& body) : sand_(&
   vertical_ = vertical_axis<D>(columns_);
   const auto force = body_force<D>(scene);
   const double density = scene.materials[static_cast<std::size_t>(body.material)].density;
-  const components::Gimp<1> interpolator(particles_per_axis);
   for (std::size_t k = 0; k < D; ++k) {
-    along_[k] = components::settled_stress(interpolator, columns_[k], density, force[k]);
+    along_[k] = components::with_shape<1>(scene.interpolator, particles_per_axis, [&](const auto& shape) {
+      return components::settled_stress(shape, columns_[k], density, force[k]);
+    });
   }
 }
 

@@ -61,11 +61,9 @@ runtime::PatchLayout dealt(const Scene& scene, const std::vector<double>& partic
   return layout;
 }
 
-template <class Interpolator>
+template <int D>
 class SimulationOf : public Simulation
 {
-  static constexpr int D = Interpolator::dimension;
-
  public:
   SimulationOf(Scene given, std::shared_ptr<runtime::Executor> executor, const runtime::Communicator& communicator)
       : Simulation(std::move(given), std::move(executor), communicator), method_(scene_)
@@ -173,10 +171,10 @@ class SimulationOf : public Simulation
   }
 
  private:
-  std::unique_ptr<Engine<Interpolator>> make_engine(const runtime::PatchLayout& layout)
+  std::unique_ptr<Engine<D>> make_engine(const runtime::PatchLayout& layout)
   {
-    return std::make_unique<Engine<Interpolator>>(method_, material_names(scene_), layout, communicator_, n_threads(),
-                                                  [this](const StepTotals& step) { return accepts(step); });
+    return std::make_unique<Engine<D>>(method_, material_names(scene_), layout, communicator_, n_threads(),
+                                       [this](const StepTotals& step) { return accepts(step); });
   }
 
   bool accepts(const StepTotals& step) const
@@ -223,10 +221,9 @@ class SimulationOf : public Simulation
     if (method_.time_step_rule == StepRule::published) {
       return components::published_time_step<D>(h, components::wave_speed(bulk, shear, density), v);
     }
-    const int n_per_axis = scene_.particles_per_axis_of(body.material);
-    return components::viscous_time_step<D>(
-        h, {density, bulk, shear, v, 0, components::greatest_own_stiffness(D, n_per_axis)},
-        method_.viscosity.value_or(components::ArtificialViscosity{0, 0}));
+    const double own_stiffness = method_.interpolation(body.material).greatest_own_stiffness();
+    return components::viscous_time_step<D>(h, {density, bulk, shear, v, 0, own_stiffness},
+                                            method_.viscosity.value_or(components::ArtificialViscosity{0, 0}));
   }
 
   double initial_stable_step(const BodyParticles<D>& particles) const
@@ -342,12 +339,12 @@ class SimulationOf : public Simulation
     engine_ = std::move(engine);
   }
 
-  Method<Interpolator> method_;
+  Method<D> method_;
   /// Ranks that failed at different places meet here, where no other messages are.
   runtime::Communicator after_failure_ = communicator_.duplicate();
-  std::unique_ptr<Engine<Interpolator>> engine_;
+  std::unique_ptr<Engine<D>> engine_;
   std::optional<runtime::Profiler> profiler_;
-  FieldColumns<Interpolator> columns_;
+  FieldColumns<D> columns_;
   std::size_t forecast_bytes_ = 0;
   std::optional<LostByPatch> lost_;
 };
@@ -375,9 +372,9 @@ std::unique_ptr<Simulation> Simulation::make(Scene scene, std::shared_ptr<runtim
                                              const runtime::Communicator& communicator)
 {
   if (scene.grid.dimension == 2) {
-    return std::make_unique<SimulationOf<components::Gimp<2>>>(std::move(scene), std::move(executor), communicator);
+    return std::make_unique<SimulationOf<2>>(std::move(scene), std::move(executor), communicator);
   }
-  return std::make_unique<SimulationOf<components::Gimp<3>>>(std::move(scene), std::move(executor), communicator);
+  return std::make_unique<SimulationOf<3>>(std::move(scene), std::move(executor), communicator);
 }
 
 }  // namespace tamp::tasks

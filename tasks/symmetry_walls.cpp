@@ -18,8 +18,8 @@ namespace
 
 /// What the particles of one group take from the nodes that this patch counts. Nodes inside a mirror also hold the
 /// mass of the image, whose normal momentum is opposite: it is taken off again.
-template <class Interpolator, int D = Interpolator::dimension>
-void add_impulse(const Method<Interpolator>& method, const TaskContext& at, const GridView<const NodeSums<D>>& sums,
+template <int D>
+void add_impulse(const Method<D>& method, const TaskContext& at, const GridView<const NodeSums<D>>& sums,
                  const GridView<NodeMotion<D>>& motion, GridImpulse& impulse)
 {
   for_each(counted_nodes(method, at), [&](const Index& i) {
@@ -43,15 +43,14 @@ void add_impulse(const Method<Interpolator>& method, const TaskContext& at, cons
 
 /// The image of a particle takes as much normal momentum to the nodes of the wall as the particle brings: there the
 /// normal velocity is zero before and after the step, and the nodes behind the wall mirror those before it.
-template <class Interpolator>
-runtime::TaskDeclaration symmetry_walls(const Method<Interpolator>& method)
+template <int D>
+runtime::TaskDeclaration symmetry_walls(const Method<D>& method)
 {
-  constexpr int D = Interpolator::dimension;
   return runtime::task("symmetry walls")
       .over_patches()
       .sparse()
-      .reads(node::sums<D>.halo(1).every_group())
-      .updates(node::motion<D>.halo(1).every_group())
+      .reads(node::sums<D>.halo(method.halo).every_group())
+      .updates(node::motion<D>.halo(method.halo).every_group())
       .reduces(grid_impulse)
       .body([&method](const TaskContext& at, auto data) {
         const auto sums = data[node::sums<D>];
@@ -66,7 +65,7 @@ runtime::TaskDeclaration symmetry_walls(const Method<Interpolator>& method)
       });
 }
 
-template runtime::TaskDeclaration symmetry_walls(const Method<components::Gimp<2>>&);
-template runtime::TaskDeclaration symmetry_walls(const Method<components::Gimp<3>>&);
+template runtime::TaskDeclaration symmetry_walls(const Method<2>&);
+template runtime::TaskDeclaration symmetry_walls(const Method<3>&);
 
 }  // namespace tamp::tasks

@@ -26,8 +26,8 @@ void add_state_of(const MaterialModel& model, runtime::HostData& data)
 
 }  // namespace
 
-template <class Interpolator>
-std::vector<runtime::TaskDeclaration> time_step(const Method<Interpolator>& method,
+template <int D>
+std::vector<runtime::TaskDeclaration> time_step(const Method<D>& method,
                                                 std::function<bool(const StepTotals&)> accepted)
 {
   std::vector<runtime::TaskDeclaration> step;
@@ -46,14 +46,13 @@ std::vector<runtime::TaskDeclaration> time_step(const Method<Interpolator>& meth
   for (const RigidBody& body : method.rigid_bodies) step.push_back(move_rigid_body(method, body.group));
   if (!method.deformable_groups.empty()) step.push_back(grid_to_particles(method));
   for (const int material : method.deformable_groups) step.push_back(update_stress(method, material));
-  step.push_back(runtime::migration(particle::position<Interpolator::dimension>, step_totals, std::move(accepted)));
+  step.push_back(runtime::migration(particle::position<D>, step_totals, std::move(accepted)));
   return step;
 }
 
-template <class Interpolator>
-runtime::HostData host_data(const Method<Interpolator>& method)
+template <int D>
+runtime::HostData host_data(const Method<D>& method)
 {
-  constexpr int D = Interpolator::dimension;
   runtime::HostData data{{&particle::id, &particle::body, &particle::reference_position<D>, &particle::mass,
                           &particle::position<D>, &particle::velocity<D>, &particle::deformation_gradient<D>,
                           &particle::volume, &particle::stress<D>, &particle::viscous_pressure},
@@ -63,11 +62,9 @@ runtime::HostData host_data(const Method<Interpolator>& method)
   return data;
 }
 
-template std::vector<runtime::TaskDeclaration> time_step(const Method<components::Gimp<2>>&,
-                                                         std::function<bool(const StepTotals&)>);
-template std::vector<runtime::TaskDeclaration> time_step(const Method<components::Gimp<3>>&,
-                                                         std::function<bool(const StepTotals&)>);
-template runtime::HostData host_data(const Method<components::Gimp<2>>&);
-template runtime::HostData host_data(const Method<components::Gimp<3>>&);
+template std::vector<runtime::TaskDeclaration> time_step(const Method<2>&, std::function<bool(const StepTotals&)>);
+template std::vector<runtime::TaskDeclaration> time_step(const Method<3>&, std::function<bool(const StepTotals&)>);
+template runtime::HostData host_data(const Method<2>&);
+template runtime::HostData host_data(const Method<3>&);
 
 }  // namespace tamp::tasks

@@ -54,8 +54,8 @@ MaterialBatch<D, typename Model::State> batch_at(std::size_t first, const Data& 
 }
 
 /// One batch after the material has answered: artificial viscosity, energies, and the bound on the next step.
-template <class Interpolator, class Data, int D = Interpolator::dimension>
-void account(const Method<Interpolator>& method, double dt, const Data& data, std::size_t first,
+template <int D, class Data>
+void account(const Method<D>& method, double dt, const Data& data, std::size_t first,
              std::span<const SymmetricTensor<D>> old_stress, const BatchAnswer& answer)
 {
   const auto mass = data[particle::mass.previous()];
@@ -96,10 +96,9 @@ void account(const Method<Interpolator>& method, double dt, const Data& data, st
 }
 
 /// Throws SimulationError for the first of `n` particles whose stress or velocity is not finite.
-template <class Interpolator, class Data>
-void check_finite(const Method<Interpolator>& method, int group, const Data& data, std::size_t first, std::size_t n)
+template <int D, class Data>
+void check_finite(const Method<D>& method, int group, const Data& data, std::size_t first, std::size_t n)
 {
-  constexpr int D = Interpolator::dimension;
   const auto stress = data[particle::stress<D>];
   const auto velocity = data[particle::velocity<D>];
   for (std::size_t p = first; p < first + n; ++p) {
@@ -137,10 +136,9 @@ FailedUpdate failed_update(const Model& model, int group, std::size_t p, compone
 }
 
 /// Takes all particles to the material batch by batch.
-template <class Interpolator, class Model, class Data>
-void update_batches(const Method<Interpolator>& method, const Model& model, const TaskContext& at, const Data& data)
+template <int D, class Model, class Data>
+void update_batches(const Method<D>& method, const Model& model, const TaskContext& at, const Data& data)
 {
-  constexpr int D = Interpolator::dimension;
   StepTotals& totals = data[step_totals];
   // Here, as this task runs on every patch, with particles or without.
   totals.host_requests = at.step.host_requests;
@@ -154,15 +152,13 @@ void update_batches(const Method<Interpolator>& method, const Model& model, cons
       totals.note(failed_update<D>(model, at.group, first + failure->particle, failure->fault, data));
     }
     check_finite(method, at.group, data, first, n);
-    account<Interpolator>(method, at.step.size, data, first, std::span<const SymmetricTensor<D>>(old_stress.data(), n),
-                          answer);
+    account(method, at.step.size, data, first, std::span<const SymmetricTensor<D>>(old_stress.data(), n), answer);
   }
 }
 
-template <class Interpolator, class Model>
-runtime::TaskDeclaration update_of(const Method<Interpolator>& method, int group, const Model& model)
+template <int D, class Model>
+runtime::TaskDeclaration update_of(const Method<D>& method, int group, const Model& model)
 {
-  constexpr int D = Interpolator::dimension;
   auto task =
       runtime::task("update stress: " + method.materials[static_cast<std::size_t>(group)].name)
           .over_patches_and_groups({group})
@@ -182,14 +178,14 @@ runtime::TaskDeclaration update_of(const Method<Interpolator>& method, int group
 
 }  // namespace
 
-template <class Interpolator>
-runtime::TaskDeclaration update_stress(const Method<Interpolator>& method, int material)
+template <int D>
+runtime::TaskDeclaration update_stress(const Method<D>& method, int material)
 {
   return std::visit([&](const auto& model) { return update_of(method, material, model); },
                     method.materials[static_cast<std::size_t>(material)].model);
 }
 
-template runtime::TaskDeclaration update_stress(const Method<components::Gimp<2>>&, int);
-template runtime::TaskDeclaration update_stress(const Method<components::Gimp<3>>&, int);
+template runtime::TaskDeclaration update_stress(const Method<2>&, int);
+template runtime::TaskDeclaration update_stress(const Method<3>&, int);
 
 }  // namespace tamp::tasks

@@ -125,6 +125,10 @@ struct EdgeSums {
   static constexpr double sharpness = 3;
 };
 
+/// Marks where the stencils of `support` nodes an axis start that reach a node with a plane.
+template <int D>
+void mark_starts(const GridBlock<D>& block, int support, ContactPlane<D>* planes);
+
 /// Calls `visit(node, S_ip, x)` for every particle and every node with a plane that it reaches, x being the particle
 /// seen from the node.
 template <class Interpolator, int D = Interpolator::dimension, class Visit>

@@ -56,12 +56,11 @@ double viscous_time_step(double cell_size, const StiffParticle<D>& p, const Arti
   return cell_size / (signal_speed + p.velocity.norm());
 }
 
-/// The own stiffness of a particle alone, at worst: it lies on a node and just reaches the two beside
-/// that, along each axis; with l = h / (2 n), half its size, the squares of slopes over weights sum up to
-/// 2 / l + 1 / (h - l).
-inline double greatest_own_stiffness(int dimension, int n_per_axis)
+/// The own stiffness of a particle alone, at worst: it just reaches the two nodes beside its own along each axis; with
+/// l, half the size in cells of the box that its weights are averaged over, the squares of slopes over weights sum up
+/// to 2 / l + 1 / (1 - l).
+inline double greatest_own_stiffness(int dimension, int n_per_axis, double l)
 {
-  const double l = 0.5 / n_per_axis;
   return portable::pow(std::max(1.0, 0.5 * n_per_axis), dimension - 1) * dimension * (2 / l + 1 / (1 - l));
 }
 

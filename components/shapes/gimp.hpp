@@ -47,9 +47,12 @@ class Gimp
   static constexpr int support = 3;
 
   /// `n_per_axis` particles along each axis of a cell, each as large as its share; at least 1.
-  explicit Gimp(int n_per_axis) : half_size_(0.5 / n_per_axis) {}
+  explicit Gimp(int n_per_axis) : Gimp(0.5 / n_per_axis, {}) {}
+  /// Averaged over the size of a cell, however small the particles, linear functions are the quadratic B-spline
+  /// (Steffen, Kirby & Berzins, Int. J. Numer. Meth. Eng. 76, 2008).
+  static Gimp quadratic_spline() { return Gimp(0.5, {}); }
 
-  /// Half the edge of a particle, in cells.
+  /// Half the edge of the box averaged over, in cells.
   double half_size() const { return half_size_; }
 
   Stencil<D, support> at(const GridBlock<D>& block, const Vector<D>& x) const
@@ -81,6 +84,10 @@ class Gimp
   }
 
  private:
+  struct OfHalfSize {
+  };
+  Gimp(double half_size, OfHalfSize) : half_size_(half_size) {}
+
   double half_size_;
 };
 

@@ -129,12 +129,12 @@ ParticleMotion<D> grid_to_particle(const Interpolator& interpolator, const GridB
 
 /// h^2 m_p sum |grad S_ip|^2 / m_i, a pure number: how stiff a particle makes its nodes by itself, and so how fast they
 /// can shake, in units of its modulus over density and h^2. Particles smaller than half a cell count with as many of
-/// their like as lie side by side across half a cell, as one layer of them moves as one. Inside of a body it is below
-/// 1, at an edge about 5, and up to 9 an axis where a particle has its nodes to itself. `inverse_mass` of nodes is in
-/// 1/kg, 0 at those that do not count.
+/// their like as lie side by side across half a cell, `n_per_axis` across one, as one layer of them moves as one.
+/// Inside of a body it is below 1, at an edge about 5, and up to 9 an axis where a particle has its nodes to itself.
+/// `inverse_mass` of nodes is in 1/kg, 0 at those that do not count.
 template <class Interpolator, int D = Interpolator::dimension>
-double own_stiffness(const Interpolator& interpolator, const GridBlock<D>& block, const Vector<D>& x, double mass,
-                     const double* inverse_mass)
+double own_stiffness(const Interpolator& interpolator, int n_per_axis, const GridBlock<D>& block, const Vector<D>& x,
+                     double mass, const double* inverse_mass)
 {
   double sum = 0;
   const auto stencil = interpolator.at(block, x);
@@ -146,7 +146,7 @@ double own_stiffness(const Interpolator& interpolator, const GridBlock<D>& block
              inverse_mass[row.first + static_cast<std::ptrdiff_t>(i)];
     }
   });
-  const double across_half_cell = std::max(1.0, 0.25 / interpolator.half_size());
+  const double across_half_cell = std::max(1.0, 0.5 * n_per_axis);
   const double n_alike = D == 2 ? across_half_cell : across_half_cell * across_half_cell;
   return n_alike * block.cell_size * block.cell_size * mass * sum;
 }

@@ -41,17 +41,11 @@ void check_no_overlap(const tasks::Scene& scene, const JsonReader& bodies)
   }
 }
 
-/// Half the edge of a particle of the body, in cells.
-double half_size(const tasks::Scene& scene, const tasks::SceneBody& body)
-{
-  return 0.5 / scene.particles_per_axis_of(body.material);
-}
-
 /// The nodes to which the particles of a body give mass.
 template <int D>
 std::set<runtime::Index> nodes_of(const tasks::Scene& scene, const tasks::SceneBody& body)
 {
-  const double reach = 1 + half_size(scene, body);
+  const double reach = scene.reach_of(body.material);
   std::set<runtime::Index> nodes;
   for (const Vector<D>& x : sites<D>(scene, body)) {
     runtime::IndexBox reached{{0, 0, 0}, {1, 1, 1}};
@@ -76,7 +70,7 @@ template <int D>
 void check_rigid(const tasks::Scene& scene, const tasks::SceneBody& body, const JsonReader& bodies)
 {
   const auto is_off_edges = [&](const Vector<D>& x) {
-    return tasks::is_off_edges<D>(scene.grid, half_size(scene, body), x);
+    return tasks::is_off_edges<D>(scene.grid, scene.reach_of(body.material), x);
   };
   const auto places = sites<D>(scene, body);
   if (!std::all_of(places.begin(), places.end(), is_off_edges)) {

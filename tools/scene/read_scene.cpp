@@ -32,11 +32,11 @@ class SceneReader
     const std::size_t n_before = document_.problems.size();
     read_dimension();
     const bool dimension_is_good = document_.problems.size() == n_before;
+    root_.choice("interpolator", {"gimp"}, true);
     read_grid();
     const bool grid_is_good = document_.problems.size() == n_before;
     read_faces();
     read_time();
-    root_.choice("interpolator", {"gimp"}, true);
     const bool affine = root_.choice("transfer", {"flip", "affine"}, true) == "affine";
     scene_.transfer = affine ? tasks::Transfer::affine : tasks::Transfer::flip;
     read_particles_per_cell();
@@ -90,15 +90,15 @@ class SceneReader
     }
   }
 
-  static void check_patches(const JsonReader& reader, int n_patches, int n_cells, std::size_t axis)
+  void check_patches(const JsonReader& reader, int n_patches, int n_cells, std::size_t axis) const
   {
+    const int least_width = tasks::least_patch_width(scene_.interpolator);
     const std::string found = fmt::format("{} patches along {}", n_patches, "xyz"[axis]);
     if (n_cells % n_patches != 0) {
       reader.add_problem("patches", found, fmt::format("expected a number that divides the {} cells there", n_cells));
-    } else if (n_patches > 1 && n_cells / n_patches < tasks::least_patch_width) {
-      reader.add_problem(
-          "patches", fmt::format("{}, {} cells wide", found, n_cells / n_patches),
-          fmt::format("expected patches at least {} cells wide along an axis that is cut", tasks::least_patch_width));
+    } else if (n_patches > 1 && n_cells / n_patches < least_width) {
+      reader.add_problem("patches", fmt::format("{}, {} cells wide", found, n_cells / n_patches),
+                         fmt::format("expected patches at least {} cells wide along an axis that is cut", least_width));
     }
   }
 

@@ -228,8 +228,8 @@ TEMPLATE_TEST_CASE_SIG("a particle's own stiffness is its share in that of its n
     // Four an axis: two lie side by side across half a cell.
     plain *= cloud.mass[p] * cell_size * cell_size * (n_per_axis == 4 ? std::pow(2, D - 1) : 1);
 
-    REQUIRE(own_stiffness(Gimp<D>(n_per_axis), block, cloud.position[p], cloud.mass[p], inverse_masses(sums).data()) ==
-            Approx(plain));
+    REQUIRE(own_stiffness(Gimp<D>(n_per_axis), n_per_axis, block, cloud.position[p], cloud.mass[p],
+                          inverse_masses(sums).data()) == Approx(plain));
   }
 }
 
@@ -238,8 +238,9 @@ TEMPLATE_TEST_CASE_SIG("no place of a particle alone is stiffer than the greates
 {
   const int n_per_axis = GENERATE(1, 2, 3, 4);
   const auto block = block_of_nodes<D>(6, 1.0);
-  const Gimp<D> interpolator(n_per_axis);
-  const double greatest = greatest_own_stiffness(D, n_per_axis), l = 0.5 / n_per_axis;
+  const Gimp<D> interpolator = GENERATE_COPY(Gimp<D>(n_per_axis), Gimp<D>::quadratic_spline());
+  const double greatest = greatest_own_stiffness(D, n_per_axis, interpolator.half_size());
+  const double l = interpolator.half_size();
   const auto alone = [&](double along_each_axis) {
     const Vector<D> x = block.origin + Vector<D>::Constant(2 + along_each_axis);
     std::vector<NodeSums<D>> sums(static_cast<std::size_t>(n_nodes_of(block)));
@@ -247,7 +248,7 @@ TEMPLATE_TEST_CASE_SIG("no place of a particle alone is stiffer than the greates
     const std::vector<double> one{1};
     const std::vector<SymmetricTensor<D>> stress{SymmetricTensor<D>::Zero()};
     particles_to_grid(interpolator, block, {position, velocity, one, one, stress, one}, sums.data());
-    return own_stiffness(interpolator, block, x, 1, inverse_masses(sums).data());
+    return own_stiffness(interpolator, n_per_axis, block, x, 1, inverse_masses(sums).data());
   };
 
   for (int i = 0; i < 200; ++i) REQUIRE(alone((i + 0.5) / 200) <= greatest * (1 + 1e-9));

@@ -1,0 +1,94 @@
+#include "components/shapes/interpolation.hpp"
+
+#include <algorithm>
+#include <cstddef>
+
+#include "components/loads/time_step.hpp"
+#include "components/shapes/interpolators.hpp"
+
+namespace tamp::components
+{
+
+namespace
+{
+
+/// The kernels with the weights of one interpolator, for particles of one size.
+template <class Shape, int D = Shape::dimension>
+class InterpolationBy final : public Interpolation<D>
+{
+ public:
+  InterpolationBy(const Shape& shape, int n_per_axis) : shape_(shape), n_per_axis_(n_per_axis) {}
+
+  double greatest_own_stiffness() const override
+  {
+    return components::greatest_own_stiffness(D, n_per_axis_, shape_.half_size());
+  }
+
+  void particles_to_grid(const GridBlock<D>& block, const ParticleSources<D>& from, NodeSums<D>* sums) const override
+  {
+    components::particles_to_grid(shape_, block, from, sums);
+  }
+
+  void add_gradient_momentum(const GridBlock<D>& block, std::span<const Vector<D>> position,
+                             std::span<const double> mass, std::span<const Matrix<D>> velocity_gradient,
+                             NodeSums<D>* sums) const override
+  {
+    components::add_gradient_momentum(shape_, block, position, mass, velocity_gradient, sums);
+  }
+
+  void grid_to_particles(const GridBlock<D>& block, std::span<const Vector<D>> position, const NodeMotion<D>* nodes,
+                         std::span<ParticleMotion<D>> motion) const override
+  {
+    for (std::size_t p = 0; p < position.size(); ++p) motion[p] = grid_to_particle(shape_, block, position[p], nodes);
+  }
+
+  void own_stiffness(const GridBlock<D>& block, std::span<const Vector<D>> position, std::span<const double> mass,
+                     const double* inverse_mass, std::span<double> stiffness) const override
+  {
+    for (std::size_t p = 0; p < position.size(); ++p) {
+      stiffness[p] = components::own_stiffness(shape_, n_per_axis_, block, position[p], mass[p], inverse_mass);
+    }
+  }
+
+  void mark_planes(const GridBlock<D>& block, ContactPlane<D>* planes) const override
+  {
+    mark_starts(block, Shape::support, planes);
+  }
+
+  void add_regression(const GridBlock<D>& block, std::span<const Vector<D>> position, const ContactPlane<D>* planes,
+                      RegressionSums<D>* sums) const override
+  {
+    for_each_parted(shape_, block, planes, position, [&](std::ptrdiff_t node, double weight, const Vector<D>& x) {
+      sums[node].add(planes[node], weight, x);
+    });
+  }
+
+  void add_edges(const GridBlock<D>& block, std::span<const Vector<D>> position, const ContactPlane<D>* planes,
+                 EdgeSums<D>* sums) const override
+  {
+    const double size = 1.0 / n_per_axis_;
+    for_each_parted(shape_, block, planes, position, [&](std::ptrdiff_t node, double weight, const Vector<D>& x) {
+      sums[node].add(planes[node], weight, x, size);
+    });
+  }
+
+ private:
+  Shape shape_;
+  int n_per_axis_;
+};
+
+}  // namespace
+
+template <int D>
+std::unique_ptr<const Interpolation<D>> Interpolation<D>::make(Interpolator interpolator, int n_per_axis)
+{
+  return with_shape<D>(interpolator, n_per_axis,
+                       [&]<class Shape>(const Shape& shape) -> std::unique_ptr<const Interpolation> {
+                         return std::make_unique<InterpolationBy<Shape>>(shape, n_per_axis);
+                       });
+}
+
+template class Interpolation<2>;
+template class Interpolation<3>;
+
+}  // namespace tamp::components

@@ -1,0 +1,49 @@
+#pragma once
+
+#include <memory>
+#include <span>
+
+#include "components/contact/logistic_plane.hpp"
+#include "components/shapes/grid_block.hpp"
+#include "components/shapes/interpolator.hpp"
+#include "components/shapes/transfer.hpp"
+#include "components/tensors.hpp"
+
+namespace tamp::components
+{
+
+/// What particles of one material and the grid give each other, whatever the interpolator: each call takes a batch of
+/// particles, so that only its one definition knows how weights are made. In all of them `block` is where the nodes
+/// stand, and pointers are to its first node.
+template <int D>
+class Interpolation
+{
+ public:
+  /// For `n_per_axis` particles along each axis of a cell.
+  static std::unique_ptr<const Interpolation> make(Interpolator interpolator, int n_per_axis);
+  virtual ~Interpolation() = default;
+
+  /// The greatest `own_stiffness` of a particle, one that has its nodes to itself.
+  virtual double greatest_own_stiffness() const = 0;
+
+  /// See components::particles_to_grid, and so on.
+  virtual void particles_to_grid(const GridBlock<D>& block, const ParticleSources<D>& from,
+                                 NodeSums<D>* sums) const = 0;
+  virtual void add_gradient_momentum(const GridBlock<D>& block, std::span<const Vector<D>> position,
+                                     std::span<const double> mass, std::span<const Matrix<D>> velocity_gradient,
+                                     NodeSums<D>* sums) const = 0;
+  virtual void grid_to_particles(const GridBlock<D>& block, std::span<const Vector<D>> position,
+                                 const NodeMotion<D>* nodes, std::span<ParticleMotion<D>> motion) const = 0;
+  virtual void own_stiffness(const GridBlock<D>& block, std::span<const Vector<D>> position,
+                             std::span<const double> mass, const double* inverse_mass,
+                             std::span<double> stiffness) const = 0;
+
+  /// Marks the nodes that tell `add_regression` and `add_edges` which particles reach a node with a plane.
+  virtual void mark_planes(const GridBlock<D>& block, ContactPlane<D>* planes) const = 0;
+  virtual void add_regression(const GridBlock<D>& block, std::span<const Vector<D>> position,
+                              const ContactPlane<D>* planes, RegressionSums<D>* sums) const = 0;
+  virtual void add_edges(const GridBlock<D>& block, std::span<const Vector<D>> position, const ContactPlane<D>* planes,
+                         EdgeSums<D>* sums) const = 0;
+};
+
+}  // namespace tamp::components

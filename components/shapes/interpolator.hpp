@@ -1,0 +1,22 @@
+#pragma once
+
+namespace tamp::components
+{
+
+/// How the weights of nodes follow from a particle's place; docs/method.md says what each is for.
+enum class Interpolator { gimp };
+
+/// Layers of nodes that a particle reaches beyond the nodes of its cell.
+constexpr int n_layers_beyond(Interpolator)
+{
+  return 1;
+}
+
+/// How far beside a particle the furthest node lies that it may reach, in cells, for `n_per_axis` particles along each
+/// axis of a cell.
+constexpr double reach(Interpolator, int n_per_axis)
+{
+  return 1 + 0.5 / n_per_axis;
+}
+
+}  // namespace tamp::components

@@ -1,0 +1,23 @@
+#pragma once
+
+#include <stdexcept>
+
+#include "components/shapes/gimp.hpp"
+#include "components/shapes/interpolation.hpp"
+
+namespace tamp::components
+{
+
+/// Calls `visit(shape)` with the weights of an interpolator for `n_per_axis` particles along each axis of a cell: the
+/// one list of all interpolators.
+template <int D, class Visit>
+auto with_shape(Interpolator interpolator, int n_per_axis, Visit&& visit)
+{
+  switch (interpolator) {
+    case Interpolator::gimp:
+      return visit(Gimp<D>(n_per_axis));
+  }
+  throw std::logic_error("an interpolator that is none");
+}
+
+}  // namespace tamp::components
