@@ -4,7 +4,7 @@ namespace tamp::components
 {
 
 /// How the weights of nodes follow from a particle's place; docs/method.md says what each is for.
-enum class Interpolator { gimp };
+enum class Interpolator { gimp, quadratic_spline };
 
 /// Layers of nodes that a particle reaches beyond the nodes of its cell.
 constexpr int n_layers_beyond(Interpolator)
@@ -14,9 +14,9 @@ constexpr int n_layers_beyond(Interpolator)
 
 /// How far beside a particle the furthest node lies that it may reach, in cells, for `n_per_axis` particles along each
 /// axis of a cell.
-constexpr double reach(Interpolator, int n_per_axis)
+constexpr double reach(Interpolator interpolator, int n_per_axis)
 {
-  return 1 + 0.5 / n_per_axis;
+  return interpolator == Interpolator::gimp ? 1 + 0.5 / n_per_axis : 1.5;
 }
 
 }  // namespace tamp::components

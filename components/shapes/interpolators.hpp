@@ -16,6 +16,8 @@ auto with_shape(Interpolator interpolator, int n_per_axis, Visit&& visit)
   switch (interpolator) {
     case Interpolator::gimp:
       return visit(Gimp<D>(n_per_axis));
+    case Interpolator::quadratic_spline:
+      return visit(Gimp<D>::quadratic_spline());
   }
   throw std::logic_error("an interpolator that is none");
 }

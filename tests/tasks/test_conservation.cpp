@@ -48,6 +48,7 @@ TEST_CASE("bodies that collide in free space keep their mass and momentum")
   const int dimension = GENERATE(2, 3);
   Scene scene = collision(dimension);
   scene.transfer = GENERATE(Transfer::flip, Transfer::affine);
+  scene.interpolator = GENERATE(Interpolator::gimp, Interpolator::quadratic_spline);
   const auto simulation = Simulation::make(scene, 2);
   const ParticleReport before = simulation->report();
 
@@ -70,6 +71,7 @@ TEST_CASE("bodies that collide in free space keep their mass and momentum")
 TEST_CASE("what walls and gravity give is what the particles have gained")
 {
   Scene scene = punch();
+  scene.interpolator = GENERATE(Interpolator::gimp, Interpolator::quadratic_spline);
   scene.transfer = GENERATE(Transfer::flip, Transfer::affine);
   const auto simulation = Simulation::make(scene, 2);
   const ParticleReport before = simulation->report();

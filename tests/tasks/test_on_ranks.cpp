@@ -57,7 +57,10 @@ std::unique_ptr<Simulation> on_all_ranks(const Scene& scene, int n_threads)
 TEST_CASE("a collision with losses ends with the same bits on any ranks and threads", "[ranks]")
 {
   Scene scene = glancing_disks();
-  scene.transfer = GENERATE(Transfer::flip, Transfer::affine);
+  const auto [transfer, interpolator] = GENERATE(std::pair{Transfer::flip, Interpolator::gimp},
+                                                 std::pair{Transfer::affine, Interpolator::quadratic_spline});
+  scene.transfer = transfer;
+  scene.interpolator = interpolator;
   const Ending expected = alone(scene, 0.3);
   REQUIRE(expected.n_lost > 0);
   const int n_threads = GENERATE(1, 2, 3);

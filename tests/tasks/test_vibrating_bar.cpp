@@ -91,6 +91,7 @@ TEST_CASE("a bar swings at the frequency of its length and waves, and goes on sw
   const bool hyperelastic = GENERATE(false, true);
   Scene scene = bar(n_cells, held);
   scene.transfer = GENERATE(Transfer::flip, Transfer::affine);
+  scene.interpolator = GENERATE(Interpolator::gimp, Interpolator::quadratic_spline);
   if (hyperelastic) {
     const auto solid = std::get<components::Hypoelastic>(scene.materials[0].model);
     scene.materials[0].model = components::NeoHookean{solid.bulk_modulus, solid.shear_modulus};

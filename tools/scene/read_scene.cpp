@@ -32,7 +32,8 @@ class SceneReader
     const std::size_t n_before = document_.problems.size();
     read_dimension();
     const bool dimension_is_good = document_.problems.size() == n_before;
-    root_.choice("interpolator", {"gimp"}, true);
+    const bool smooth = root_.choice("interpolator", {"gimp", "quadratic_spline"}, true) == "quadratic_spline";
+    scene_.interpolator = smooth ? tasks::Interpolator::quadratic_spline : tasks::Interpolator::gimp;
     read_grid();
     const bool grid_is_good = document_.problems.size() == n_before;
     read_faces();

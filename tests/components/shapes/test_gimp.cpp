@@ -36,8 +36,7 @@ std::map<std::ptrdiff_t, std::pair<double, Vector<D>>> shape_at(const Gimp<D>& g
 
 TEMPLATE_TEST_CASE_SIG("weights sum to one and gradients to zero anywhere", "", ((int D), D), 2, 3)
 {
-  const int n_per_axis = GENERATE(1, 2, 3, 4);
-  const Gimp<D> gimp(n_per_axis);
+  const Gimp<D> gimp = GENERATE(Gimp<D>(2), Gimp<D>(3), Gimp<D>(4), Gimp<D>::quadratic_spline());
   const auto block = block_of_nodes<D>(7, cell_size);
   std::mt19937 random(1);
   for (int i = 0; i < n_places; ++i) {
@@ -59,8 +58,7 @@ TEMPLATE_TEST_CASE_SIG("weights sum to one and gradients to zero anywhere", "", 
 
 TEMPLATE_TEST_CASE_SIG("a linear field and its gradient are interpolated exactly", "", ((int D), D), 2, 3)
 {
-  const int n_per_axis = GENERATE(1, 2, 3, 4);
-  const Gimp<D> gimp(n_per_axis);
+  const Gimp<D> gimp = GENERATE(Gimp<D>(2), Gimp<D>(3), Gimp<D>(4), Gimp<D>::quadratic_spline());
   const auto block = block_of_nodes<D>(7, cell_size);
   std::mt19937 random(2);
   for (int i = 0; i < n_places; ++i) {
@@ -76,6 +74,28 @@ TEMPLATE_TEST_CASE_SIG("a linear field and its gradient are interpolated exactly
     REQUIRE((position - x).norm() < 1e-14);
     REQUIRE((gradient - Matrix<D>::Identity()).norm() < 1e-13);
   }
+}
+
+TEMPLATE_TEST_CASE_SIG("the quadratic spline has weights of 3/4 and 1/8 at a node, and of halves between two", "",
+                       ((int D), D), 2, 3)
+{
+  const auto block = block_of_nodes<D>(7, cell_size);
+  const auto spline = Gimp<D>::quadratic_spline();
+  const auto along_x = [&](double cells) {
+    return spline.at(block, block.origin + Vector<D>::Constant(cells * cell_size));
+  };
+
+  const auto at_node = along_x(3), between = along_x(3.5), beside = along_x(3.2);
+
+  CHECK(at_node.weight[0][0] == Approx(0.125));
+  CHECK(at_node.weight[0][1] == Approx(0.75));
+  CHECK(at_node.slope[0][2] * cell_size == Approx(0.5));
+  CHECK(between.weight[0][0] == Approx(0.5));
+  CHECK(between.weight[0][1] == Approx(0.5));
+  // (1/2 - u)^2 / 2, 3/4 - u^2 and (1/2 + u)^2 / 2 at u = 0.2.
+  CHECK(beside.weight[0][0] == Approx(0.045));
+  CHECK(beside.weight[0][1] == Approx(0.71));
+  CHECK(beside.slope[0][1] * cell_size == Approx(-0.4));
 }
 
 TEMPLATE_TEST_CASE_SIG("weights are means of the linear functions over the particle's box", "", ((int D), D), 2, 3)
