@@ -73,6 +73,14 @@ inline const runtime::NodeLabel<components::EdgeSums<D>, "edge sums"> edge_sums;
 
 }  // namespace node
 
+/// What the hosts of the ranks ask of each other, see runtime::Step; no part of the physics.
+struct HostRequests {
+  unsigned bits = 0;
+
+  void combine(const HostRequests& other) { bits |= other.bits; }
+};
+inline const runtime::ReductionLabel<HostRequests, "host requests"> host_requests;
+
 /// What a step adds to the energies, and how long the next may be.
 inline const runtime::ReductionLabel<StepTotals, "step totals"> step_totals;
 inline const runtime::ReductionLabel<GridImpulse, "grid impulse"> grid_impulse;

@@ -140,7 +140,6 @@ runtime::TaskDeclaration move_rigid_body(const Method<D>& method, int group)
         const auto stress = data[particle::stress<D>];
         const auto viscous_pressure = data[particle::viscous_pressure];
         StepTotals& totals = data[step_totals];
-        totals.host_requests = at.step.host_requests;
         const RigidBody& body = *method.rigid_body(at.group);
         const auto state = moved(body, impulses.by_group[static_cast<std::size_t>(at.group)], at.step.size);
         const components::RigidMotion motion = components::motion_of(body.properties, state);

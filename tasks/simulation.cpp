@@ -278,7 +278,7 @@ class SimulationOf : public Simulation
     const StepTotals& step = engine_->warehouse.result(step_totals);
     totals_.stable_step = std::numeric_limits<double>::infinity();
     totals_.combine(step);
-    asked_ = step.host_requests;
+    asked_ = engine_->warehouse.result(host_requests).bits;
     impulse_.combine(engine_->warehouse.result(grid_impulse));
     contact_.combine(engine_->warehouse.result(contact_impulses));
   }

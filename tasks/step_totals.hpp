@@ -40,8 +40,6 @@ struct StepTotals {
   double contact = 0;
   /// Of all sand.
   components::UpdateCounts updates;
-  /// What the hosts of the ranks asked for, see runtime::Step.
-  unsigned host_requests = 0;
   /// Of those that failed, the one with the lowest id in the first step that had any.
   FailedUpdate failed;
 
@@ -58,7 +56,6 @@ struct StepTotals {
     viscous += other.viscous;
     contact += other.contact;
     updates.add(other.updates);
-    host_requests |= other.host_requests;
     if (other.failed.particle >= 0) note(other.failed);
   }
 };

@@ -24,6 +24,15 @@ void add_state_of(const MaterialModel& model, runtime::HostData& data)
       model);
 }
 
+/// On every patch, with particles or without, so that every rank that has one is heard.
+runtime::TaskDeclaration hear_hosts()
+{
+  return runtime::task("hear hosts")
+      .over_patches()
+      .reduces(host_requests)
+      .body([](const runtime::TaskContext& at, auto data) { data[host_requests].bits = at.step.host_requests; });
+}
+
 }  // namespace
 
 template <int D>
@@ -31,6 +40,7 @@ std::vector<runtime::TaskDeclaration> time_step(const Method<D>& method,
                                                 std::function<bool(const StepTotals&)> accepted)
 {
   std::vector<runtime::TaskDeclaration> step;
+  step.push_back(hear_hosts());
   step.push_back(particles_to_grid(method));
   if (!method.deformable_groups.empty()) step.push_back(accelerate_nodes(method));
   for (const RigidBody& body : method.rigid_bodies) step.push_back(release_rigid_nodes(method, body.group));
@@ -56,7 +66,7 @@ runtime::HostData host_data(const Method<D>& method)
   runtime::HostData data{{&particle::id, &particle::body, &particle::reference_position<D>, &particle::mass,
                           &particle::position<D>, &particle::velocity<D>, &particle::deformation_gradient<D>,
                           &particle::volume, &particle::stress<D>, &particle::viscous_pressure},
-                         {&step_totals, &grid_impulse, &contact_impulses}};
+                         {&step_totals, &grid_impulse, &contact_impulses, &host_requests}};
   for (const SceneMaterial& material : method.materials) add_state_of(material.model, data);
   if (method.transfer == Transfer::affine) data.state.push_back(&particle::velocity_gradient<D>);
   return data;

@@ -140,8 +140,6 @@ template <int D, class Model, class Data>
 void update_batches(const Method<D>& method, const Model& model, const TaskContext& at, const Data& data)
 {
   StepTotals& totals = data[step_totals];
-  // Here, as this task runs on every patch, with particles or without.
-  totals.host_requests = at.step.host_requests;
   std::array<SymmetricTensor<D>, batch_size> old_stress;
   BatchAnswer answer;
   for (std::size_t first = 0; first < data[particle::stress<D>].size(); first += batch_size) {

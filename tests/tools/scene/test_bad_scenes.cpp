@@ -275,6 +275,29 @@ TEST_CASE("a projectile that starts inside the sand is told with where")
                                                  Catch::Contains("; expected bodies that share no particle"));
 }
 
+TEST_CASE("soil whose numbers do not go together is refused, with the one that does not")
+{
+  const auto problems = [](const std::string& keys) {
+    return problems_with(
+        {"/materials/steel={\"type\": \"drucker_prager\", \"density\": 1600, \"bulk_modulus\": 1e7, "
+         "\"shear_modulus\": 1e7" +
+         keys + "}"});
+  };
+  const std::string friction = ", \"friction_angle\": 30";
+
+  CHECK(problems(friction) == "");
+  CHECK_THAT(problems(""),
+             Catch::EndsWith("#/materials/steel/friction_angle: missing; expected a number from 0 to below "
+                             "90 [degrees]"));
+  CHECK(problems(friction + ", \"dilation_angle\": 31") ==
+        "--set#/materials/steel/dilation_angle: 31; expected at most the friction angle, 30: more would gain energy by "
+        "flowing");
+  CHECK(problems(friction + ", \"cohesion\": 1e4, \"tension_cutoff\": 2e4") ==
+        "--set#/materials/steel/tension_cutoff: 20000; expected at most 17320.5 Pa, where the cone ends");
+  CHECK(problems(friction + ", \"cohesion\": \"much\"") ==
+        "--set#/materials/steel/cohesion: \"much\"; expected a number of 0 or above");
+}
+
 TEST_CASE("a name that is none of the choices is told with the choices")
 {
   CHECK(problems_with({"/materials/steel/type=hypoelastik"}) ==
