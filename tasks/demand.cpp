@@ -1,13 +1,13 @@
 #include "tasks/demand.hpp"
 
 #include <algorithm>
-#include <array>
+#include <deque>
 #include <string>
 #include <variant>
 #include <vector>
 
 #include "runtime/warehouse/warehouse.hpp"
-#include "tasks/engine.hpp"
+#include "tasks/graphs.hpp"
 
 namespace tamp::tasks
 {
@@ -43,10 +43,12 @@ double field_bytes(const Scene& scene, const std::vector<std::size_t>& n_particl
   std::vector<std::string> names;
   for (const SceneMaterial& material : scene.materials) names.push_back(material.name);
   const runtime::PatchLayout layout(scene.grid, scene.n_patches);
-  const auto host = host_data(method);
-  const runtime::TaskGraph step(time_step(method, [](const StepTotals&) { return true; }), layout, names, host);
-  const runtime::TaskGraph report(report_tasks(method), layout, names, {host.state, {&particle_report, &nose_report}});
-  return runtime::Warehouse::forecast_bytes(std::array<const runtime::TaskGraph*, 2>{&step, &report}, n_particles);
+  std::deque<runtime::TaskGraph> graphs;
+  std::vector<const runtime::TaskGraph*> pointers;
+  for (auto& [tasks, host] : graphs_of(method, [](const StepTotals&) { return true; })) {
+    pointers.push_back(&graphs.emplace_back(tasks, layout, names, host));
+  }
+  return runtime::Warehouse::forecast_bytes(pointers, n_particles);
 }
 
 }  // namespace

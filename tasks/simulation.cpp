@@ -15,10 +15,11 @@
 #include "runtime/ranks/deal_patches.hpp"
 #include "runtime/ranks/load_balance.hpp"
 #include "tasks/common_failure.hpp"
-#include "tasks/engine.hpp"
 #include "tasks/field_columns.hpp"
 #include "tasks/fill_bodies.hpp"
+#include "tasks/graphs.hpp"
 #include "tasks/initial_moduli.hpp"
+#include "tasks/labels.hpp"
 #include "tasks/settled_sand.hpp"
 #include "tasks/simulation_error.hpp"
 #include "tasks/state_digest.hpp"
@@ -70,11 +71,11 @@ class SimulationOf : public Simulation
   {
     const BodyParticles<D> particles(scene_, runtime::PatchLayout(scene_.grid, scene_.n_patches));
     engine_ = make_engine(dealt(scene_, particles.per_patch(), communicator.size()));
-    particles.store(engine_->warehouse);
+    particles.store(engine_->warehouse());
     for (RigidBody& body : method_.rigid_bodies) body = particles.rigid_body(body.body);
-    profiler_.emplace(engine_->step_schedule, engine_->step, n_threads(), n_traced_steps);
-    forecast_bytes_ = sum_over_ranks(engine_->warehouse.forecast_bytes());
-    lost_.emplace(engine_->layout.size());
+    profiler_.emplace(engine_->schedule(step_graph), engine_->bound(step_graph), n_threads(), n_traced_steps);
+    forecast_bytes_ = sum_over_ranks(engine_->warehouse().forecast_bytes());
+    lost_.emplace(engine_->layout().size());
     totals_.stable_step = initial_stable_step(particles);
   }
 
@@ -85,11 +86,11 @@ class SimulationOf : public Simulation
     accelerate_rigid_bodies(0.5 * (last_step_size_ + size));
     run_step({n_steps_, time_, size, last_step_size_, std::exchange(requests_, 0U)});
     check_failed_updates();
-    engine_->warehouse.advance();
-    if (engine_->step_schedule.recording) profiler_->add_step();
+    engine_->warehouse().advance();
+    if (engine_->schedule(step_graph).recording) profiler_->add_step();
     take_totals();
     move_rigid_bodies(size);
-    lost_->take<D>(*engine_->step.migration(), engine_->layout, engine_->warehouse.n_groups());
+    lost_->take<D>(*engine_->bound(step_graph).migration(), engine_->layout(), engine_->warehouse().n_groups());
     ++n_steps_;
     time_ = time_ + size >= end * (1 - 1e-14) ? end : time_ + size;
     last_step_size_ = size;
@@ -97,35 +98,35 @@ class SimulationOf : public Simulation
 
   ParticleReport report() override
   {
-    executor_->run(engine_->report_schedule, {n_steps_, time_, 0, 0});
-    return engine_->warehouse.result(particle_report);
+    executor_->run(engine_->schedule(report_graph), {n_steps_, time_, 0, 0});
+    return engine_->warehouse().result(particle_report);
   }
 
   NoseReport near_noses() const override
   {
-    return scene_.has_nose() ? engine_->warehouse.result(nose_report) : NoseReport{};
+    return scene_.has_nose() ? engine_->warehouse().result(nose_report) : NoseReport{};
   }
 
   LostParticles lost() override
   {
-    lost_->share(engine_->layout, communicator_);
+    lost_->share(engine_->layout(), communicator_);
     return lost_->sum();
   }
 
-  const runtime::TaskGraph& graph() const override { return engine_->step_graph; }
-  const runtime::MemoryLedger& ledger() const override { return engine_->warehouse.ledger(); }
+  const runtime::TaskGraph& graph() const override { return engine_->graph(step_graph); }
+  const runtime::MemoryLedger& ledger() const override { return engine_->warehouse().ledger(); }
   std::size_t forecast_bytes() const override { return forecast_bytes_; }
   runtime::Profile profile() const override { return profiler_->profile(communicator_); }
-  void record(bool on) override { engine_->step_schedule.recording = on; }
+  void record(bool on) override { engine_->schedule(step_graph).recording = on; }
   std::size_t n_particles(int material) const override
   {
-    return sum_over_ranks(engine_->warehouse.n_particles(material));
+    return sum_over_ranks(engine_->warehouse().n_particles(material));
   }
   std::vector<runtime::ParticleBlock> particle_columns() override
   {
-    return columns_.particles(method_, engine_->warehouse, communicator_);
+    return columns_.particles(method_, engine_->warehouse(), communicator_);
   }
-  runtime::NodeBlock node_columns() override { return columns_.nodes(method_, engine_->warehouse); }
+  runtime::NodeBlock node_columns() override { return columns_.nodes(method_, engine_->warehouse()); }
   void write_checkpoint(const std::filesystem::path& folder, const std::string& fingerprint,
                         std::span<const std::byte> host, int keep) override
   {
@@ -135,17 +136,17 @@ class SimulationOf : public Simulation
     own.add(impulse_);
     own.add(contact_);
     own.add(contact_since_);
-    lost_->share(engine_->layout, communicator_);
+    lost_->share(engine_->layout(), communicator_);
     lost_->write(own);
     for (const RigidBody& body : method_.rigid_bodies) own.add(body.state);
     own.add_bytes(host);
-    runtime::write_checkpoint(folder, {n_steps_, time_, fingerprint}, own.bytes(), engine_->warehouse,
+    runtime::write_checkpoint(folder, {n_steps_, time_, fingerprint}, own.bytes(), engine_->warehouse(),
                               material_names(scene_), keep, communicator_);
   }
 
   std::vector<std::byte> restart(const runtime::FoundCheckpoint& found) override
   {
-    runtime::read_checkpoint(found, engine_->warehouse, material_names(scene_), communicator_);
+    runtime::read_checkpoint(found, engine_->warehouse(), material_names(scene_), communicator_);
     n_steps_ = found.header.step;
     time_ = found.header.time;
     runtime::ByteReader own(found.host);
@@ -159,22 +160,23 @@ class SimulationOf : public Simulation
     return {own.rest().begin(), own.rest().end()};
   }
 
-  std::string digest() override { return state_digest(engine_->warehouse, communicator_); }
+  std::string digest() override { return state_digest(engine_->warehouse(), communicator_); }
 
   std::size_t least_bytes_per_particle(int material) const override
   {
     std::size_t bytes = 0;
-    for (const runtime::Field* field : engine_->warehouse.particle_fields(0, material)) {
+    for (const runtime::Field* field : engine_->warehouse().particle_fields(0, material)) {
       if (field->state && used_in_step(*field->label)) bytes += field->label->value_bytes() * (field->carried ? 1 : 2);
     }
     return bytes;
   }
 
  private:
-  std::unique_ptr<Engine<D>> make_engine(const runtime::PatchLayout& layout)
+  std::unique_ptr<runtime::Engine> make_engine(const runtime::PatchLayout& layout)
   {
-    return std::make_unique<Engine<D>>(method_, material_names(scene_), layout, communicator_, n_threads(),
-                                       [this](const StepTotals& step) { return accepts(step); });
+    return std::make_unique<runtime::Engine>(
+        layout, material_names(scene_), graphs_of(method_, [this](const StepTotals& step) { return accepts(step); }),
+        n_threads(), communicator_);
   }
 
   bool accepts(const StepTotals& step) const
@@ -191,7 +193,7 @@ class SimulationOf : public Simulation
 
   bool used_in_step(const runtime::Label& label) const
   {
-    for (const runtime::TaskDeclaration& task : engine_->step_graph.declarations()) {
+    for (const runtime::TaskDeclaration& task : engine_->graph(step_graph).declarations()) {
       for (const runtime::Access& access : task.accesses) {
         if (access.label == &label) return true;
       }
@@ -250,7 +252,7 @@ class SimulationOf : public Simulation
   {
     std::exception_ptr own;
     try {
-      executor_->run(engine_->step_schedule, step);
+      executor_->run(engine_->schedule(step_graph), step);
       return;
     } catch (const runtime::TaskError& error) {
       // What is not of the simulation keeps the name of its task.
@@ -263,7 +265,7 @@ class SimulationOf : public Simulation
 
   void check_failed_updates()
   {
-    const StepTotals& step = engine_->warehouse.result(step_totals);
+    const StepTotals& step = engine_->warehouse().result(step_totals);
     if (accepts(step)) return;
     const std::size_t failures = totals_.updates.failures + step.updates.failures;
     const FailedUpdate& failed = step.failed;
@@ -275,12 +277,12 @@ class SimulationOf : public Simulation
 
   void take_totals()
   {
-    const StepTotals& step = engine_->warehouse.result(step_totals);
+    const StepTotals& step = engine_->warehouse().result(step_totals);
     totals_.stable_step = std::numeric_limits<double>::infinity();
     totals_.combine(step);
-    asked_ = engine_->warehouse.result(host_requests).bits;
-    impulse_.combine(engine_->warehouse.result(grid_impulse));
-    contact_.combine(engine_->warehouse.result(contact_impulses));
+    asked_ = engine_->warehouse().result(host_requests).bits;
+    impulse_.combine(engine_->warehouse().result(grid_impulse));
+    contact_.combine(engine_->warehouse().result(contact_impulses));
   }
 
   /// Body forces of a kick [s]; what contact adds comes in the step.
@@ -293,7 +295,7 @@ class SimulationOf : public Simulation
 
   void move_rigid_bodies(double size)
   {
-    const ContactImpulses& impulses = engine_->warehouse.result(contact_impulses);
+    const ContactImpulses& impulses = engine_->warehouse().result(contact_impulses);
     for (RigidBody& body : method_.rigid_bodies) {
       const components::RigidState before =
           std::exchange(body.state, moved(body, impulses.by_group[static_cast<std::size_t>(body.group)], size));
@@ -316,7 +318,7 @@ class SimulationOf : public Simulation
       const auto* cost = reinterpret_cast<const double*>(bytes.data());
       for (std::size_t p = 0; p < costs.size(); ++p) costs[p] += cost[p];
     }
-    const runtime::PatchLayout& layout = engine_->layout;
+    const runtime::PatchLayout& layout = engine_->layout();
     if (!rebalances_.empty() && rebalances_.back().imbalance_got == 0) {
       rebalances_.back().imbalance_got = runtime::imbalance(costs, layout.ranks(), communicator_.size());
     }
@@ -329,20 +331,20 @@ class SimulationOf : public Simulation
 
   void deal_anew(const std::vector<int>& ranks)
   {
-    lost_->share(engine_->layout, communicator_);
-    runtime::PatchLayout layout = engine_->layout;
+    lost_->share(engine_->layout(), communicator_);
+    runtime::PatchLayout layout = engine_->layout();
     layout.give_to_ranks(ranks, communicator_.size());
     auto engine = make_engine(layout);
-    runtime::move_patches(engine_->warehouse, engine->warehouse, communicator_);
-    engine->step_schedule.recording = engine_->step_schedule.recording;
-    profiler_->follow(engine->step_schedule, engine->step);
+    runtime::move_patches(engine_->warehouse(), engine->warehouse(), communicator_);
+    engine->schedule(step_graph).recording = engine_->schedule(step_graph).recording;
+    profiler_->follow(engine->schedule(step_graph), engine->bound(step_graph));
     engine_ = std::move(engine);
   }
 
   Method<D> method_;
   /// Ranks that failed at different places meet here, where no other messages are.
   runtime::Communicator after_failure_ = communicator_.duplicate();
-  std::unique_ptr<Engine<D>> engine_;
+  std::unique_ptr<runtime::Engine> engine_;
   std::optional<runtime::Profiler> profiler_;
   FieldColumns<D> columns_;
   std::size_t forecast_bytes_ = 0;

@@ -4,9 +4,7 @@
 #include <numbers>
 #include <vector>
 
-#include "runtime/execute/bound_graph.hpp"
-#include "runtime/execute/executor.hpp"
-#include "runtime/graph/task_graph.hpp"
+#include "runtime/engine.hpp"
 
 /// A heat equation on cells, periodic in nothing and with insulated ends: a user of the runtime that has no mechanics
 /// in it. dT/dt = a lap T on the unit square, T = cos(pi x) cos(pi y) exp(-2 pi^2 a t).
@@ -26,15 +24,11 @@ struct Heat {
 
   Heat(int n_cells, Index n_patches, int n_threads)
       : grid{2, {0, 0, 0}, 1.0 / n_cells, {n_cells, n_cells, 1}},
-        layout(grid, n_patches),
-        graph({diffusion(grid)}, layout, {"heat"}, {{&temperature}, {&total}}),
-        warehouse(std::vector<const TaskGraph*>{&graph}),
-        bound(graph, warehouse),
-        schedule(bound, n_threads),
+        engine({grid, n_patches}, {"heat"}, {{{diffusion(grid)}, {{&temperature}, {&total}}}}, n_threads),
         executor(n_threads)
   {
-    for (const Patch& patch : layout) {
-      const auto view = warehouse.grid_state(temperature, patch.id, 0);
+    for (const Patch& patch : engine.layout()) {
+      const auto view = engine.warehouse().grid_state(temperature, patch.id, 0);
       for_each(patch.cells, [&](const Index& i) { view[i] = exact(i, 0); });
     }
   }
@@ -74,16 +68,16 @@ struct Heat {
   void run(long n_steps, double dt)
   {
     for (long n = 0; n < n_steps; ++n) {
-      executor.run(schedule, {n, static_cast<double>(n) * dt, dt, dt});
-      warehouse.advance();
+      engine.advance(executor, {n, static_cast<double>(n) * dt, dt, dt});
     }
   }
 
   std::vector<double> values()
   {
     std::vector<double> all;
-    for_each(grid.cells(),
-             [&](const Index& i) { all.push_back(warehouse.grid_state(temperature, layout.patch_of_cell(i), 0)[i]); });
+    for_each(grid.cells(), [&](const Index& i) {
+      all.push_back(engine.warehouse().grid_state(temperature, engine.layout().patch_of_cell(i), 0)[i]);
+    });
     return all;
   }
 
@@ -97,11 +91,7 @@ struct Heat {
   }
 
   Grid grid;
-  PatchLayout layout;
-  TaskGraph graph;
-  Warehouse warehouse;
-  BoundGraph bound;
-  Schedule schedule;
+  Engine engine;
   Executor executor;
 };
 

@@ -264,7 +264,7 @@ TEST_CASE("an executor serves several schedules in turn", "[executor]")
   Row row({count}, {{}, {&first}}, 3, 2);
 
   for (int k = 0; k < 50; ++k) {
-    heat.executor.run(heat.schedule, {k, 0, 1e-4, 1e-4});
+    heat.executor.run(heat.engine.schedule(), {k, 0, 1e-4, 1e-4});
     heat.executor.run(row.schedule, {});
   }
 

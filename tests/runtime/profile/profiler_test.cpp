@@ -23,13 +23,13 @@ TEST_CASE("a quantile of durations is right to a bin", "[profile]")
 TEST_CASE("the profile counts every instance and its shares sum to one", "[profile]")
 {
   test::Heat heat(16, {2, 2, 1}, 2);
-  Profiler profiler(heat.schedule, heat.bound, 2, 3);
+  Profiler profiler(heat.engine.schedule(), heat.engine.bound(), 2, 3);
   for (int n = 0; n < 10; ++n) {
     heat.run(1, 1e-4);
     profiler.add_step();
   }
 
-  const nlohmann::json json = to_json(profiler.profile(), heat.warehouse.ledger());
+  const nlohmann::json json = to_json(profiler.profile(), heat.engine.warehouse().ledger());
 
   double shares = 0;
   std::uint64_t count = 0;
@@ -38,17 +38,17 @@ TEST_CASE("the profile counts every instance and its shares sum to one", "[profi
     count += t["count"].get<std::uint64_t>();
   }
   CHECK(shares == Approx(1).margin(1e-12));
-  CHECK(count == 10 * heat.graph.instances().size());
+  CHECK(count == 10 * heat.engine.graph().instances().size());
   CHECK(json["critical_path_s"].get<double>() <= json["step_s"].get<double>() * 1.001);
-  CHECK(json["memory"]["total"].get<std::size_t>() >= heat.warehouse.forecast_bytes());
-  CHECK(trace_to_json(profiler.profile())["traceEvents"].size() == 3 * heat.graph.instances().size());
+  CHECK(json["memory"]["total"].get<std::size_t>() >= heat.engine.warehouse().forecast_bytes());
+  CHECK(trace_to_json(profiler.profile())["traceEvents"].size() == 3 * heat.engine.graph().instances().size());
 }
 
 TEST_CASE("the ledger knows the bytes of each label", "[profile]")
 {
   test::Heat heat(16, {2, 2, 1}, 1);
   std::size_t bytes = 0;
-  for (const LedgerEntry& entry : heat.warehouse.ledger().entries()) {
+  for (const LedgerEntry& entry : heat.engine.warehouse().ledger().entries()) {
     if (entry.name() == "temperature") bytes = entry.peak();
   }
 
