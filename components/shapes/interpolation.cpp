@@ -12,7 +12,8 @@ namespace tamp::components
 namespace
 {
 
-/// The kernels with the weights of one interpolator, for particles of one size.
+/// The kernels with the weights of one interpolator, for particles of one size. Loops take copies of the weights and
+/// the block: as far as a compiler knows, what a loop writes might otherwise change them.
 template <class Shape, int D = Shape::dimension>
 class InterpolationBy final : public Interpolation<D>
 {
@@ -39,14 +40,20 @@ class InterpolationBy final : public Interpolation<D>
   void grid_to_particles(const GridBlock<D>& block, std::span<const Vector<D>> position, const NodeMotion<D>* nodes,
                          std::span<ParticleMotion<D>> motion) const override
   {
-    for (std::size_t p = 0; p < position.size(); ++p) motion[p] = grid_to_particle(shape_, block, position[p], nodes);
+    const Shape shape = shape_;
+    const GridBlock<D> own_block = block;
+    for (std::size_t p = 0; p < position.size(); ++p) {
+      motion[p] = grid_to_particle(shape, own_block, position[p], nodes);
+    }
   }
 
   void own_stiffness(const GridBlock<D>& block, std::span<const Vector<D>> position, std::span<const double> mass,
                      const double* inverse_mass, std::span<double> stiffness) const override
   {
+    const Shape shape = shape_;
+    const GridBlock<D> own_block = block;
     for (std::size_t p = 0; p < position.size(); ++p) {
-      stiffness[p] = components::own_stiffness(shape_, n_per_axis_, block, position[p], mass[p], inverse_mass);
+      stiffness[p] = components::own_stiffness(shape, n_per_axis_, own_block, position[p], mass[p], inverse_mass);
     }
   }
 
