@@ -1,7 +1,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <type_traits>
 
 #include "components/errors.hpp"
 #include "components/loads/time_step.hpp"
