@@ -41,7 +41,7 @@ template <int D>
 inline const runtime::ParticleLabel<SymmetricTensor<D>, "stress"> stress;
 /// Of artificial viscosity [Pa], compression positive.
 inline const runtime::ParticleLabel<double, "viscous pressure"> viscous_pressure;
-/// What a material model keeps of its particles, where it keeps something.
+/// The state that a material model keeps for each particle; only for models that have one.
 template <class Model>
 inline const runtime::ParticleLabel<typename Model::State, Model::state_name> state;
 /// In the nodes of this step, see components::own_stiffness; 0 where the rule for the time step does not ask.

@@ -58,7 +58,7 @@ struct Method {
   /// `scene` must outlive the method.
   explicit Method(const Scene& scene);
 
-  /// Of a material's particles.
+  /// The interpolation for a material's particles.
   const components::Interpolation<D>& interpolation(int group) const
   {
     return *interpolations[static_cast<std::size_t>(group)];

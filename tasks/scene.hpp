@@ -146,7 +146,7 @@ struct Scene {
   {
     return materials[static_cast<std::size_t>(material)].own_particles_per_axis.value_or(particles_per_axis);
   }
-  /// How far beside a particle of a material the furthest node lies that it may reach, in cells.
+  /// Distance in cells along an axis from a particle of a material to the furthest node it can reach.
   double reach_of(int material) const { return components::reach(interpolator, particles_per_axis_of(material)); }
 };
 

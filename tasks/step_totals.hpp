@@ -38,7 +38,7 @@ struct StepTotals {
   double plastic = 0;
   double viscous = 0;
   double contact = 0;
-  /// Of all sand.
+  /// Of all materials.
   components::UpdateCounts updates;
   /// Of those that failed, the one with the lowest id in the first step that had any.
   FailedUpdate failed;

@@ -55,7 +55,8 @@ Returned returned(const DruckerPrager& soil, const Cone& cone, const Invariants&
   if (beyond_cone > 0) {
     const double shear = beyond_cone / (G + cone.alpha * cone.beta * K);
     const double pressure = trial.pressure + K * cone.beta * shear;
-    if (pressure >= -cone.tension && shear * G <= tau) return {pressure, tau - shear * G, shear, cone.beta * shear};
+    // Below the cut-off there is shear left; where it is next to nothing, round-off may say less.
+    if (pressure >= -cone.tension) return {pressure, std::max(tau - shear * G, 0.0), shear, cone.beta * shear};
   }
   // At the cut-off, where the cone may hold the shear.
   const double held = std::min(tau, std::max(cone.strength(-cone.tension), 0.0));
@@ -116,7 +117,9 @@ void DruckerPrager::check() const
   if (friction_angle == 0 && cohesion == 0) {
     throw BadParameter("cohesion", "0 without friction", "a friction angle or a cohesion above 0");
   }
-  if (std::isfinite(tension_cutoff) && tension_cutoff > apex_tension()) {
+  // A cut-off at the apex is given with a few digits.
+  constexpr double round_off = 1e-5;
+  if (std::isfinite(tension_cutoff) && tension_cutoff > apex_tension() * (1 + round_off)) {
     throw BadParameter("tension_cutoff", fmt::format("{}", tension_cutoff),
                        fmt::format("at most {:.6g} Pa, where the cone ends", apex_tension()));
   }

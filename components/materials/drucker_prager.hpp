@@ -19,14 +19,14 @@ struct DruckerPragerState {
 
 /// Sand or soil for which triaxial tests are all there is: constant elastic moduli, and perfectly plastic on the cone
 ///
-///     sqrt(J2) = k + alpha p,  alpha = 2 sqrt(3) sin(phi) / (3 - sin(phi)),  k = 2 sqrt(3) c cos(phi) / (3 -
-///     sin(phi)),
+///     sqrt(J2) = k + alpha p,
+///     alpha = 2 sqrt(3) sin(phi) / (3 - sin(phi)),
+///     k = 2 sqrt(3) c cos(phi) / (3 - sin(phi)),
 ///
 /// p compression positive, which in triaxial compression has the strength of Mohr and Coulomb's friction angle phi and
-/// cohesion c. Plastic strain goes along the gradient of sqrt(J2) - beta p, beta made of the dilation angle as alpha of
-/// phi; and, where p is at the tension cut-off, along that of -p. (D. C. Drucker and W. Prager, Q. Appl. Math. 10,
-/// 1952; E. A. de Souza Neto, D. Peric and D. R. J. Owen, Computational Methods for Plasticity, Wiley 2008,
-/// section 8.3.)
+/// cohesion c. Plastic flow follows the gradient of sqrt(J2) - beta p, where beta is computed from the dilation angle
+/// as alpha is from phi; at the tension cut-off, that of -p. (D. C. Drucker and W. Prager, Q. Appl. Math. 10, 1952; E.
+/// A. de Souza Neto, D. Peric and D. R. J. Owen, Computational Methods for Plasticity, Wiley 2008, section 8.3.)
 struct DruckerPrager {
   using State = DruckerPragerState;
   static constexpr std::string_view type = "drucker_prager";
@@ -50,8 +50,9 @@ struct DruckerPrager {
   void check() const;
 };
 
-/// One return to the cone, the cut-off, or where they meet, exact for straight strain paths of any length. What is not
-/// finite is refused.
+/// One return to the cone, the cut-off, or where they meet: exact, however long the increment, where a straight path
+/// starts without shear and does not meet the cut-off before the cone; of first order otherwise. An increment that is
+/// not finite is refused.
 template <int D>
 BatchFailure update(const DruckerPrager& soil, const MaterialBatch<D, DruckerPragerState>& batch, UpdateCounts& counts);
 

@@ -7,7 +7,7 @@
 namespace tamp::components
 {
 
-/// What of a stress does not depend on the axes [Pa].
+/// The parts of a stress that do not depend on the axes [Pa].
 struct Invariants {
   double pressure;  ///< -tr sigma / 3, compression positive
   double j2;        ///< s:s / 2 of the deviator s [Pa^2]

@@ -10,17 +10,20 @@
 
 /// What every material model has:
 ///
-///  - `State`, what a particle keeps from step to step beside its stress, or NoState; with a state goes `state_name`;
+///  - `State`, what a particle keeps from step to step beside its stress, or NoState;
 ///  - `type`, its name in scenes;
+///  - `parameters()`, the numbers that a scene gives it, and `check()` where they have to agree, see parameter.hpp; or
+///  a
+///    `read_model` of its own in tools/scene/read_material.cpp;
 ///  - `initial_moduli()`, K and G without strain;
 ///  - `update(model, batch, counts)`, which answers a batch of particles;
-///  - `columns()` and `extremes()`, what output shows of the state, see state_columns.hpp.
+///  - with a state, `state_name`, and `columns()` and `extremes()`, what output shows of it, see state_columns.hpp.
 ///
 /// A model stands in the list of material_model.hpp; the tasks and tools loop over that.
 namespace tamp::components
 {
 
-/// Of a model whose stress and deformation are all there is to know.
+/// The state of a model that needs nothing besides stress and deformation.
 struct NoState {
 };
 

@@ -15,7 +15,7 @@ struct Parameter {
   std::string_view unit;
   Range range;
   double Model::*value;
-  /// May be left out; then it is what a default model has.
+  /// Whether it may be left out; a default-constructed model then gives its value.
   bool optional = false;
 };
 

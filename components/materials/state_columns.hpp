@@ -29,7 +29,7 @@ struct StateExtreme {
   bool greatest = true;
 };
 
-/// Of any model; more does not fit into what reports sum over patches.
+/// The most columns or extremes a model may have: reports and failed updates have room for no more.
 inline constexpr std::size_t max_state_columns = 8;
 
 template <class Model>

@@ -12,8 +12,8 @@ constexpr int n_layers_beyond(Interpolator)
   return 1;
 }
 
-/// How far beside a particle the furthest node lies that it may reach, in cells, for `n_per_axis` particles along each
-/// axis of a cell.
+/// Distance in cells along an axis from a particle to the furthest node it can reach, for `n_per_axis` particles along
+/// each axis of a cell.
 constexpr double reach(Interpolator interpolator, int n_per_axis)
 {
   return interpolator == Interpolator::gimp ? 1 + 0.5 / n_per_axis : 1.5;

@@ -19,7 +19,7 @@ auto with_shape(Interpolator interpolator, int n_per_axis, Visit&& visit)
     case Interpolator::quadratic_spline:
       return visit(Gimp<D>::quadratic_spline());
   }
-  throw std::logic_error("an interpolator that is none");
+  throw std::logic_error("unknown interpolator");
 }
 
 }  // namespace tamp::components

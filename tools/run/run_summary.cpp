@@ -173,7 +173,8 @@ std::string told_in_short(const Json& summary)
   const auto count = [&](const char* name) { return monitors[name].get<std::size_t>(); };
   if (count("modulus_extrapolations") + count("limited_substeps") + count("failed_updates") > 0) {
     text += fmt::format(
-        "  of {} sand substeps {} kept an error beyond the tolerance; {} updates ended outside the modulus' range, {} "
+        "  of {} substeps of materials {} kept an error beyond the tolerance; {} updates ended outside the modulus' "
+        "range, {} "
         "failed\n",
         count("substeps"), count("limited_substeps"), count("modulus_extrapolations"), count("failed_updates"));
   }

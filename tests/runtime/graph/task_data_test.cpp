@@ -55,9 +55,11 @@ TEST_CASE("a body gets what its task declared, as its type and to be written onl
 
 TEST_CASE("a label that its task did not declare is not to be had, nor its value of another step", "[graph]")
 {
-  using Data = TaskData<Argument<decltype(mass), true, false, true>>;
+  using Mass = std::remove_const_t<decltype(mass)>;
+  using Data = TaskData<Argument<Mass, true, false, true>>;
 
-  STATIC_REQUIRE(Offers<Data, Reference<decltype(mass), true>>);
+  STATIC_REQUIRE(Offers<Data, Reference<Mass, true>>);
+  STATIC_REQUIRE(Data::has(mass));
   STATIC_REQUIRE_FALSE(Offers<Data, decltype(mass)>);
   STATIC_REQUIRE_FALSE(Offers<Data, decltype(volume)>);
   STATIC_REQUIRE_FALSE(Data::has(volume));

@@ -7,6 +7,7 @@
 #include "tasks/simulation_error.hpp"
 #include "tests/components/materials/concrete_sand.hpp"
 #include "tests/components/materials/random_paths.hpp"
+#include "tools/drive/columns.hpp"
 #include "tools/scene/read_material.hpp"
 
 using namespace tamp;
@@ -174,6 +175,21 @@ TEST_CASE("half the increment changes the stress by less than 0.1 %")
 
   CHECK(fine.size() > coarse.size() * 19 / 10);
   CHECK((coarse.back().stress - fine.back().stress).norm() < 1e-3 * fine.back().stress.norm());
+}
+
+TEST_CASE("a drive shows what the model of its material has of a state, and no columns of others")
+{
+  const auto own = [](const tasks::MaterialModel& model) {
+    const std::vector<std::string> names = tools::drive_columns(model);
+    return std::vector<std::string>(names.begin() + 19, names.end());
+  };
+  using Names = std::vector<std::string>;
+
+  CHECK(own(components::Hypoelastic{1, 1}) == Names{"K[Pa]", "G[Pa]", "substeps", "plastic_work[J/m3]"});
+  CHECK(own(components::DruckerPrager{1e7, 1e7, 30}) ==
+        Names{"plastic_v[-]", "equivalent_plastic[-]", "K[Pa]", "G[Pa]", "substeps", "plastic_work[J/m3]"});
+  CHECK(own(state_sand().model) == Names{"elastic_v[-]", "plastic_v[-]", "cap[Pa]", "K[Pa]", "G[Pa]", "substeps",
+                                         "in_range", "outside[-]", "plastic_work[J/m3]"});
 }
 
 TEST_CASE("plastic work never falls")
