@@ -34,9 +34,9 @@ class Engine
   Engine(const Engine&) = delete;
   Engine& operator=(const Engine&) = delete;
 
-  /// Runs the first graph and makes what it computed the state. What a task throws comes out as TaskError, after which
-  /// the engine cannot advance any more. The state is then still that of before, unless particles migrate without
-  /// waiting for a check.
+  /// Runs the first graph and makes what it computed the state. What a task throws comes out as TaskError; the state is
+  /// then still that of before, unless particles migrate without waiting for a check. After the failure of another
+  /// rank, which is thrown as it is, the engine cannot advance any more.
   void advance(Executor& executor, const Step& step);
 
   const PatchLayout& layout() const { return layout_; }

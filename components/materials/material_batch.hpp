@@ -12,9 +12,8 @@
 ///
 ///  - `State`, what a particle keeps from step to step beside its stress, or NoState;
 ///  - `type`, its name in scenes;
-///  - `parameters()`, the numbers that a scene gives it, and `check()` where they have to agree, see parameter.hpp; or
-///  a
-///    `read_model` of its own in tools/scene/read_material.cpp;
+///  - `parameters()`, the numbers that a scene gives it, and `check()` where they have to agree, see parameter.hpp;
+///    or a `read_model` of its own in tools/scene/read_material.cpp;
 ///  - `initial_moduli()`, K and G without strain;
 ///  - `update(model, batch, counts)`, which answers a batch of particles;
 ///  - with a state, `state_name`, and `columns()` and `extremes()`, what output shows of it, see state_columns.hpp.

@@ -275,6 +275,16 @@ TEST_CASE("a projectile that starts inside the sand is told with where")
                                                  Catch::Contains("; expected bodies that share no particle"));
 }
 
+TEST_CASE("an elastic material without stiffness is refused")
+{
+  for (const char* type : {"hypoelastic", "neo_hookean"}) {
+    CHECK(problems_with({std::string("/materials/steel/type=") + type, "/materials/steel/bulk_modulus=0"}) ==
+          "--set#/materials/steel/bulk_modulus: 0; expected a number above 0 [Pa]");
+    CHECK(problems_with({std::string("/materials/steel/type=") + type, "/materials/steel/shear_modulus=-1"}) ==
+          "--set#/materials/steel/shear_modulus: -1; expected a number above 0 [Pa]");
+  }
+}
+
 TEST_CASE("soil whose numbers do not go together is refused, with the one that does not")
 {
   const auto problems = [](const std::string& keys) {
