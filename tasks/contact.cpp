@@ -41,7 +41,7 @@ struct NodeImpulses {
 /// others together gave.
 template <int D>
 NodeImpulses<D> give_back(const Method<D>& method, const NodeOfGroups<D>& node, const RigidBody* rigid,
-                          const PerGroup<GridView<const NodeSums<D>>>& sums,
+                          const RigidStates& at_step_start, const PerGroup<GridView<const NodeSums<D>>>& sums,
                           const PerGroup<GridView<NodeMotion<D>>>& motions, const Index& i, const Vector<D>& x)
 {
   const auto at_start = [&](std::size_t g) { return Vector<D>(sums[g][i].momentum() / sums[g][i].mass()); };
@@ -58,14 +58,14 @@ NodeImpulses<D> give_back(const Method<D>& method, const NodeOfGroups<D>& node, 
   }
   if (rigid == nullptr) return done;
   const auto g = static_cast<std::size_t>(rigid->group);
-  const components::RigidMotion before = components::motion_of(rigid->properties, rigid->state);
+  const components::RigidMotion before = components::motion_of(rigid->properties, at_step_start.of(*rigid));
   done.add(g, -given, before.at(in_space<D>(x)).template head<D>(), node.velocity[g]);
   return done;
 }
 
 template <int D>
-void add_impulses(const Method<D>& method, const NodeOfGroups<D>& node, const NodeImpulses<D>& done, const Vector<D>& x,
-                  ContactImpulses& impulses)
+void add_impulses(const Method<D>& method, const NodeOfGroups<D>& node, const RigidStates& at_step_start,
+                  const NodeImpulses<D>& done, const Vector<D>& x, ContactImpulses& impulses)
 {
   for (std::size_t g = 0; g < method.materials.size(); ++g) {
     if (!(node.mass[g] > method.least_node_mass)) continue;
@@ -74,7 +74,8 @@ void add_impulses(const Method<D>& method, const NodeOfGroups<D>& node, const No
   for (const RigidBody& body : method.rigid_bodies) {
     const auto g = static_cast<std::size_t>(body.group);
     if (!(node.mass[g] > method.least_node_mass)) continue;
-    impulses.by_group[g].angular += (in_space<D>(x) - body.state.centre).cross(in_space<D>(done.impulse[g]));
+    const Eigen::Vector3d arm = in_space<D>(x) - at_step_start.of(body).centre;
+    impulses.by_group[g].angular += arm.cross(in_space<D>(done.impulse[g]));
   }
 }
 
@@ -86,12 +87,13 @@ runtime::TaskDeclaration contact(const Method<D>& method)
   return runtime::task("contact")
       .over_patches()
       .sparse()
-      .reads(node::sums<D>.halo(method.halo).every_group())
+      .reads(rigid_states.previous(), node::sums<D>.halo(method.halo).every_group())
       .updates(node::motion<D>.halo(method.halo).every_group())
       .reduces(step_totals, contact_impulses)
       .body([&method](const TaskContext& at, auto data) {
         const auto sums = data[node::sums<D>];
         const auto motions = data[node::motion<D>];
+        const RigidStates& at_step_start = data[rigid_states.previous()];
         StepTotals& totals = data[step_totals];
         ContactImpulses& impulses = data[contact_impulses];
         const std::size_t n_groups = sums.size();
@@ -100,7 +102,7 @@ runtime::TaskDeclaration contact(const Method<D>& method)
         NodeOfGroups<D> node;
         for_each(sums[0].box(), [&](const Index& i) {
           if (node.gather(method, sums, motions, i) < 2) return;
-          const RigidBody* rigid = node.rigid_body(method);
+          const RigidBody* rigid = node.rigid_body(method, at_step_start);
           if (rigid != nullptr) {
             node.mass[static_cast<std::size_t>(rigid->group)] = std::numeric_limits<double>::infinity();
           }
@@ -109,11 +111,11 @@ runtime::TaskDeclaration contact(const Method<D>& method)
               thresholds, std::span(node.velocity.data(), n_groups));
           if (outcome.approach_speed == 0) return;
           const Vector<D> x = place_of<D>(at.layout.grid(), i);
-          const NodeImpulses<D> done = give_back(method, node, rigid, sums, motions, i, x);
+          const NodeImpulses<D> done = give_back(method, node, rigid, at_step_start, sums, motions, i, x);
           // Nodes on a seam are worked on by every patch around it, and counted by one.
           if (!counted.contains(i)) return;
           totals.contact += done.energy;
-          add_impulses(method, node, done, x, impulses);
+          add_impulses(method, node, at_step_start, done, x, impulses);
           if (method.time_step_rule == StepRule::viscous) {
             totals.stable_step =
                 std::min(totals.stable_step, components::contact_time_step(method.cell_size, outcome.approach_speed));

@@ -45,15 +45,16 @@ struct NodeOfGroups {
   }
 
   /// The rigid body here, or null. Throws SimulationError where two meet, whose impulse no node can tell.
-  const RigidBody* rigid_body(const Method<D>& method) const
+  const RigidBody* rigid_body(const Method<D>& method, const RigidStates& states) const
   {
     const RigidBody* found = nullptr;
     for (const RigidBody& body : method.rigid_bodies) {
       if (!(mass[static_cast<std::size_t>(body.group)] > method.least_node_mass)) continue;
       if (found != nullptr) {
+        const Eigen::Vector3d& centre = states.of(body).centre;
         throw SimulationError("two rigid bodies meet; one of them must be deformable",
                               method.materials[static_cast<std::size_t>(body.group)].name, -1,
-                              {body.state.centre.begin(), body.state.centre.begin() + D});
+                              {centre.begin(), centre.begin() + D});
       }
       found = &body;
     }

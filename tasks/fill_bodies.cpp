@@ -107,7 +107,7 @@ Eigen::AlignedBox<double, D> BodyParticles<D>::velocities(int body) const
 }
 
 template <int D>
-RigidBody BodyParticles<D>::rigid_body(int body) const
+components::MassProperties BodyParticles<D>::mass_properties(int body) const
 {
   const int material = scene_.bodies[static_cast<std::size_t>(body)].material;
   const auto lattice = lattice_of<D>(scene_, material);
@@ -118,14 +118,7 @@ RigidBody BodyParticles<D>::rigid_body(int body) const
   }
   const double density = scene_.materials[static_cast<std::size_t>(material)].density;
   const std::vector<double> mass(position.size(), density * lattice.particle_volume());
-  RigidBody rigid{.body = body, .group = material};
-  rigid.properties = components::mass_properties(mass, position, lattice.cell_size / lattice.n_per_axis, D == 2);
-  const SceneBody& given = scene_.bodies[static_cast<std::size_t>(body)];
-  rigid.state.centre = rigid.properties.centre;
-  rigid.state.momentum = rigid.properties.mass * in_space<D>(vector_of<D>(given.velocity));
-  rigid.state.angular_momentum = rigid.properties.inertia * Eigen::Vector3d(given.angular_velocity.data());
-  rigid.free = rigid.state;
-  return rigid;
+  return components::mass_properties(mass, position, lattice.cell_size / lattice.n_per_axis, D == 2);
 }
 
 template <int D>

@@ -5,9 +5,9 @@
 #include <map>
 #include <vector>
 
+#include "components/rigid/rigid_body.hpp"
 #include "components/tensors.hpp"
 #include "runtime/warehouse/warehouse.hpp"
-#include "tasks/rigid_body.hpp"
 #include "tasks/scene.hpp"
 #include "tasks/settled_sand.hpp"
 
@@ -28,7 +28,7 @@ class BodyParticles
   /// Spans the velocities of a body's particles [m/s], but for a velocity field.
   Eigen::AlignedBox<double, D> velocities(int body) const;
   /// Of a rigid body. Throws BadValue for one that has fewer than two particles.
-  RigidBody rigid_body(int body) const;
+  components::MassProperties mass_properties(int body) const;
   /// Puts them into the patches that are the warehouse's own.
   void store(runtime::Warehouse& warehouse) const;
 

@@ -84,7 +84,7 @@ struct Method {
   StepRule time_step_rule;
   components::ContactTable contacts;
   std::span<const SceneMaterial> materials;
-  /// The simulation moves them from step to step.
+  /// Their mass is that of their particles, which the simulation fills in.
   std::vector<RigidBody> rigid_bodies;
   /// Materials that are no rigid body.
   std::vector<int> deformable_groups;

@@ -17,9 +17,13 @@ runtime::TaskDeclaration particles_to_grid(const Method<D>& method);
 template <int D>
 runtime::TaskDeclaration accelerate_nodes(const Method<D>& method);
 
+/// Rigid bodies are accelerated by gravity and what the turning of the frame adds.
+template <int D>
+runtime::TaskDeclaration accelerate_rigid_bodies(const Method<D>& method);
+
 /// Nodes of the material that is a rigid body move as it would without contact.
 template <int D>
-runtime::TaskDeclaration release_rigid_nodes(const Method<D>& method, int material);
+runtime::TaskDeclaration rigid_nodes_before_contact(const Method<D>& method, int material);
 
 /// Of pairs whose normal comes by regression: planes are laid between their particles, and the materials face each
 /// other along the planes' normals where they touch, and nowhere else.
@@ -32,7 +36,7 @@ runtime::TaskDeclaration gather_rigid_contact(const Method<D>& method);
 
 /// The nodes of rigid bodies move as these do after contact.
 template <int D>
-runtime::TaskDeclaration move_rigid_nodes(const Method<D>& method);
+runtime::TaskDeclaration rigid_nodes_after_contact(const Method<D>& method);
 
 /// Where materials meet at a node and approach each other, impulses keep them apart.
 template <int D>
@@ -42,9 +46,13 @@ runtime::TaskDeclaration contact(const Method<D>& method);
 template <int D>
 runtime::TaskDeclaration symmetry_walls(const Method<D>& method);
 
+/// Rigid bodies take what contact gave them, and move.
+template <int D>
+runtime::TaskDeclaration move_rigid_bodies(const Method<D>& method);
+
 /// The particles of a material that is a rigid body move with it; bounds the next step.
 template <int D>
-runtime::TaskDeclaration move_rigid_body(const Method<D>& method, int material);
+runtime::TaskDeclaration move_rigid_particles(const Method<D>& method, int material);
 
 /// Particles of the other materials are moved and deformed by the grid.
 template <int D>

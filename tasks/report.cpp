@@ -25,11 +25,12 @@ double work_function(const Method<D>& method, const Vector<D>& x)
 }
 
 /// A rigid body is known as a whole, and one patch tells of it; its particles as points would lack their own turning.
-void report_rigid_motion(const TaskContext& at, const RigidBody& body, ParticleReport& report)
+void report_rigid_motion(const TaskContext& at, const RigidBody& body, const components::RigidState& state,
+                         ParticleReport& report)
 {
   if (at.patch.id != 0) return;
-  report.kinetic += components::kinetic_energy(body.properties, body.state);
-  report.bodies[static_cast<std::size_t>(body.body)] = sums_of(body.properties, body.state);
+  report.kinetic += components::kinetic_energy(body.properties, state);
+  report.bodies[static_cast<std::size_t>(body.body)] = sums_of(body.properties, state);
 }
 
 template <int D, class Data>
@@ -45,7 +46,7 @@ void report_motion(const Method<D>& method, const TaskContext& at, const Data& d
     report.gravity_work += mass[p] * work_function(method, position[p]);
   }
   if (const RigidBody* rigid = method.rigid_body(at.group)) {
-    report_rigid_motion(at, *rigid, report);
+    report_rigid_motion(at, *rigid, data[rigid_states.previous()].of(*rigid), report);
     return;
   }
   for (std::size_t p = 0; p < mass.size(); ++p) {
@@ -86,9 +87,9 @@ runtime::TaskDeclaration report_of(const Method<D>& method, int group, const Mod
 {
   auto task = runtime::task("report: " + method.materials[static_cast<std::size_t>(group)].name)
                   .over_patches_and_groups({group})
-                  .reads(particle::body.previous(), particle::mass.previous(), particle::position<D>.previous(),
-                         particle::reference_position<D>.previous(), particle::velocity<D>.previous(),
-                         particle::stress<D>.previous())
+                  .reads(rigid_states.previous(), particle::body.previous(), particle::mass.previous(),
+                         particle::position<D>.previous(), particle::reference_position<D>.previous(),
+                         particle::velocity<D>.previous(), particle::stress<D>.previous())
                   .reduces(particle_report);
   return with_state<Model>(std::move(task), [&method, &model](const TaskContext& at, auto data) {
     report_motion(method, at, data);

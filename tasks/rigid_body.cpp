@@ -24,38 +24,45 @@ Eigen::Vector3d torque(const components::RotatingFrame& frame, double time, cons
 
 }  // namespace
 
-components::RigidState accelerated(const RigidBody& body, const Eigen::Vector3d& gravity,
+components::RigidState initial_state(const components::MassProperties& body, const Eigen::Vector3d& velocity,
+                                     const Eigen::Vector3d& angular_velocity)
+{
+  return {.centre = body.centre, .momentum = body.mass * velocity, .angular_momentum = body.inertia * angular_velocity};
+}
+
+components::RigidState accelerated(const components::MassProperties& body, const components::RigidState& before,
+                                   const Eigen::Vector3d& gravity,
                                    const std::optional<components::RotatingFrame>& frame, double time, double kick)
 {
-  const components::MassProperties& properties = body.properties;
-  components::RigidState state = body.state;
+  components::RigidState state = before;
   if (!frame) {
-    state.momentum += kick * properties.mass * gravity;
+    state.momentum += kick * body.mass * gravity;
     return state;
   }
-  const Eigen::Vector3d velocity = state.momentum / properties.mass;
-  state.momentum += properties.mass * frame->velocity_change(state.centre, velocity, gravity, time, kick);
+  const Eigen::Vector3d velocity = state.momentum / body.mass;
+  state.momentum += body.mass * frame->velocity_change(state.centre, velocity, gravity, time, kick);
 
   // The Coriolis torque takes the mean of the spins before and after, found by iteration: it is small, as the frame
   // turns little in a step.
   const Eigen::Matrix3d turn = state.orientation.toRotationMatrix();
-  const Eigen::Matrix3d second_moment = turn * properties.second_moment() * turn.transpose();
-  const Eigen::Vector3d old_spin = components::angular_velocity(properties, state);
+  const Eigen::Matrix3d second_moment = turn * body.second_moment() * turn.transpose();
+  const Eigen::Vector3d old_spin = components::angular_velocity(body, state);
   constexpr int n_iterations = 4;
   for (int i = 0; i < n_iterations; ++i) {
-    const Eigen::Vector3d spin = 0.5 * (old_spin + components::angular_velocity(properties, state));
-    state.angular_momentum = body.state.angular_momentum + kick * torque(*frame, time, second_moment, spin);
+    const Eigen::Vector3d spin = 0.5 * (old_spin + components::angular_velocity(body, state));
+    state.angular_momentum = before.angular_momentum + kick * torque(*frame, time, second_moment, spin);
   }
   return state;
 }
 
-components::RigidState moved(const RigidBody& body, const ContactImpulses::Impulse& impulse, double dt)
+components::RigidState moved(const components::MassProperties& body, const components::RigidState& free,
+                             const ContactImpulses::Impulse& impulse, double dt)
 {
-  components::RigidState state = body.free;
+  components::RigidState state = free;
   state.momentum += impulse.linear;
   state.angular_momentum += impulse.angular;
   try {
-    return components::drift(body.properties, state, dt);
+    return components::drift(body, state, dt);
   } catch (const components::BadValue& bad) {
     throw SimulationError(std::string("a rigid body cannot be followed: ") + bad.what(), "", -1, {});
   }

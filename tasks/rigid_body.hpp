@@ -12,16 +12,23 @@
 namespace tamp::tasks
 {
 
-/// A body of the scene that keeps its shape, in the step that is being made. All ranks know all of it.
+/// A body of the scene that keeps its shape: what stays of it. How it moves is in `rigid_states`.
 struct RigidBody {
   /// Places in Scene::bodies and Scene::materials.
   int body;
   int group;
   components::MassProperties properties{};
-  /// At the start of the step; like the velocities of particles, the momenta are half a step behind.
-  components::RigidState state{};
-  /// The same with the momenta that body forces alone give it in this step.
-  components::RigidState free{};
+};
+
+/// Where the rigid bodies are, by group, and how they move; materials that are none have nothing here.
+struct RigidStates {
+  std::array<components::RigidState, runtime::PerGroup<int>::max_groups> by_group;
+
+  const components::RigidState& of(const RigidBody& body) const
+  {
+    return by_group[static_cast<std::size_t>(body.group)];
+  }
+  components::RigidState& of(const RigidBody& body) { return by_group[static_cast<std::size_t>(body.group)]; }
 };
 
 /// What contact gives to each material in one step.
@@ -51,9 +58,14 @@ struct RigidCouplings {
   }
 };
 
-/// The body's state with the momenta that gravity [m/s^2] and the frame's turning give it over a kick [s], which is
+/// A body at rest in itself that moves at `velocity` [m/s], and turns about its centre at `angular_velocity` [rad/s].
+components::RigidState initial_state(const components::MassProperties& body, const Eigen::Vector3d& velocity,
+                                     const Eigen::Vector3d& angular_velocity);
+
+/// The state with the momenta that gravity [m/s^2] and the frame's turning give the body over a kick [s], which is
 /// centred at `time`. Both act on the whole of the body, so that they turn it too where they differ across it.
-components::RigidState accelerated(const RigidBody& body, const Eigen::Vector3d& gravity,
+components::RigidState accelerated(const components::MassProperties& body, const components::RigidState& before,
+                                   const Eigen::Vector3d& gravity,
                                    const std::optional<components::RotatingFrame>& frame, double time, double kick);
 
 /// Do the nodes that a particle at `x` reaches lie within the grid, whose edges nothing is known to hold? `reach`
@@ -69,8 +81,9 @@ bool is_off_edges(const runtime::Grid& grid, double reach, const Vector<D>& x)
   return true;
 }
 
-/// The body at the end of a step of length `dt` in which contact gave it `impulse`. Throws SimulationError for one that
-/// spins too fast to be followed.
-components::RigidState moved(const RigidBody& body, const ContactImpulses::Impulse& impulse, double dt);
+/// The body at the end of a step of length `dt` in which contact gave it `impulse`, and body forces the rest of the
+/// momenta of `free`. Throws SimulationError for one that spins too fast to be followed.
+components::RigidState moved(const components::MassProperties& body, const components::RigidState& free,
+                             const ContactImpulses::Impulse& impulse, double dt);
 
 }  // namespace tamp::tasks

@@ -72,7 +72,7 @@ class SimulationOf : public Simulation
     const BodyParticles<D> particles(scene_, runtime::PatchLayout(scene_.grid, scene_.n_patches));
     engine_ = make_engine(dealt(scene_, particles.per_patch(), communicator.size()));
     particles.store(engine_->warehouse());
-    for (RigidBody& body : method_.rigid_bodies) body = particles.rigid_body(body.body);
+    make_rigid_bodies(particles);
     profiler_.emplace(engine_->schedule(step_graph), engine_->bound(step_graph), n_threads(), n_traced_steps);
     forecast_bytes_ = sum_over_ranks(engine_->warehouse().forecast_bytes());
     lost_.emplace(engine_->layout().size());
@@ -83,13 +83,11 @@ class SimulationOf : public Simulation
   {
     balance_if_due();
     const double size = next_step_size(end);
-    accelerate_rigid_bodies(0.5 * (last_step_size_ + size));
     run_step({n_steps_, time_, size, last_step_size_, std::exchange(requests_, 0U)});
     check_failed_updates();
     engine_->warehouse().advance();
     if (engine_->schedule(step_graph).recording) profiler_->add_step();
     take_totals();
-    move_rigid_bodies(size);
     lost_->take<D>(*engine_->bound(step_graph).migration(), engine_->layout(), engine_->warehouse().n_groups());
     ++n_steps_;
     time_ = time_ + size >= end * (1 - 1e-14) ? end : time_ + size;
@@ -138,7 +136,6 @@ class SimulationOf : public Simulation
     own.add(contact_since_);
     lost_->share(engine_->layout(), communicator_);
     lost_->write(own);
-    for (const RigidBody& body : method_.rigid_bodies) own.add(body.state);
     own.add_bytes(host);
     runtime::write_checkpoint(folder, {n_steps_, time_, fingerprint}, own.bytes(), engine_->warehouse(),
                               material_names(scene_), keep, communicator_);
@@ -156,7 +153,6 @@ class SimulationOf : public Simulation
     own.read(contact_);
     own.read(contact_since_);
     lost_->read(own);
-    for (RigidBody& body : method_.rigid_bodies) own.read(body.state);
     return {own.rest().begin(), own.rest().end()};
   }
 
@@ -177,6 +173,17 @@ class SimulationOf : public Simulation
     return std::make_unique<runtime::Engine>(
         layout, material_names(scene_), graphs_of(method_, [this](const StepTotals& step) { return accepts(step); }),
         n_threads(), communicator_);
+  }
+
+  void make_rigid_bodies(const BodyParticles<D>& particles)
+  {
+    RigidStates& states = engine_->warehouse().global_state(rigid_states);
+    for (RigidBody& body : method_.rigid_bodies) {
+      const SceneBody& given = scene_.bodies[static_cast<std::size_t>(body.body)];
+      body.properties = particles.mass_properties(body.body);
+      states.of(body) = initial_state(body.properties, in_space<D>(vector_of<D>(given.velocity)),
+                                      Eigen::Vector3d(given.angular_velocity.data()));
+    }
   }
 
   bool accepts(const StepTotals& step) const
@@ -283,27 +290,6 @@ class SimulationOf : public Simulation
     asked_ = engine_->warehouse().result(host_requests).bits;
     impulse_.combine(engine_->warehouse().result(grid_impulse));
     contact_.combine(engine_->warehouse().result(contact_impulses));
-  }
-
-  /// Body forces of a kick [s]; what contact adds comes in the step.
-  void accelerate_rigid_bodies(double kick)
-  {
-    for (RigidBody& body : method_.rigid_bodies) {
-      body.free = accelerated(body, in_space<D>(method_.gravity), method_.centrifuge, time_, kick);
-    }
-  }
-
-  void move_rigid_bodies(double size)
-  {
-    const ContactImpulses& impulses = engine_->warehouse().result(contact_impulses);
-    for (RigidBody& body : method_.rigid_bodies) {
-      const components::RigidState before =
-          std::exchange(body.state, moved(body, impulses.by_group[static_cast<std::size_t>(body.group)], size));
-      const Eigen::Vector3d given = body.state.momentum - before.momentum;
-      GridImpulse own;
-      std::copy(given.begin(), given.end(), own.value.begin());
-      impulse_.combine(own);
-    }
   }
 
   /// Looks at what the patches have cost since the last look, and deals them anew if that pays.

@@ -43,17 +43,19 @@ std::vector<runtime::TaskDeclaration> time_step(const Method<D>& method,
   step.push_back(hear_hosts());
   step.push_back(particles_to_grid(method));
   if (!method.deformable_groups.empty()) step.push_back(accelerate_nodes(method));
-  for (const RigidBody& body : method.rigid_bodies) step.push_back(release_rigid_nodes(method, body.group));
+  if (!method.rigid_bodies.empty()) step.push_back(accelerate_rigid_bodies(method));
+  for (const RigidBody& body : method.rigid_bodies) step.push_back(rigid_nodes_before_contact(method, body.group));
   if (method.contacts.has_regression()) {
     for (runtime::TaskDeclaration& phase : part_materials(method)) step.push_back(std::move(phase));
   }
   if (!method.rigid_bodies.empty()) {
     step.push_back(gather_rigid_contact(method));
-    step.push_back(move_rigid_nodes(method));
+    step.push_back(rigid_nodes_after_contact(method));
   }
   step.push_back(contact(method));
   step.push_back(symmetry_walls(method));
-  for (const RigidBody& body : method.rigid_bodies) step.push_back(move_rigid_body(method, body.group));
+  if (!method.rigid_bodies.empty()) step.push_back(move_rigid_bodies(method));
+  for (const RigidBody& body : method.rigid_bodies) step.push_back(move_rigid_particles(method, body.group));
   if (!method.deformable_groups.empty()) step.push_back(grid_to_particles(method));
   for (const int material : method.deformable_groups) step.push_back(update_stress(method, material));
   step.push_back(runtime::migration(particle::position<D>, step_totals, std::move(accepted)));
@@ -65,7 +67,7 @@ runtime::HostData host_data(const Method<D>& method)
 {
   runtime::HostData data{{&particle::id, &particle::body, &particle::reference_position<D>, &particle::mass,
                           &particle::position<D>, &particle::velocity<D>, &particle::deformation_gradient<D>,
-                          &particle::volume, &particle::stress<D>, &particle::viscous_pressure},
+                          &particle::volume, &particle::stress<D>, &particle::viscous_pressure, &rigid_states},
                          {&step_totals, &grid_impulse, &contact_impulses, &host_requests}};
   for (const SceneMaterial& material : method.materials) add_state_of(material.model, data);
   if (method.transfer == Transfer::affine) data.state.push_back(&particle::velocity_gradient<D>);

@@ -5,6 +5,7 @@
 #include "runtime/execute/exchange.hpp"
 #include "runtime/file_error.hpp"
 #include "runtime/ranks/communicator.hpp"
+#include "runtime/storage/hdf5.hpp"
 #include "tasks/simulation_error.hpp"
 #include "tools/commands/program.hpp"
 #include "tools/console.hpp"
@@ -64,6 +65,7 @@ int main(int argc, char** argv)
 {
   tamp::tools::guard_console();
   tamp::tools::give_back_freed_memory();
+  tamp::runtime::hdf5::close_nothing_at_exit();
   try {
     const tamp::runtime::MpiSession session(argc, argv);
     return run_or_settle(argc, argv);

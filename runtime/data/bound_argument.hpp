@@ -29,10 +29,10 @@ struct Argument {
   using Asked = Reference<L, Previous>;
   using Value = std::conditional_t<ReadOnly, const typename L::Value, typename L::Value>;
 
-  /// A span of particles, or a GridView, or one for each group; of a reduction the value itself.
+  /// A span of particles, or a GridView, or one for each group; of a reduction or a global the value itself.
   static decltype(auto) view(const BoundArgument& bound)
   {
-    if constexpr (L::centre == Centring::reduction) {
+    if constexpr (has_one_value(L::centre)) {
       return *reinterpret_cast<Value*>(bound.fields[0]->buffer(bound.buffer).data());
     } else if constexpr (EveryGroup) {
       PerGroup<decltype(one(bound, 0))> views;

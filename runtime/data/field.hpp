@@ -48,11 +48,10 @@ struct Field {
   Buffer& buffer(FieldBuffer which) { return const_cast<Buffer&>(std::as_const(*this).buffer(which)); }
 
   /// Whether all values of a buffer are known to be zero, but for what was filled in from neighbours. So it is at
-  /// first; of state, which the host may set, of particles and of reductions it is never known.
+  /// first; of state, which the host may set, and of what is not on the grid it is never known.
   bool is_zero(FieldBuffer which) const
   {
-    const bool on_grid = label->centring() == Centring::node || label->centring() == Centring::cell;
-    return on_grid && !state && !written_[static_cast<std::size_t>(which)];
+    return is_on_grid(label->centring()) && !state && !written_[static_cast<std::size_t>(which)];
   }
   void make_zero(FieldBuffer which)
   {
@@ -66,7 +65,7 @@ struct Field {
   std::size_t n_values() const
   {
     if (n_particles != nullptr) return *n_particles;
-    return label->centring() == Centring::reduction ? 1 : static_cast<std::size_t>(box.size());
+    return has_one_value(label->centring()) ? 1 : static_cast<std::size_t>(box.size());
   }
   std::size_t n_bytes() const { return n_values() * label->value_bytes(); }
 

@@ -9,10 +9,20 @@
 namespace tamp::runtime
 {
 
-/// Where the values of a label sit.
-enum class Centring { node, cell, particle, reduction };
+/// Where the values of a label sit. Reductions and globals have one value, which all ranks hold alike: a reduction is
+/// made of the parts of all patches, a global by a task that every rank runs.
+enum class Centring { node, cell, particle, reduction, global };
 
 const char* to_string(Centring centring);
+
+constexpr bool is_on_grid(Centring centring)
+{
+  return centring == Centring::node || centring == Centring::cell;
+}
+constexpr bool has_one_value(Centring centring)
+{
+  return centring == Centring::reduction || centring == Centring::global;
+}
 
 /// What a reduction does with the bytes of its values.
 struct ReductionOperations {
@@ -143,6 +153,8 @@ template <class T, LabelName Name>
 using ParticleLabel = NamedLabel<T, Centring::particle, Name>;
 template <class T, LabelName Name>
 using ReductionLabel = NamedLabel<T, Centring::reduction, Name>;
+template <class T, LabelName Name>
+using GlobalLabel = NamedLabel<T, Centring::global, Name>;
 
 inline const char* to_string(Centring centring)
 {
@@ -155,6 +167,8 @@ inline const char* to_string(Centring centring)
       return "particle";
     case Centring::reduction:
       return "reduction";
+    case Centring::global:
+      return "global";
   }
   return "";
 }

@@ -70,14 +70,15 @@ BoundGraph::Bound BoundGraph::bind_body(const Instance& instance)
 {
   Bound bound;
   const PatchLayout& layout = graph_.layout();
-  const Patch& patch = layout[instance.patch];
+  const Patch& patch = patch_of(instance);
   const auto& accesses = graph_.declaration(instance).accesses;
   bound.fields.reserve(accesses.size() * static_cast<std::size_t>(graph_.n_groups() + 1));
   for (const Access& access : accesses) {
     BoundArgument argument;
     argument.buffer = buffer_of(access);
     argument.n_fields = access.every_group ? static_cast<std::size_t>(graph_.n_groups()) : 1;
-    const bool total = access.mode == Mode::read && access.label->centring() == Centring::reduction;
+    // The whole of a reduction, not this patch's part; or a global.
+    const bool total = has_one_value(access.label->centring()) && access.mode != Mode::reduce;
     argument.fields = bound.fields.data() + bound.fields.size();
     for (int k = 0; k < static_cast<int>(argument.n_fields); ++k) {
       const int group = access.every_group ? k : total ? -1 : instance.group;
@@ -117,17 +118,24 @@ void BoundGraph::bind_sparse(const Instance& instance, Bound& bound)
   const auto& accesses = graph_.declaration(instance).accesses;
   for (std::size_t a = 0; a < accesses.size(); ++a) {
     const bool is_taken = accesses[a].mode == Mode::read || accesses[a].mode == Mode::update;
-    const bool is_reduction = accesses[a].label->centring() == Centring::reduction;
+    const bool is_field = !has_one_value(accesses[a].label->centring());
     for (const Field* field : fields_of(bound.arguments[a])) {
       if (field->n_particles != nullptr) {
         bound.counts.push_back(field->n_particles);
-      } else if (is_taken && !is_reduction) {
+      } else if (is_taken && is_field) {
         bound.taken.push_back({field, bound.arguments[a].buffer});
       }
     }
   }
   std::sort(bound.counts.begin(), bound.counts.end());
   bound.counts.erase(std::unique(bound.counts.begin(), bound.counts.end()), bound.counts.end());
+}
+
+/// The patch of an instance; one without cells in a task over ranks.
+const Patch& BoundGraph::patch_of(const Instance& instance) const
+{
+  static const Patch none{-1, 0, {}, {}, {}};
+  return instance.patch < 0 ? none : graph_.layout()[instance.patch];
 }
 
 std::span<const int> BoundGraph::predecessors(int instance) const
@@ -165,8 +173,8 @@ void BoundGraph::run(int i, const Step& step)
       bound.was_skipped = bound.is_sparse && takes_nothing(bound);
       if (bound.was_skipped) return make_nothing(instance, bound);
       prepare(instance, bound);
-      const PatchLayout& layout = graph_.layout();
-      graph_.declaration(instance).body({layout, layout[instance.patch], instance.group, step}, bound.arguments.data());
+      graph_.declaration(instance).body({graph_.layout(), patch_of(instance), instance.group, step},
+                                        bound.arguments.data());
       break;
     }
     case InstanceKind::sum_halo:

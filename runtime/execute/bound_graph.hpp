@@ -67,6 +67,7 @@ class BoundGraph final : public Work
   };
 
   const Instance& at(int instance) const { return graph_.instances()[static_cast<std::size_t>(instance)]; }
+  const Patch& patch_of(const Instance& instance) const;
   Bound bind(const Instance& instance);
   Bound bind_body(const Instance& instance);
   Bound bind_halos(const Instance& instance);

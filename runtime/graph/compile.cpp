@@ -30,10 +30,15 @@ class Compiler
   {
     for (int d = 0; d < n_declarations(); ++d) expand(d);
     for (int d = 0; d < n_declarations(); ++d) {
-      if (at(d).domain == Domain::migration) {
-        connect_migration(d);
-      } else {
-        connect(d);
+      switch (at(d).domain) {
+        case Domain::migration:
+          connect_migration(d);
+          break;
+        case Domain::ranks:
+          connect_over_ranks(d);
+          break;
+        default:
+          connect(d);
       }
     }
     return step_.finish();
@@ -48,6 +53,12 @@ class Compiler
 
   void expand(int d)
   {
+    if (at(d).domain == Domain::ranks) {
+      for (int rank = 0; rank < layout_.n_ranks(); ++rank) {
+        rank_bodies_[{d, rank}] = step_.add_on_rank(InstanceKind::body, d, rank);
+      }
+      return;
+    }
     for (const Patch& patch : layout_) {
       for (const int group : groups_of(at(d), n_groups_)) {
         const Place place{d, patch.id, group};
@@ -107,6 +118,18 @@ class Compiler
           }
         }
         connect_halo_sum(d, patch, group);
+      }
+    }
+  }
+
+  /// A task over ranks: what it uses is there on every rank.
+  void connect_over_ranks(int d)
+  {
+    for (const Access& access : at(d).accesses) {
+      if (access.mode != Mode::read || access.of_previous_step) continue;
+      const Use& maker = *streams_.at({access.label, -1}).version_before(d);
+      for (int rank = 0; rank < layout_.n_ranks(); ++rank) {
+        step_.edge(one_value_on(maker, rank), rank_bodies_.at({d, rank}), access.label, 0, access.label->value_bytes());
       }
     }
   }
@@ -185,10 +208,10 @@ class Compiler
                  step_.bytes_of(*access.label, step_.box_of(*access.label, patch, access.halo)));
     }
     if (!access.of_previous_step) {
-      const bool reduced = access.label->centring() == Centring::reduction;
+      const bool is_one = has_one_value(access.label->centring());
       step_.edge(instance_of(*stream.version_before(d), patch, group), self, access.label, access.halo,
-                 reduced ? access.label->value_bytes()
-                         : step_.bytes_of(*access.label, step_.box_of(*access.label, patch, supplied)));
+                 is_one ? access.label->value_bytes()
+                        : step_.bytes_of(*access.label, step_.box_of(*access.label, patch, supplied)));
       before_next_update(d, self, patch, group, stream, access.label);
     }
   }
@@ -212,10 +235,17 @@ class Compiler
   /// The instance after which the version that `use` made is there on a patch.
   int instance_of(const Use& use, int patch, int group) const
   {
-    if (use.access.mode == Mode::reduce) return combiners_.at({use.access.label, layout_[patch].rank});
+    if (has_one_value(use.access.label->centring())) return one_value_on(use, layout_[patch].rank);
     const int task_group = at(use.declaration).domain == Domain::patches ? -1 : group;
     const Place place{use.declaration, patch, task_group};
     return use.access.mode == Mode::accumulate ? sums_.at(place) : bodies_.at(place);
+  }
+
+  /// The instance after which a rank has the reduction or the global that `use` makes.
+  int one_value_on(const Use& use, int rank) const
+  {
+    return use.access.mode == Mode::reduce ? combiners_.at({use.access.label, rank})
+                                           : rank_bodies_.at({use.declaration, rank});
   }
 
   /// The copy of neighbours' values into the halo of a patch, shared by all who read the same version.
@@ -293,6 +323,7 @@ class Compiler
   int n_groups_;
   StepBuilder step_;
   std::map<Place, int> bodies_, sums_, senders_, receivers_;
+  std::map<std::pair<int, int>, int> rank_bodies_;  // declaration, rank
   std::map<std::pair<const Label*, int>, int> combiners_;
   std::map<std::tuple<const Label*, int, int, int>, int> fillers_;
 };

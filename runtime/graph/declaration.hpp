@@ -43,6 +43,7 @@ struct Step {
 /// What every task body gets before its data.
 struct TaskContext {
   const PatchLayout& layout;
+  /// In a task over ranks, one without cells whose id is -1.
   const Patch& patch;
   /// -1 in a task that runs once a patch for all groups.
   int group;
@@ -50,7 +51,7 @@ struct TaskContext {
 };
 
 /// On what a task runs.
-enum class Domain { patches_and_groups, patches, migration };
+enum class Domain { patches_and_groups, patches, ranks, migration };
 
 /// A task as declared: its name, its data, its body. The graph infers everything else from this.
 struct TaskDeclaration {
@@ -90,6 +91,9 @@ class TaskBuilder
   {
     return std::move(*this).over(Domain::patches_and_groups, std::move(groups));
   }
+
+  /// Once on every rank, with globals and whole reductions: what all ranks then know alike, none has to be told.
+  TaskBuilder over_ranks() && { return std::move(*this).over(Domain::ranks, {}); }
 
   /// Promises that of nothing the body makes nothing: where there is no particle and the node and cell fields of this
   /// step that it reads or updates are zero, it makes zeros and neutral parts. There it is skipped.

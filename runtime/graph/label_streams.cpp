@@ -19,11 +19,6 @@ bool contains(const std::vector<const Label*>& labels, const Label* label)
   return std::find(labels.begin(), labels.end(), label) != labels.end();
 }
 
-bool on_grid(const Label& label)
-{
-  return label.centring() == Centring::node || label.centring() == Centring::cell;
-}
-
 bool accumulates(const Use& use)
 {
   return use.access.mode == Mode::accumulate;
@@ -87,22 +82,32 @@ class Inspector
   {
     const Label& label = *access.label;
     const Centring centring = label.centring();
-    if (access.mode == Mode::accumulate && !on_grid(label)) {
+    if (access.mode == Mode::accumulate && !is_on_grid(centring)) {
       report(Kind::bad_declaration, declaration.name, label, "only node and cell data can be accumulated");
     }
-    if (access.mode == Mode::accumulate && declaration.domain == Domain::patches) {
+    if (access.mode == Mode::accumulate && declaration.domain != Domain::patches_and_groups) {
       report(Kind::bad_declaration, declaration.name, label, "only a task over patches and groups can accumulate");
     }
     if ((access.mode == Mode::reduce) != (centring == Centring::reduction) && access.mode != Mode::read) {
       report(Kind::bad_declaration, declaration.name, label, "a reduction label is reduced, and no other is");
     }
-    if (access.every_group && declaration.domain == Domain::patches_and_groups) {
+    if (declaration.domain == Domain::ranks && !has_one_value(centring)) {
+      report(Kind::bad_declaration, declaration.name, label, "a task over ranks can use globals and reductions alone");
+    }
+    if (declaration.domain == Domain::ranks && access.mode == Mode::reduce) {
+      report(Kind::bad_declaration, declaration.name, label, "only tasks over patches have parts to reduce");
+    }
+    if (centring == Centring::global && access.mode != Mode::read &&
+        (access.mode != Mode::compute || declaration.domain != Domain::ranks)) {
+      report(Kind::bad_declaration, declaration.name, label, "a global is computed by a task over ranks, and read");
+    }
+    if (access.every_group && declaration.domain != Domain::patches) {
       report(Kind::bad_declaration, declaration.name, label, "only a task over patches can use every group's data");
     }
     if (access.of_previous_step && access.mode != Mode::read) {
       report(Kind::bad_declaration, declaration.name, label, "data of the step before can only be read");
     }
-    if (access.halo > 0 && !on_grid(label)) {
+    if (access.halo > 0 && !is_on_grid(centring)) {
       report(Kind::bad_declaration, declaration.name, label, "only node and cell data have a halo");
     }
     // Particles near one seam may reach nodes across the next: a part would be missed.
@@ -141,7 +146,9 @@ class Inspector
   void inspect_source(const Use& use, const LabelStream& stream)
   {
     const Label& label = *use.access.label;
-    const bool migrated = declarations_[static_cast<std::size_t>(use.declaration)].domain == Domain::migration;
+    const Domain domain = declarations_[static_cast<std::size_t>(use.declaration)].domain;
+    if (domain == Domain::ranks && !has_one_value(label.centring())) return;  // has been told
+    const bool migrated = domain == Domain::migration;
     if (use.access.of_previous_step || (migrated && contains(host_.state, &label))) {
       if (!contains(host_.state, &label)) {
         report(Kind::missing_producer, name(use), label, "read from the step before, but not among the given state");
@@ -212,14 +219,14 @@ const Use* LabelStream::version_before(int declaration) const
 
 std::vector<int> groups_of(const TaskDeclaration& declaration, int n_groups)
 {
-  if (declaration.domain == Domain::patches) return {-1};
+  if (declaration.domain == Domain::patches || declaration.domain == Domain::ranks) return {-1};
   if (!declaration.groups.empty()) return declaration.groups;
   return all_groups(n_groups);
 }
 
 std::vector<int> groups_of(const Access& access, int group, int n_groups)
 {
-  if (access.label->centring() == Centring::reduction) return {-1};
+  if (has_one_value(access.label->centring())) return {-1};
   if (!access.every_group) return {group};
   return all_groups(n_groups);
 }

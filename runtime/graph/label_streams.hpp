@@ -33,7 +33,7 @@ struct LabelStream {
 using StreamKey = std::pair<const Label*, int>;
 using LabelStreams = std::map<StreamKey, LabelStream>;
 
-/// Groups that a declaration runs for: -1 alone when it runs once a patch.
+/// Groups that a declaration runs for: -1 alone when it runs once a patch or a rank.
 std::vector<int> groups_of(const TaskDeclaration& declaration, int n_groups);
 /// Groups whose field an access names when its task runs for `group`.
 std::vector<int> groups_of(const Access& access, int group, int n_groups);

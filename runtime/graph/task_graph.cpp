@@ -139,7 +139,12 @@ std::vector<LabelUse> list_uses(const LabelStreams& streams, const HostData& hos
   for (const Label* label : host.state) {
     const bool named =
         std::any_of(streams.begin(), streams.end(), [&](const auto& s) { return s.first.first == label; });
-    for (int g = 0; g < n_groups && !named; ++g) uses.push_back({label, g, true, false, false});
+    if (named) continue;
+    if (has_one_value(label->centring())) {
+      uses.push_back({label, -1, true, false, false});
+    } else {
+      for (int g = 0; g < n_groups; ++g) uses.push_back({label, g, true, false, false});
+    }
   }
   std::sort(uses.begin(), uses.end(), [](const LabelUse& a, const LabelUse& b) {
     return std::tie(a.label->name(), a.group) < std::tie(b.label->name(), b.group);

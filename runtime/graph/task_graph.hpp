@@ -28,7 +28,8 @@ enum class InstanceKind {
 struct Instance {
   InstanceKind kind = InstanceKind::body;
   int declaration = 0;
-  /// -1 for what belongs to a rank as a whole: combining a reduction, sending or receiving a message.
+  /// -1 for what belongs to a rank as a whole: a task over ranks, combining a reduction, sending or receiving a
+  /// message.
   int patch = -1;
   int rank = 0;
   /// -1 for all groups.

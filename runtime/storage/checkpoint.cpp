@@ -121,6 +121,25 @@ void read_own(const CheckpointReader& reader, const fs::path& file, Warehouse& w
   }
 }
 
+/// Reads the file back: MPI's file layer does not report every write that the system refuses.
+void check_written(const fs::path& file, std::span<const std::byte> host, Warehouse& warehouse,
+                   std::span<const std::string> group_names, const Communicator& communicator)
+{
+  try {
+    const FoundCheckpoint found = looked_at(file, communicator);
+    const std::vector<StateTable> tables = state_tables(warehouse, group_names);
+    together(communicator, [&] {
+      expect_tables(file, CheckpointReader(file).tables(), tables);
+      // Those of the first rank were written; between values they may differ from rank to rank.
+      if (communicator.is_first() && !std::equal(host.begin(), host.end(), found.host.begin(), found.host.end())) {
+        throw FileError(file.string(), "has other bytes of the host");
+      }
+    });
+  } catch (const FileError& error) {
+    throw FileError(file.string(), "cannot be written; as it was read back, it " + error.cause);
+  }
+}
+
 }  // namespace
 
 void write_checkpoint(const fs::path& folder, const CheckpointHeader& header, std::span<const std::byte> host,
@@ -134,6 +153,7 @@ void write_checkpoint(const fs::path& folder, const CheckpointHeader& header, st
   by_first(communicator, [&] { prepare(folder); });
   try {
     write_checkpoint_file(part, header, host, warehouse, group_names, communicator);
+    check_written(part, host, warehouse, group_names, communicator);
     by_first(communicator, [&] { put_in_place(part, file); });
   } catch (...) {
     std::error_code is_gone;

@@ -73,13 +73,16 @@ class ContentWriter
     const hsize_t n_columns = table.value_bytes / (of_words ? 8 : 1);
     std::vector<std::uint64_t> n_values;
     for (const PatchEntry& entry : entries) n_values.push_back(entry.n_values);
-    const RowShare share = share_by_patch(n_values, [&](std::size_t p) { return table.patches[p].field != nullptr; });
+    const auto is_own = [&](const PatchState& state) {
+      return state.field != nullptr && (!table.is_global || communicator_.is_first());
+    };
+    const RowShare share = share_by_patch(n_values, [&](std::size_t p) { return is_own(table.patches[p]); });
     std::vector<hdf5::Slab> slabs;
     for (const RowRun& run : share.runs) slabs.push_back({{run.first, 0}, {run.n, n_columns}});
     std::vector<std::byte> own;
     own.reserve(share.n_own() * table.value_bytes);
     for (const PatchState& state : table.patches) {
-      if (state.field == nullptr) continue;
+      if (!is_own(state)) continue;
       const std::vector<std::byte> values = state.bytes();
       own.insert(own.end(), values.begin(), values.end());
     }

@@ -31,6 +31,11 @@ herr_t take(unsigned, const H5E_error2_t* error, void* data)
 
 }  // namespace
 
+void close_nothing_at_exit()
+{
+  H5dont_atexit();
+}
+
 Quiet::Quiet()
 {
   // Handles close themselves, so nothing is left for HDF5 to do when the program ends; and what it does then crashes

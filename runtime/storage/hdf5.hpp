@@ -48,6 +48,10 @@ using Type = Handle<H5Tclose>;
 using Attribute = Handle<H5Aclose>;
 using Properties = Handle<H5Pclose>;
 
+/// Keeps HDF5 from closing files when the program exits, where it crashes over one that could not be closed. All files
+/// here are closed by their holders. To be called before any other of its functions.
+void close_nothing_at_exit();
+
 /// Keeps HDF5 from writing its own account of errors to stderr while it lives: ours says what is needed.
 class Quiet
 {

@@ -27,7 +27,7 @@ void for_each_piece(const PatchState& state, Visit&& visit)
   const Field& field = *state.field;
   const std::size_t value_bytes = field.label->value_bytes();
   std::byte* const memory = field.previous_buffer.data();
-  if (field.n_particles != nullptr) return visit(memory, field.n_bytes());
+  if (!is_on_grid(field.label->centring())) return visit(memory, field.n_bytes());
   const auto strides = field.box.strides();
   IndexBox starts = state.inside;
   starts.upper[0] = starts.lower[0] + 1;
@@ -43,7 +43,7 @@ void for_each_piece(const PatchState& state, Visit&& visit)
 
 std::size_t PatchState::n_values() const
 {
-  return field->n_particles != nullptr ? *field->n_particles : static_cast<std::size_t>(inside.size());
+  return is_on_grid(field->label->centring()) ? static_cast<std::size_t>(inside.size()) : field->n_values();
 }
 
 std::vector<std::byte> PatchState::bytes() const
@@ -74,6 +74,11 @@ std::vector<StateTable> state_tables(Warehouse& warehouse, std::span<const std::
     StateTable& table = by_path[path];
     table.path = path;
     table.value_bytes = field.label->value_bytes();
+    if (field.label->centring() == Centring::global) {
+      table.is_global = true;
+      table.patches.push_back({&field, {}});
+      continue;
+    }
     table.patches.resize(static_cast<std::size_t>(layout.size()));
     const Patch& patch = layout[field.patch];
     if (!warehouse.is_local(patch)) continue;

@@ -29,6 +29,8 @@ struct StateTable {
   /// Such as particles/sand/position, cells/sand/temperature, or common/nodes/mass of a field of no group.
   std::string path;
   std::size_t value_bytes = 0;
+  /// A global has one entry instead of one a patch, which all ranks have.
+  bool is_global = false;
   /// By patch.
   std::vector<PatchState> patches;
 };

@@ -40,8 +40,9 @@ Warehouse::Warehouse(std::span<const TaskGraph* const> graphs, int rank)
   int halo = 0;
   for (const TaskGraph* graph : graphs) halo = std::max(halo, graph->storage_halo());
   for (const LabelUse& use : merged_uses(graphs)) {
-    // A reduction has a part on every patch and for every group, and the total at (-1, -1).
-    if (use.label->centring() == Centring::reduction) add_field(use, -1, halo);
+    // A reduction has a part on every patch and for every group, and the total, as a global, at (-1, -1).
+    if (has_one_value(use.label->centring())) add_field(use, -1, halo);
+    if (use.label->centring() == Centring::global) continue;
     for (const Patch& patch : *layout_) {
       add_field(use, patch.id, halo);
       if (use.label->centring() != Centring::reduction) continue;
@@ -90,12 +91,12 @@ void Warehouse::add_field(const LabelUse& use, int patch, int halo)
     f.n_particles = &counts_[place];
     particle_fields_[place].push_back(&f);
   } else {
-    if (centring != Centring::reduction) {
+    if (is_on_grid(centring)) {
       const Patch& p = (*layout_)[patch];
       f.box = grown(centring == Centring::node ? p.nodes : p.cells, halo, layout_->grid().dimension);
     }
     const bool reduction = centring == Centring::reduction;
-    const bool local = patch >= 0 && is_local((*layout_)[patch]);
+    const bool local = centring == Centring::global || (patch >= 0 && is_local((*layout_)[patch]));
     if (f.state && local) f.previous_buffer.reserve(f.n_bytes());
     if (reduction || (use.computed && local)) f.current_buffer.reserve(f.n_bytes());
     if (use.accumulated && local) f.part_buffer.reserve(f.n_bytes());
@@ -130,7 +131,7 @@ double Warehouse::forecast_bytes(std::span<const TaskGraph* const> graphs, std::
   double bytes = 0;
   for (const LabelUse& use : merged_uses(graphs)) {
     const Centring centring = use.label->centring();
-    if (centring == Centring::reduction) continue;
+    if (has_one_value(centring)) continue;
     const bool of_particles = centring == Centring::particle;
     const int n_buffers =
         int{use.state} + int{use.computed || (of_particles && !use.state)} + int{use.accumulated && !of_particles};

@@ -55,6 +55,11 @@ class Warehouse
     Field& f = field(label, patch, group);
     return {reinterpret_cast<T*>(f.previous_buffer.data()), f.box, f.box.strides()};
   }
+  template <class T>
+  T& global_state(const TypedLabel<T, Centring::global>& label)
+  {
+    return *reinterpret_cast<T*>(field(label, -1, -1).previous_buffer.data());
+  }
   /// What the last step left in a node or cell field that is no state.
   template <class T, Centring C>
   GridView<const T> grid_result(const TypedLabel<T, C>& label, int patch, int group)

@@ -54,7 +54,9 @@ TEST_CASE("a call that fails ends a run with 4 and the place, and its last check
       Fault{"fwrite", 2, "fields.xdmf", "fields.xdmf"}, Fault{"rename", 2, "fields.xdmf", "fields.xdmf: Permission"},
       Fault{"rename", 2, "checkpoints", "checkpoints/step_"}, Fault{"fsync", 3, "checkpoints", "checkpoints"},
       Fault{"fallocate", 2, "fields.h5", "fields.h5: No space left"}, Fault{"pwrite", 100, "fields.h5", "fields.h5"},
-      Fault{"pwrite", 10, "checkpoints", "checkpoints/step_"}, Fault{"H5Dwrite", 70, "", ".h5"},
+      Fault{"pwrite", 2, "checkpoints", "checkpoints/step_"}, Fault{"pwrite", 5, "checkpoints", "checkpoints/step_"},
+      Fault{"pwrite", 6, "checkpoints", "checkpoints/step_"}, Fault{"pwrite", 10, "checkpoints", "checkpoints/step_"},
+      Fault{"pwrite", 30, "checkpoints", "checkpoints/step_"}, Fault{"H5Dwrite", 70, "", ".h5"},
       Fault{"H5Fclose", 1, "", ".h5"}, Fault{"H5Dcreate2", 60, "", ".h5"},
       Fault{"fwrite", 1, "summary.json", "summary.json"}, Fault{"rename", 1, "profile.json", "profile.json"},
       Fault{"malloc", 2, "", "memory", "50000"});

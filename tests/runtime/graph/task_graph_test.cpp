@@ -111,6 +111,56 @@ TEST_CASE("a task over patches cannot accumulate", "[graph]")
   check_one(problems({wrong, move(0)}), Kind::bad_declaration, "gather", "node mass");
 }
 
+TEST_CASE("a global is made by a task over ranks, which uses nothing of patches", "[graph]")
+{
+  const GlobalLabel<double, "clock"> clock;
+  const HostData of_clock{{&weight}, {&velocity, &clock}};
+  const auto tick = task("tick").over_ranks().computes(clock).body(nothing());
+  const auto by_patch = task("tick").over_patches().computes(clock).body(nothing());
+  const auto changed = task("change").over_ranks().updates(clock).body(nothing());
+  const auto heavy = task("tick").over_ranks().reads(mass).computes(clock).body(nothing());
+
+  CHECK(problems({gather(1), move(1), tick}, of_clock).empty());
+  check_one(problems({gather(1), move(1), by_patch}, of_clock), Kind::bad_declaration, "tick", "clock");
+  check_one(problems({gather(1), move(1), tick, changed}, of_clock), Kind::bad_declaration, "change", "clock");
+  check_one(problems({gather(1), move(1), heavy}, of_clock), Kind::bad_declaration, "tick", "node mass");
+}
+
+TEST_CASE("a task over ranks runs on each, after what makes its data and before what reads them", "[graph]")
+{
+  struct Sum {
+    double value = 0;
+    void combine(const Sum& other) { value += other.value; }
+  };
+  const ReductionLabel<Sum, "all"> all;
+  const GlobalLabel<double, "clock"> clock;
+  const auto sum = task("sum").over_patches_and_groups().reads(mass).reduces(all).body(nothing());
+  const auto tick = task("tick").over_ranks().reads(all).computes(clock).body(nothing());
+  const auto late = task("late").over_patches_and_groups().reads(mass, clock).computes(velocity).body(nothing());
+  PatchLayout layout(line, {4, 1, 1});
+  layout.give_to_ranks({0, 0, 1, 1}, 3);
+
+  const TaskGraph graph({gather(1), sum, tick, late}, layout, {"only"}, host);
+
+  std::vector<int> ranks;
+  for (std::size_t i = 0; i < graph.instances().size(); ++i) {
+    const Instance& instance = graph.instances()[i];
+    const auto waits_for = [&](const std::string& name, int rank) {
+      return std::any_of(instance.predecessors.begin(), instance.predecessors.end(), [&](int p) {
+        const Instance& before = graph.instances()[static_cast<std::size_t>(p)];
+        return graph.name(before) == name && before.rank == rank;
+      });
+    };
+    if (graph.name(instance) == "tick") {
+      ranks.push_back(instance.rank);
+      CHECK(waits_for("combine: all", instance.rank));
+    }
+    if (graph.name(instance) == "late") CHECK(waits_for("tick", instance.rank));
+  }
+  std::sort(ranks.begin(), ranks.end());
+  CHECK(ranks == std::vector<int>{0, 1, 2});
+}
+
 TEST_CASE("one sum follows all tasks that accumulate a label, as wide as the widest halo", "[graph]")
 {
   auto load = task("load").over_patches_and_groups().accumulates(mass.halo(0)).body(nothing());

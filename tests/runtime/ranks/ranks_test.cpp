@@ -29,6 +29,9 @@ struct Sum {
   void combine(const Sum& other) { value += other.value; }
 };
 const ReductionLabel<Sum, "total"> total;
+/// What every rank works out for itself: a trace of all totals so far, and the same as the step begins.
+const GlobalLabel<double, "trace"> trace;
+const GlobalLabel<double, "old trace"> old_trace;
 
 /// Particles that wander, warm the nodes and are warmed by their neighbourhood: every kind of message there is. The
 /// numbers are such that another order of sums shows.
@@ -118,7 +121,7 @@ std::vector<TaskDeclaration> wandering()
                            });
   auto wander = task("wander")
                     .over_patches_and_groups()
-                    .reads(smooth, total, place.previous(), warmth.previous())
+                    .reads(smooth, total, trace, old_trace, place.previous(), warmth.previous())
                     .computes(place, warmth)
                     .body([](const TaskContext& at, auto data) {
                       const auto s = data[smooth];
@@ -130,19 +133,28 @@ std::vector<TaskDeclaration> wandering()
                       const Index n = at.layout.grid().n_cells;
                       for (std::size_t p = 0; p < old.size(); ++p) {
                         const double w = s[{static_cast<int>(old[p][0]), static_cast<int>(old[p][1]), 0}];
-                        is[p] = 0.5 * was[p] + w / (1 + std::abs(sum.value));
+                        is[p] = 0.5 * was[p] + w / (1 + std::abs(sum.value)) + data[trace] - data[old_trace];
                         now[p] = {old[p][0] + 0.9 * std::sin(37 * w), old[p][1] + 0.9 * std::cos(91 * w)};
                         for (std::size_t k = 0; k < 2; ++k) now[p][k] = std::clamp(now[p][k], 0.01, n[k] - 0.01);
                       }
                     });
-  return {warm, chill, average, find_edges, average_again, sharpen, wander, migration(place, total)};
+  auto recall =
+      task("recall").over_ranks().reads(trace.previous()).computes(old_trace).body([](const TaskContext&, auto data) {
+        data[old_trace] = data[trace.previous()];
+      });
+  auto keep_trace =
+      task("keep trace").over_ranks().reads(old_trace, total).computes(trace).body([](const TaskContext&, auto data) {
+        data[trace] = data[old_trace] / 3 + 1 / (3 + std::abs(data[total].value));
+      });
+  return {warm,   chill,      average, find_edges, average_again,
+          recall, keep_trace, sharpen, wander,     migration(place, total)};
 }
 
 struct World {
   World(const Communicator& communicator_, const std::vector<int>& ranks, int n_threads)
       : communicator(communicator_),
         layout(dealt(ranks)),
-        graph(wandering(), layout, {"only"}, {{&place, &warmth, &smooth}, {&total}}),
+        graph(wandering(), layout, {"only"}, {{&place, &warmth, &smooth, &trace}, {&total}}),
         warehouse(std::vector<const TaskGraph*>{&graph}, communicator.rank()),
         bound(graph, warehouse, communicator),
         schedule(bound, n_threads),
@@ -165,6 +177,7 @@ struct World {
 
   void fill()
   {
+    warehouse.global_state(trace) = 0.7;
     for (const Patch& patch : layout) {
       if (!warehouse.is_local(patch)) continue;
       warehouse.set_n_particles(patch.id, 0, static_cast<std::size_t>(patch.cells.size()));
@@ -184,10 +197,11 @@ struct World {
     }
   }
 
-  /// All that is state, and the last total, on all ranks: by patch.
+  /// The last total, every rank's trace being the same, and all other state: by patch.
   std::vector<double> values()
   {
-    std::vector<double> all{warehouse.result(total).value};
+    std::vector<double> all{warehouse.result(total).value, warehouse.global_state(trace)};
+    for (const double theirs : communicator.gather_value(all.back())) CHECK(theirs == all.back());
     for (const Patch& patch : layout) {
       std::vector<double> own;
       if (warehouse.is_local(patch)) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <cstring>
@@ -24,13 +25,14 @@ inline const ParticleLabel<Colour, "colour"> colour;
 inline const CellLabel<double, "warmth"> warmth;
 inline const NodeLabel<Point, "drift"> drift;
 inline const CellLabel<std::int64_t, "age"> age;
+inline const GlobalLabel<Colour, "season"> season;
 
 inline const std::vector<std::string> groups{"sand", "clay"};
 
 /// State of every kind on a square of 8 x 8 cells, patch p on rank (p + shift) modulo the number of ranks.
 struct StateScene {
   explicit StateScene(const Communicator& communicator = {}, int shift = 0, Index n_patches = {2, 2, 1},
-                      std::vector<const Label*> state = {&place, &number, &colour, &warmth, &drift, &age})
+                      std::vector<const Label*> state = {&place, &number, &colour, &warmth, &drift, &age, &season})
       : layout(given({{2, {0, 0, 0}, 1, {8, 8, 1}}, n_patches}, communicator.size(), shift)),
         graph({ageing()}, layout, groups, {std::move(state), {}}),
         warehouse(std::vector<const TaskGraph*>{&graph}, communicator.rank())
@@ -59,6 +61,7 @@ struct StateScene {
   /// Sets all state of this rank to numbers that differ for each place, group and `variant`.
   void fill(int variant = 0)
   {
+    if (has_season()) warehouse.global_state(season) = {static_cast<unsigned char>(variant), 0xff, 7};
     for_each_own([&](int patch, int group) {
       warehouse.set_n_particles(patch, group, n_particles(patch, group));
       for (std::size_t p = 0; p < n_particles(patch, group); ++p) {
@@ -84,6 +87,7 @@ struct StateScene {
   {
     std::string all;
     const auto add = [&](const auto& value) { all.append(reinterpret_cast<const char*>(&value), sizeof value); };
+    if (has_season()) add(warehouse.global_state(season));
     for_each_own([&](int patch, int group) {
       for (const Point& x : warehouse.state(place, patch, group)) add(x);
       for (const std::int64_t n : warehouse.state(number, patch, group)) add(n);
@@ -102,6 +106,11 @@ struct StateScene {
   Warehouse warehouse;
 
  private:
+  bool has_season() const
+  {
+    const auto& uses = graph.label_uses();
+    return std::any_of(uses.begin(), uses.end(), [](const LabelUse& use) { return use.label == &season; });
+  }
   template <class Visit>
   void for_each_own(Visit&& visit)
   {

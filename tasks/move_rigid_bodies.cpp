@@ -1,0 +1,118 @@
+#include <algorithm>
+
+#include "components/loads/time_step.hpp"
+#include "tasks/labels.hpp"
+#include "tasks/phases.hpp"
+#include "tasks/simulation_error.hpp"
+
+namespace tamp::tasks
+{
+
+using runtime::TaskContext;
+
+/// In the leapfrog of `accelerate_nodes`.
+template <int D>
+runtime::TaskDeclaration accelerate_rigid_bodies(const Method<D>& method)
+{
+  return runtime::task("accelerate rigid bodies")
+      .over_ranks()
+      .reads(rigid_states.previous())
+      .computes(free_rigid_states)
+      .body([&method](const TaskContext& at, auto data) {
+        const RigidStates& before = data[rigid_states.previous()];
+        RigidStates& free = data[free_rigid_states];
+        const double kick = 0.5 * (at.step.previous_size + at.step.size);
+        for (const RigidBody& body : method.rigid_bodies) {
+          free.of(body) = accelerated(body.properties, before.of(body), in_space<D>(method.gravity), method.centrifuge,
+                                      at.step.time, kick);
+        }
+      });
+}
+
+template <int D>
+runtime::TaskDeclaration move_rigid_bodies(const Method<D>& method)
+{
+  return runtime::task("move rigid bodies")
+      .over_ranks()
+      .reads(free_rigid_states, contact_impulses)
+      .computes(rigid_states)
+      .body([&method](const TaskContext& at, auto data) {
+        const RigidStates& free = data[free_rigid_states];
+        const ContactImpulses& impulses = data[contact_impulses];
+        RigidStates& after = data[rigid_states];
+        for (const RigidBody& body : method.rigid_bodies) {
+          const auto g = static_cast<std::size_t>(body.group);
+          after.of(body) = moved(body.properties, free.of(body), impulses.by_group[g], at.step.size);
+        }
+      });
+}
+
+namespace
+{
+
+/// What the body as a whole has been given in the step; one patch tells of it.
+void add_impulse(const TaskContext& at, const components::RigidState& before, const components::RigidState& after,
+                 GridImpulse& impulse)
+{
+  if (at.patch.id != 0) return;
+  const Eigen::Vector3d given = after.momentum - before.momentum;
+  for (std::size_t k = 0; k < impulse.value.size(); ++k) impulse.value[k] += given[static_cast<int>(k)];
+}
+
+}  // namespace
+
+/// A rigid body's particles keep their places in it.
+template <int D>
+runtime::TaskDeclaration move_rigid_particles(const Method<D>& method, int group)
+{
+  const std::string& name = method.materials[static_cast<std::size_t>(group)].name;
+  return runtime::task("move rigid particles: " + name)
+      .over_patches_and_groups({group})
+      .reads(rigid_states.previous(), rigid_states, particle::id.previous(), particle::reference_position<D>.previous(),
+             particle::volume.previous())
+      .computes(particle::position<D>, particle::velocity<D>, particle::deformation_gradient<D>, particle::volume,
+                particle::stress<D>, particle::viscous_pressure)
+      .reduces(step_totals, grid_impulse)
+      .body([&method](const TaskContext& at, auto data) {
+        const auto id = data[particle::id.previous()];
+        const auto reference = data[particle::reference_position<D>.previous()];
+        const auto old_volume = data[particle::volume.previous()];
+        const auto position = data[particle::position<D>];
+        const auto velocity = data[particle::velocity<D>];
+        const auto deformation = data[particle::deformation_gradient<D>];
+        const auto volume = data[particle::volume];
+        const auto stress = data[particle::stress<D>];
+        const auto viscous_pressure = data[particle::viscous_pressure];
+        StepTotals& totals = data[step_totals];
+        const RigidBody& body = *method.rigid_body(at.group);
+        const components::RigidState& state = data[rigid_states].of(body);
+        add_impulse(at, data[rigid_states.previous()].of(body), state, data[grid_impulse]);
+        const components::RigidMotion motion = components::motion_of(body.properties, state);
+        const Matrix<D> turn = state.orientation.toRotationMatrix().template topLeftCorner<D, D>();
+        const Vector<D> start = body.properties.centre.template head<D>(), centre = state.centre.template head<D>();
+        for (std::size_t p = 0; p < id.size(); ++p) {
+          position[p] = centre + turn * (reference[p] - start);
+          velocity[p] = motion.at(in_space<D>(position[p])).template head<D>();
+          deformation[p] = turn;
+          volume[p] = old_volume[p];
+          stress[p].setZero();
+          viscous_pressure[p] = 0;
+          if (!is_off_edges<D>(at.layout.grid(), method.scene.reach_of(at.group), position[p])) {
+            throw SimulationError("a rigid body reaches the edge of the domain, where nothing is known to hold it",
+                                  method.materials[static_cast<std::size_t>(at.group)].name, id[p],
+                                  {position[p].begin(), position[p].end()});
+          }
+          totals.stable_step =
+              std::min(totals.stable_step, components::published_time_step<D>(method.cell_size, 0, velocity[p]));
+        }
+      });
+}
+
+template runtime::TaskDeclaration accelerate_rigid_bodies(const Method<2>&);
+template runtime::TaskDeclaration accelerate_rigid_bodies(const Method<3>&);
+template runtime::TaskDeclaration move_rigid_bodies(const Method<2>&);
+template runtime::TaskDeclaration move_rigid_bodies(const Method<3>&);
+template runtime::TaskDeclaration move_rigid_particles(const Method<2>&, int);
+template runtime::TaskDeclaration move_rigid_particles(const Method<3>&, int);
+
+}  // namespace tamp::tasks
