@@ -49,7 +49,10 @@ Method<D>::Method(const Scene& given)
     if (body == scene.bodies.end()) {
       deformable_groups.push_back(m);
     } else {
-      rigid_bodies.push_back({.body = static_cast<int>(body - scene.bodies.begin()), .group = m});
+      rigid_bodies.push_back({.body = static_cast<int>(body - scene.bodies.begin()),
+                              .group = m,
+                              .drive = body->drive ? &*body->drive : nullptr,
+                              .touchable = touchable_faces(scene, *body)});
     }
   }
   for (std::size_t k = 0; k < std::size_t{D}; ++k) {

@@ -23,8 +23,13 @@ runtime::TaskDeclaration accelerate_rigid_bodies(const Method<D>& method)
         RigidStates& free = data[free_rigid_states];
         const double kick = 0.5 * (at.step.previous_size + at.step.size);
         for (const RigidBody& body : method.rigid_bodies) {
-          free.of(body) = accelerated(body.properties, before.of(body), in_space<D>(method.gravity), method.centrifuge,
-                                      at.step.time, kick);
+          components::RigidState& state = free.of(body);
+          state = accelerated(body.properties, before.of(body), in_space<D>(method.gravity), method.centrifuge,
+                              at.step.time, kick);
+          if (body.drive == nullptr) continue;
+          const Eigen::Vector3d undriven = state.momentum;
+          state = driven(body.properties, *body.drive, state, at.step.time, at.step.size);
+          free.driving[static_cast<std::size_t>(body.group)] = state.momentum - undriven;
         }
       });
 }
@@ -42,7 +47,8 @@ runtime::TaskDeclaration move_rigid_bodies(const Method<D>& method)
         RigidStates& after = data[rigid_states];
         for (const RigidBody& body : method.rigid_bodies) {
           const auto g = static_cast<std::size_t>(body.group);
-          after.of(body) = moved(body.properties, free.of(body), impulses.by_group[g], at.step.size);
+          after.of(body) = moved(body.properties, free.of(body), impulses.by_group[g], body.held(), at.step.size);
+          after.driving[g] = free.driving[g] - impulses.by_group[g].linear;
         }
       });
 }
@@ -50,13 +56,16 @@ runtime::TaskDeclaration move_rigid_bodies(const Method<D>& method)
 namespace
 {
 
-/// What the body as a whole has been given in the step; one patch tells of it.
-void add_impulse(const TaskContext& at, const components::RigidState& before, const components::RigidState& after,
-                 GridImpulse& impulse)
+/// What the body as a whole has been given in the step; one patch tells of it. The work of driving goes with the mean
+/// of the velocities before and after, as the energies of leapfrog are counted.
+void add_totals(const TaskContext& at, const RigidBody& body, const RigidStates& before, const RigidStates& after,
+                GridImpulse& impulse, StepTotals& totals)
 {
   if (at.patch.id != 0) return;
-  const Eigen::Vector3d given = after.momentum - before.momentum;
-  for (std::size_t k = 0; k < impulse.value.size(); ++k) impulse.value[k] += given[static_cast<int>(k)];
+  const Eigen::Vector3d p = before.of(body).momentum, q = after.of(body).momentum;
+  for (int k = 0; k < 3; ++k) impulse.value[static_cast<std::size_t>(k)] += q[k] - p[k];
+  if (body.drive == nullptr) return;
+  totals.driving += after.driving[static_cast<std::size_t>(body.group)].dot(p + q) / (2 * body.properties.mass);
 }
 
 }  // namespace
@@ -86,7 +95,7 @@ runtime::TaskDeclaration move_rigid_particles(const Method<D>& method, int group
         StepTotals& totals = data[step_totals];
         const RigidBody& body = *method.rigid_body(at.group);
         const components::RigidState& state = data[rigid_states].of(body);
-        add_impulse(at, data[rigid_states.previous()].of(body), state, data[grid_impulse]);
+        add_totals(at, body, data[rigid_states.previous()], data[rigid_states], data[grid_impulse], totals);
         const components::RigidMotion motion = components::motion_of(body.properties, state);
         const Matrix<D> turn = state.orientation.toRotationMatrix().template topLeftCorner<D, D>();
         const Vector<D> start = body.properties.centre.template head<D>(), centre = state.centre.template head<D>();
@@ -97,7 +106,7 @@ runtime::TaskDeclaration move_rigid_particles(const Method<D>& method, int group
           volume[p] = old_volume[p];
           stress[p].setZero();
           viscous_pressure[p] = 0;
-          if (!is_off_edges<D>(at.layout.grid(), method.scene.reach_of(at.group), position[p])) {
+          if (!is_off_edges<D>(at.layout.grid(), method.scene.reach_of(at.group), body.touchable, position[p])) {
             throw SimulationError("a rigid body reaches the edge of the domain, where nothing is known to hold it",
                                   method.materials[static_cast<std::size_t>(at.group)].name, id[p],
                                   {position[p].begin(), position[p].end()});

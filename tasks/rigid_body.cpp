@@ -55,12 +55,33 @@ components::RigidState accelerated(const components::MassProperties& body, const
   return state;
 }
 
-components::RigidState moved(const components::MassProperties& body, const components::RigidState& free,
-                             const ContactImpulses::Impulse& impulse, double dt)
+components::RigidState driven(const components::MassProperties& body, const BodyDrive& drive,
+                              const components::RigidState& free, double time, double dt)
 {
   components::RigidState state = free;
-  state.momentum += impulse.linear;
-  state.angular_momentum += impulse.angular;
+  state.momentum = body.mass / dt * drive.motion.way(time, time + dt);
+  if (!drive.turns) state.angular_momentum.setZero();
+  return state;
+}
+
+std::array<std::array<bool, 2>, 3> touchable_faces(const Scene& scene, const SceneBody& body)
+{
+  std::array<std::array<bool, 2>, 3> touchable{};
+  if (!body.drive || body.drive->turns) return touchable;
+  for (int axis = 0; axis < scene.grid.dimension; ++axis) {
+    if (body.drive->motion.has_part_along(axis)) continue;
+    const auto k = static_cast<std::size_t>(axis);
+    for (std::size_t side = 0; side < 2; ++side) touchable[k][side] = scene.faces[k][side] == Face::symmetry;
+  }
+  return touchable;
+}
+
+components::RigidState moved(const components::MassProperties& body, const components::RigidState& free,
+                             const ContactImpulses::Impulse& impulse, components::Held held, double dt)
+{
+  components::RigidState state = free;
+  if (held == components::Held::nothing) state.momentum += impulse.linear;
+  if (held != components::Held::all) state.angular_momentum += impulse.angular;
   try {
     return components::drift(body, state, dt);
   } catch (const components::BadValue& bad) {

@@ -8,6 +8,7 @@
 #include "components/rigid/rigid_contact.hpp"
 #include "runtime/data/views.hpp"
 #include "runtime/grid/patch_layout.hpp"
+#include "tasks/scene.hpp"
 
 namespace tamp::tasks
 {
@@ -18,11 +19,23 @@ struct RigidBody {
   int body;
   int group;
   components::MassProperties properties{};
+  /// Null where it moves as the forces on it will have it.
+  const BodyDrive* drive = nullptr;
+  /// Faces of the domain against which it may lie, as [axis][side]: it is driven along these mirrors, without turning.
+  std::array<std::array<bool, 2>, 3> touchable{};
+
+  components::Held held() const
+  {
+    if (drive == nullptr) return components::Held::nothing;
+    return drive->turns ? components::Held::translation : components::Held::all;
+  }
 };
 
 /// Where the rigid bodies are, by group, and how they move; materials that are none have nothing here.
 struct RigidStates {
   std::array<components::RigidState, runtime::PerGroup<int>::max_groups> by_group;
+  /// Of driven bodies: the impulse that drives them in this step [N s].
+  std::array<Eigen::Vector3d, runtime::PerGroup<int>::max_groups> driving;
 
   const components::RigidState& of(const RigidBody& body) const
   {
@@ -68,22 +81,32 @@ components::RigidState accelerated(const components::MassProperties& body, const
                                    const Eigen::Vector3d& gravity,
                                    const std::optional<components::RotatingFrame>& frame, double time, double kick);
 
-/// Do the nodes that a particle at `x` reaches lie within the grid, whose edges nothing is known to hold? `reach`
-/// is how far it reaches in cells.
+/// The state of a driven body in a step from `time` on, with the momentum that takes it where it is to be at the end:
+/// `free` is what it would have of body forces alone.
+components::RigidState driven(const components::MassProperties& body, const BodyDrive& drive,
+                              const components::RigidState& free, double time, double dt);
+
+/// Mirroring faces along which a body is driven without turning, as [axis][side].
+std::array<std::array<bool, 2>, 3> touchable_faces(const Scene& scene, const SceneBody& body);
+
+/// Do the nodes that a particle at `x` reaches lie within the grid, whose edges nothing is known to hold, but for the
+/// `touchable` ones? `reach` is how far it reaches in cells.
 template <int D>
-bool is_off_edges(const runtime::Grid& grid, double reach, const Vector<D>& x)
+bool is_off_edges(const runtime::Grid& grid, double reach, const std::array<std::array<bool, 2>, 3>& touchable,
+                  const Vector<D>& x)
 {
   const double distance = reach * grid.cell_size;
   for (int k = 0; k < D; ++k) {
-    if (x[k] < grid.coordinate(k, 0) + distance) return false;
-    if (x[k] > grid.coordinate(k, grid.n_cells[static_cast<std::size_t>(k)]) - distance) return false;
+    const auto axis = static_cast<std::size_t>(k);
+    if (!touchable[axis][0] && x[k] < grid.coordinate(k, 0) + distance) return false;
+    if (!touchable[axis][1] && x[k] > grid.coordinate(k, grid.n_cells[axis]) - distance) return false;
   }
   return true;
 }
 
-/// The body at the end of a step of length `dt` in which contact gave it `impulse`, and body forces the rest of the
-/// momenta of `free`. Throws SimulationError for one that spins too fast to be followed.
+/// The body at the end of a step of length `dt` in which contact gave it `impulse`, as far as it is not held, and body
+/// forces the rest of the momenta of `free`. Throws SimulationError for one that spins too fast to be followed.
 components::RigidState moved(const components::MassProperties& body, const components::RigidState& free,
-                             const ContactImpulses::Impulse& impulse, double dt);
+                             const ContactImpulses::Impulse& impulse, components::Held held, double dt);
 
 }  // namespace tamp::tasks

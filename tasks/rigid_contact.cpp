@@ -108,7 +108,8 @@ runtime::TaskDeclaration rigid_nodes_after_contact(const Method<D>& method)
         const auto motions = data[node::motion<D>];
         for (const RigidBody& body : method.rigid_bodies) {
           const auto g = static_cast<std::size_t>(body.group);
-          const components::RigidMotion motion = couplings.by_group[g].solve(body.properties, free.of(body));
+          const components::RigidMotion motion =
+              couplings.by_group[g].solve(body.properties, free.of(body), body.held());
           for_each(motions[g].box(), [&](const Index& i) {
             if (!(sums[g][i].mass() > 0)) return;
             const Vector<D> velocity = motion.at(in_space<D>(place_of<D>(at.layout.grid(), i))).template head<D>();

@@ -14,6 +14,7 @@
 #include "components/loads/artificial_viscosity.hpp"
 #include "components/loads/rotating_frame.hpp"
 #include "components/materials/material_model.hpp"
+#include "components/rigid/prescribed_motion.hpp"
 #include "components/shapes/interpolator.hpp"
 #include "runtime/grid/patch_layout.hpp"
 
@@ -65,6 +66,13 @@ struct BodyAxis {
   Triple tail;
 };
 
+/// How a rigid body is driven.
+struct BodyDrive {
+  components::PrescribedMotion motion;
+  /// Turned by what it touches, or not at all.
+  bool turns = false;
+};
+
 struct SceneBody {
   std::string name;
   /// Place in Scene::materials.
@@ -76,6 +84,8 @@ struct SceneBody {
   Triple angular_velocity{0, 0, 0};
   /// Keeps its shape: its material gives it mass, but no stress, and is no other body's.
   bool rigid = false;
+  /// Of a rigid body; `velocity` is then the one it starts with.
+  std::optional<BodyDrive> drive{};
   /// Followed in reports.
   std::optional<BodyAxis> axis{};
   /// Sand that has settled in its place: see SettledSand.

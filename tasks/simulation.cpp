@@ -339,12 +339,12 @@ class SimulationOf : public Simulation
 
 }  // namespace
 
-std::vector<Eigen::Vector3d> Simulation::take_contact_forces()
+std::vector<ContactForce> Simulation::take_contact_forces()
 {
   const double span = time_ - contact_since_;
-  std::vector<Eigen::Vector3d> forces;
-  for (std::size_t m = 0; m < scene_.materials.size(); ++m) {
-    forces.push_back(span > 0 ? Eigen::Vector3d(contact_.by_group[m].linear / span) : Eigen::Vector3d::Zero());
+  std::vector<ContactForce> forces(scene_.materials.size());
+  for (std::size_t m = 0; m < forces.size() && span > 0; ++m) {
+    forces[m] = {contact_.by_group[m].linear / span, contact_.by_group[m].angular / span};
   }
   contact_ = {};
   contact_since_ = time_;

@@ -31,6 +31,12 @@ struct Rebalance {
   double imbalance_got = 0;
 };
 
+/// What contact does to a material: the force [N], and of a rigid body the torque about its centre of mass [N m].
+struct ContactForce {
+  Eigen::Vector3d force = Eigen::Vector3d::Zero();
+  Eigen::Vector3d torque = Eigen::Vector3d::Zero();
+};
+
 /// A scene in time. Made with all particles in place; each `advance` is one time step. Over several ranks every call is
 /// collective unless it says otherwise, and what it returns is the same on all of them.
 ///
@@ -59,9 +65,8 @@ class Simulation
   /// What the grid gave to the particles since the start [N s].
   const GridImpulse& impulse() const { return impulse_; }
 
-  /// Mean force of contact on each material since the last call, or the start [N]; not collective, but to be called by
-  /// all ranks alike.
-  std::vector<Eigen::Vector3d> take_contact_forces();
+  /// By material, the means since the last call, or the start; not collective, but to be called by all ranks alike.
+  std::vector<ContactForce> take_contact_forces();
 
   /// Bits that this rank tells all ranks with the next step; not collective. A rank without patches is not heard.
   void ask(unsigned requests) { requests_ |= requests; }

@@ -38,6 +38,8 @@ struct StepTotals {
   double plastic = 0;
   double viscous = 0;
   double contact = 0;
+  /// Work of what drives bodies, in this step [J].
+  double driving = 0;
   /// Of all materials.
   components::UpdateCounts updates;
   /// Of those that failed, the one with the lowest id in the first step that had any.
@@ -55,6 +57,7 @@ struct StepTotals {
     plastic += other.plastic;
     viscous += other.viscous;
     contact += other.contact;
+    driving += other.driving;
     updates.add(other.updates);
     if (other.failed.particle >= 0) note(other.failed);
   }

@@ -31,14 +31,20 @@ void RigidCoupling::combine(const RigidCoupling& other)
   right_side_ += other.right_side_;
 }
 
-RigidMotion RigidCoupling::solve(const MassProperties& body, const RigidState& free) const
+RigidMotion RigidCoupling::solve(const MassProperties& body, const RigidState& free, Held held) const
 {
+  if (held == Held::all) return motion_of(body, free);
   Matrix6 matrix = matrix_;
   matrix.topLeftCorner<3, 3>() += body.mass * Matrix3::Identity();
   matrix.bottomRightCorner<3, 3>() += inertia_now(body, free);
   Vector6 right_side = right_side_;
   right_side.head<3>() += free.momentum;
   right_side.tail<3>() += free.angular_momentum;
+  if (held == Held::translation) {
+    matrix.topRows<3>().setZero();
+    matrix.topLeftCorner<3, 3>() = body.mass * Matrix3::Identity();
+    right_side.head<3>() = free.momentum;
+  }
   // Scaled so that momenta and angular momenta pivot alike.
   const Vector6 scale = matrix.diagonal().cwiseSqrt().cwiseInverse();
   const Matrix6 scaled = scale.asDiagonal() * matrix * scale.asDiagonal();

@@ -26,6 +26,9 @@ struct NodeContact {
 NodeContact node_contact(double mass, const Vector3& normal, double friction, const Vector3& free,
                          const Vector3& velocity);
 
+/// What of a body's motion no contact can change, as it is driven.
+enum class Held { nothing, translation, all };
+
 /// Sums of all nodes' contact, from which the motion of the body after it follows.
 class RigidCoupling
 {
@@ -36,7 +39,7 @@ class RigidCoupling
 
   /// The motion of a body which has `free` momenta before contact: the one whose change of momentum is minus the sum of
   /// all J. Implicit in the body's own velocity, so that it holds however light the body is beside what it touches.
-  RigidMotion solve(const MassProperties& body, const RigidState& free) const;
+  RigidMotion solve(const MassProperties& body, const RigidState& free, Held held = Held::nothing) const;
 
  private:
   using Matrix6 = Eigen::Matrix<double, 6, 6>;

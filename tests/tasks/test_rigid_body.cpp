@@ -423,5 +423,5 @@ TEST_CASE("a rigid body that spins too fast to be followed is a failure of the s
   ContactImpulses::Impulse impulse;
   impulse.angular = {0, 1e12, 0};
 
-  CHECK_THROWS_AS(moved(body, {}, impulse, 0.1), SimulationError);
+  CHECK_THROWS_AS(moved(body, {}, impulse, components::Held::nothing, 0.1), SimulationError);
 }

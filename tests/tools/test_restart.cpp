@@ -105,6 +105,23 @@ TEST_CASE("a run that goes on, on other ranks and threads, ends with the bits of
   CHECK(read_text(run / "history.csv") == straight().history);
 }
 
+TEST_CASE("a driven body goes on from where it was, on other ranks too, with the bits of a straight run", "[mpiexec]")
+{
+  const TemporaryFolder folder;
+  const std::string cone = TAMP_SOURCE_DIR "/inputs/cone/quick.json --set /grid/cell_size=0.01 ";
+  const auto run = [&](const std::string& name) { return " --quiet --out " + (folder.path() / name).string(); };
+  const std::string restart = " --quiet --restart " + (folder.path() / "parted").string();
+
+  REQUIRE(tamp_with("run " + cone + "--steps 120" + run("straight")).exit_code == 0);
+  REQUIRE(tamp_with("run " + cone + "--steps 70 --checkpoint-steps 60" + run("parted")).exit_code == 0);
+  REQUIRE(tamp_on_ranks(2, "run " + cone + "--steps 120" + restart).exit_code == 0);
+
+  const auto parted = summary_of(folder.path() / "parted"), straight = summary_of(folder.path() / "straight");
+  CHECK(parted["restarted_at_step"] == 60);
+  CHECK(parted["state_digest"] == straight["state_digest"]);
+  CHECK(read_text(folder.path() / "parted/history.csv") == read_text(folder.path() / "straight/history.csv"));
+}
+
 TEST_CASE("a damaged checkpoint is refused with its reason, and the one before is used")
 {
   const TemporaryFolder folder;

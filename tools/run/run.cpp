@@ -87,8 +87,8 @@ struct Outputs {
   long fields = -1;
   runtime::CsvExtent rows;
   std::size_t n_fields = 0;
-  /// See RunHistory::given_by_gravity [J].
-  double given_by_gravity = 0;
+  /// See RunHistory::given_from_outside [J].
+  double given_from_outside = 0;
 };
 
 class Runner
@@ -183,7 +183,7 @@ class Runner
     warn(fields_->notice());
     due_.rows = history_.extent();
     due_.n_fields = fields_->n_steps();
-    history_.set_given_by_gravity(due_.given_by_gravity);
+    history_.set_given_from_outside(due_.given_from_outside);
     history_moment_.skip_to(simulation_->time());
     fields_moment_.skip_to(simulation_->time());
     checkpoint_clock_.skip_to(simulation_->time());
@@ -226,7 +226,7 @@ class Runner
       write_history();
       due_.history = simulation_->n_steps();
       due_.rows = history_.extent();
-      due_.given_by_gravity = history_.given_by_gravity();
+      due_.given_from_outside = history_.given_from_outside();
       expect_energy();
     }
     if (fields_moment_.due(simulation_->time())) {

@@ -122,6 +122,9 @@ std::vector<std::string> RunHistory::columns() const
     names.push_back(body + ".tilt[deg]");
     if (dimension == 3) add_vector(body + ".spin", "rad/s");
     add_vector(body + ".contact_force", "N");
+    if (scene.bodies[b].drive) {
+      dimension == 3 ? add_vector(body + ".contact_torque", "N m") : names.push_back(body + ".contact_torque[N m]");
+    }
     if (!scene.bodies[b].axis) continue;
     add_vector(body + ".nose", "m");
     add_vector(body + ".tail", "m");
@@ -148,14 +151,14 @@ void RunHistory::measure()
        totals.plastic,
        totals.viscous,
        totals.contact,
-       report_.gravity_work - initial_.gravity_work,
+       report_.gravity_work - initial_.gravity_work + totals.driving,
        0};
   e.total = e.kinetic + e.elastic + e.plastic + e.viscous + e.contact - e.external;
   const double largest =
       std::max({e.kinetic, std::abs(e.elastic), e.plastic, e.viscous, e.contact, std::abs(e.external)});
   const double energy_scale = initial_.kinetic > 0 ? initial_.kinetic : largest;
   energy_error_ = energy_scale > 0 ? std::abs(e.total - initial_.kinetic) / energy_scale : 0;
-  given_by_gravity_ = std::max(given_by_gravity_, std::abs(e.external));
+  given_from_outside_ = std::max(given_from_outside_, std::abs(e.external));
 
   double momentum_scale = 0;
   for (std::size_t b = 0; b < simulation_.scene().bodies.size(); ++b) {
@@ -171,7 +174,7 @@ std::string RunHistory::energy_problem(double limit) const
   const auto& frame = simulation_.scene().centrifuge;
   const bool is_balanced = lost_.count == 0 && !(frame && frame->is_unsteady());
   if (!std::isfinite(limit) || !is_balanced) return "";
-  const double given = initial_.kinetic + given_by_gravity_;
+  const double given = initial_.kinetic + given_from_outside_;
   const double error = std::abs(energies_.total - initial_.kinetic);
   if (error <= limit * given || error <= negligible_energy()) return "";
   return fmt::format(
@@ -211,7 +214,8 @@ double RunHistory::axis_angle(std::size_t body) const
   return portable::asin(-along[simulation_.scene().grid.dimension - 1] / along.norm()) * 180 / std::numbers::pi;
 }
 
-void RunHistory::add_body(std::size_t body, const std::vector<Eigen::Vector3d>& forces, std::vector<double>& row) const
+void RunHistory::add_body(std::size_t body, const std::vector<tasks::ContactForce>& forces,
+                          std::vector<double>& row) const
 {
   const int dimension = simulation_.scene().grid.dimension;
   const tasks::SceneBody& given = simulation_.scene().bodies[body];
@@ -222,7 +226,9 @@ void RunHistory::add_body(std::size_t body, const std::vector<Eigen::Vector3d>& 
   add(sums.momentum / sums.mass);
   row.push_back(sums.tilt(dimension) * 180 / std::numbers::pi);
   if (dimension == 3) add(sums.spin());
-  add(forces[static_cast<std::size_t>(given.material)]);
+  const tasks::ContactForce& contact = forces[static_cast<std::size_t>(given.material)];
+  add(contact.force);
+  if (given.drive) dimension == 3 ? add(contact.torque) : row.push_back(contact.torque.z());
   if (given.axis) {
     add(sums.place_of(Eigen::Vector3d(given.axis->nose.data())));
     add(sums.place_of(Eigen::Vector3d(given.axis->tail.data())));
@@ -257,7 +263,7 @@ void RunHistory::write_row()
                           e.total};
   const Eigen::Vector3d momentum = report_.momentum();
   for (int k = 0; k < simulation_.scene().grid.dimension; ++k) row.push_back(momentum[k]);
-  const std::vector<Eigen::Vector3d> forces = simulation_.take_contact_forces();
+  const std::vector<tasks::ContactForce> forces = simulation_.take_contact_forces();
   for (const std::size_t b : tracked_) add_body(b, forces, row);
   const std::size_t n_materials = simulation_.scene().materials.size();
   for (std::size_t m = 0; m < n_materials; ++m) add_peaks(m, report_.materials[m], row);

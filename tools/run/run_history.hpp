@@ -49,8 +49,8 @@ class RunHistory
   /// a centrifuge speeds up, the balance is not known, and nothing is said.
   std::string energy_problem(double limit) const;
   /// The largest work of gravity so far, without its sign [J]; a run that goes on has that of the run before.
-  double given_by_gravity() const { return given_by_gravity_; }
-  void set_given_by_gravity(double given) { given_by_gravity_ = given; }
+  double given_from_outside() const { return given_from_outside_; }
+  void set_given_from_outside(double given) { given_from_outside_ = given; }
   double momentum_error() const { return momentum_error_; }
   const EnergyBalance& energies() const { return energies_; }
   const tasks::ParticleReport& report() const { return report_; }
@@ -70,7 +70,7 @@ class RunHistory
   /// That of all mass at a millionth of the fastest wave's speed, as what is at rest has no other energy to compare
   /// with, and what half a step of free fall makes [J].
   double negligible_energy() const;
-  void add_body(std::size_t body, const std::vector<Eigen::Vector3d>& forces, std::vector<double>& row) const;
+  void add_body(std::size_t body, const std::vector<tasks::ContactForce>& forces, std::vector<double>& row) const;
   void add_peaks(std::size_t material, const tasks::MaterialPeaks& peaks, std::vector<double>& row) const;
 
   tasks::Simulation& simulation_;
@@ -80,7 +80,7 @@ class RunHistory
   tasks::NoseReport near_noses_;
   tasks::LostParticles lost_;
   EnergyBalance energies_{};
-  double given_by_gravity_ = 0;
+  double given_from_outside_ = 0;
   double energy_error_ = 0;
   double momentum_error_ = 0;
   /// On the first rank only.

@@ -69,13 +69,15 @@ bool share_a_node(const tasks::Scene& scene, const tasks::SceneBody& body, const
 template <int D>
 void check_rigid(const tasks::Scene& scene, const tasks::SceneBody& body, const JsonReader& bodies)
 {
+  const auto touchable = tasks::touchable_faces(scene, body);
   const auto is_off_edges = [&](const Vector<D>& x) {
-    return tasks::is_off_edges<D>(scene.grid, scene.reach_of(body.material), x);
+    return tasks::is_off_edges<D>(scene.grid, scene.reach_of(body.material), touchable, x);
   };
   const auto places = sites<D>(scene, body);
   if (!std::all_of(places.begin(), places.end(), is_off_edges)) {
     bodies.add_problem(body.name, "rigid, and less than a cell from the edge of the grid",
-                       "expected all nodes that it reaches to lie within the grid");
+                       "expected all nodes that it reaches to lie within the grid, but for \"symmetry\" faces along "
+                       "which it is driven without turning");
   }
   for (const tasks::SceneBody& other : scene.bodies) {
     if (&other == &body) continue;

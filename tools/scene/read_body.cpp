@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "components/errors.hpp"
+#include "tasks/method.hpp"
 #include "tasks/settled_sand.hpp"
 #include "tools/machine_room.hpp"
 #include "tools/scene/body_sites.hpp"
@@ -115,14 +116,80 @@ bool has_room_for(const components::Solid<D>& solid, const tasks::Scene& scene, 
   return false;
 }
 
+/// A table of times and vectors.
+template <int D>
+std::vector<components::PrescribedMotion::Point> read_points(JsonReader& reader, const std::string& key)
+{
+  std::vector<components::PrescribedMotion::Point> points;
+  for (const std::vector<double>& row : reader.rows(key, D + 1)) {
+    points.push_back({row[0], tasks::in_space<D>(Eigen::Map<const Vector<D>>(row.data() + 1))});
+  }
+  return points;
+}
+
+/// One of the keys by which the motion of a driven body is given.
+template <int D>
+std::optional<components::PrescribedMotion> read_motion(JsonReader& reader)
+{
+  const std::size_t n_before = reader.document().problems.size();
+  const std::vector<std::string> keys{"velocity", "velocities", "displacements"};
+  for (const std::string& key : keys) reader.allow(key);
+  const auto key = std::find_if(keys.begin(), keys.end(), [&](const std::string& k) { return reader.has(k); });
+  const auto n_given = std::count_if(keys.begin(), keys.end(), [&](const std::string& k) { return reader.has(k); });
+  if (n_given != 1) {
+    reader.add_problem(n_given == 0 ? keys.front() : *key, fmt::format("{} of the keys for it", n_given),
+                       "expected one of velocity, velocities and displacements");
+    return std::nullopt;
+  }
+  std::vector<components::PrescribedMotion::Point> points;
+  if (*key == "velocity") {
+    points.push_back({0, tasks::in_space<D>(point<D>(reader, *key))});
+  } else {
+    points = read_points<D>(reader, *key);
+  }
+  if (reader.document().problems.size() > n_before) return std::nullopt;
+  try {
+    return *key == "displacements" ? components::PrescribedMotion::of_displacements(points)
+                                   : components::PrescribedMotion::of_velocities(points);
+  } catch (const components::BadValue& bad) {
+    reader.add_problem(*key, bad.found, "expected " + bad.expected);
+    return std::nullopt;
+  }
+}
+
+/// The object "driven" of a rigid body.
+template <int D>
+std::optional<tasks::BodyDrive> read_drive(JsonReader& body, bool rigid)
+{
+  auto reader = body.optional_object("driven");
+  if (!reader) return std::nullopt;
+  auto motion = read_motion<D>(*reader);
+  const bool turns = reader->choice("rotation", {"held", "free"}, true) == "free";
+  reader->finish();
+  if (!rigid) body.add_problem("driven", "a body that is not rigid", "expected a rigid one");
+  for (const std::string key : {"velocity", "angular_velocity"}) {
+    body.allow(key);
+    const bool is_allowed = turns && key == "angular_velocity";
+    if (body.has(key) && !is_allowed) {
+      body.add_problem(key, "a driven body's", "expected the motion under the key driven alone");
+    }
+  }
+  if (!motion) return std::nullopt;
+  return tasks::BodyDrive{std::move(*motion), turns};
+}
+
 template <int D>
 std::optional<tasks::SceneBody> read(const std::string& name, JsonReader& reader, const tasks::Scene& scene,
                                      const std::vector<std::string>& material_names, bool grid_is_good)
 {
   const std::string material = reader.choice("material", material_names);
-  const std::vector<double> velocity = reader.numbers("velocity", D, any_number, 0);
-  const std::vector<double> spin = reader.numbers("angular_velocity", D == 3 ? 3 : 1, any_number, 0);
   const bool rigid = reader.flag("rigid", false);
+  auto drive = read_drive<D>(reader, rigid);
+  const bool may_move = !reader.has("driven"), may_turn = may_move || (drive && drive->turns);
+  const std::vector<double> velocity =
+      may_move ? reader.numbers("velocity", D, any_number, 0) : std::vector<double>(D, 0.0);
+  const std::vector<double> spin =
+      may_turn ? reader.numbers("angular_velocity", D == 3 ? 3 : 1, any_number, 0) : std::vector<double>{0};
   const auto axis = read_axis<D>(reader);
   const auto solid = read_solid<D>(reader, "geometry");
   const bool initial_stress = reader.flag("initial_stress", false);
@@ -153,6 +220,11 @@ std::optional<tasks::SceneBody> read(const std::string& name, JsonReader& reader
   std::copy(velocity.begin(), velocity.end(), body.velocity.begin());
   std::copy(spin.begin(), spin.end(), body.angular_velocity.end() - static_cast<std::ptrdiff_t>(spin.size()));
   body.rigid = rigid;
+  if (drive) {
+    const Vector<3> at_start = drive->motion.velocity(0);
+    std::copy(at_start.begin(), at_start.end(), body.velocity.begin());
+    body.drive = std::move(drive);
+  }
   body.axis = axis;
   body.initial_stress = initial_stress;
   if (axis) check_axis<D>(*axis, *solid, scene.grid.cell_size / scene.particles_per_axis_of(number), reader);

@@ -205,8 +205,7 @@ TEST_CASE("rigid bodies whose contact nothing could tell are told")
   {
     CHECK(problems("/bodies/block/geometry/lower=[0,2]") ==
           "--set#/bodies/block: rigid, and less than a cell from the edge of the grid; expected all nodes that it "
-          "reaches "
-          "to lie within the grid");
+          "reaches to lie within the grid, but for \"symmetry\" faces along which it is driven without turning");
   }
   SECTION("beside another")
   {
@@ -222,6 +221,52 @@ TEST_CASE("rigid bodies whose contact nothing could tell are told")
     scene.push_back(other(4));
     CHECK(problems(R"(/bodies/other/material="iron")") == "");
   }
+}
+
+TEST_CASE("a driven body is rigid, is driven in one way, and starts as it is driven")
+{
+  const std::string driven = "/bodies/block/driven", block = "--set#/bodies/block";
+  const auto problems = [&](const std::string& how, const std::string& more = "/title=driven") {
+    return problems_with({"/grid/upper=[9,9]", "/bodies/block/rigid=true", "/bodies/block/geometry/lower=[2,2]",
+                          "/bodies/block/geometry/upper=[3,3]", driven + "=" + how, more});
+  };
+  CHECK(problems(R"({"velocity":[0,-1]})") == "");
+  CHECK(problems(R"({"velocities":[[0,0,0],[1,0,-1]],"rotation":"free"})", "/bodies/block/angular_velocity=[1]") == "");
+  CHECK(problems(R"({"displacements":[[0,0,0],[1,0,-1]]})") == "");
+
+  CHECK(problems(R"({"velocity":[0,-1]})", "/bodies/block/rigid=false") ==
+        block + "/driven: a body that is not rigid; expected a rigid one");
+  CHECK(problems("{}") ==
+        block + "/driven/velocity: 0 of the keys for it; expected one of velocity, velocities and displacements");
+  CHECK(problems(R"({"velocity":[0,-1],"displacements":[[0,0,0],[1,0,-1]]})") ==
+        block + "/driven/velocity: 2 of the keys for it; expected one of velocity, velocities and displacements");
+  CHECK(problems(R"({"velocity":[0]})") == block + "/driven/velocity: [0]; expected 2 numbers");
+  CHECK_THAT(problems(R"({"velocities":[[0,-1]]})"), Catch::Contains("expected a list of lists of 3 numbers"));
+  CHECK(problems(R"({"velocities":[[1,0,0],[1,0,-1]]})") ==
+        block + "/driven/velocities: 1.000000 s after 1.000000 s; expected times that ascend");
+  CHECK(problems(R"({"displacements":[[0,0,1],[1,0,-1]]})") ==
+        block + "/driven/displacements: a first displacement that is not 0; expected the body to start where it is");
+  CHECK(problems(R"({"velocity":[0,-1],"rotation":"loose"})") ==
+        block + "/driven/rotation: \"loose\"; expected one of held, free");
+  CHECK(problems(R"({"velocity":[0,-1]})", "/bodies/block/velocity=[0,-1]") ==
+        block + "/velocity: a driven body's; expected the motion under the key driven alone");
+  CHECK(problems(R"({"velocity":[0,-1]})", "/bodies/block/angular_velocity=[1]") ==
+        block + "/angular_velocity: a driven body's; expected the motion under the key driven alone");
+}
+
+TEST_CASE("a driven body may lie against a mirror along which it goes without turning, and against no other face")
+{
+  const auto problems = [](const std::string& how, const std::string& face = "symmetry") {
+    return problems_with({"/grid/upper=[9,9]", "/bodies/block/rigid=true", "/bodies/block/geometry/lower=[0,2]",
+                          "/bodies/block/geometry/upper=[1,3]", "/boundaries/x-=" + face,
+                          "/bodies/block/driven=" + how});
+  };
+  const auto is_refused = Catch::Contains("#/bodies/block: rigid, and less than a cell from the edge");
+
+  CHECK(problems(R"({"velocity":[0,-1]})") == "");
+  CHECK_THAT(problems(R"({"velocity":[1,-1]})"), is_refused);
+  CHECK_THAT(problems(R"({"velocity":[0,-1],"rotation":"free"})"), is_refused);
+  CHECK_THAT(problems(R"({"velocity":[0,-1]})", "open"), is_refused);
 }
 
 TEST_CASE("what a rigid body is given of a wrong type is told with what was found")
