@@ -78,7 +78,7 @@ struct Method {
   Vector<D> gravity;
   /// In three dimensions only.
   std::optional<components::RotatingFrame> centrifuge;
-  /// Faces of the domain that mirror, as [axis][side]: side 0 is the lower.
+  /// Faces of the domain that are walls, as [axis][side]: side 0 is the lower. Behind each is a mirror image.
   std::array<std::array<bool, 2>, std::size_t{D}> mirrors;
   std::optional<components::ArtificialViscosity> viscosity;
   StepRule time_step_rule;

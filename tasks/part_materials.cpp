@@ -17,7 +17,6 @@ using components::EdgeSums;
 using components::NodeMotion;
 using components::NodeSums;
 using components::RegressionSums;
-using components::SymmetryWall;
 using runtime::GridView;
 using runtime::Index;
 using runtime::PerGroup;
@@ -66,8 +65,8 @@ template <int D>
 void mirror(const Method<D>& method, const TaskContext& at, const PerGroup<GridView<ContactPlane<D>>>& planes)
 {
   for (const GridView<ContactPlane<D>>& plane : planes) {
-    for_each_wall(method, at, plane.box(),
-                  [&](const SymmetryWall<D>& wall) { wall.constrain_and_mirror(plane.data()); });
+    for_each_wall(method, at, plane.box(), [&](const Wall<D>& wall) { wall.image.constrain(plane.data()); });
+    for_each_wall(method, at, plane.box(), [&](const Wall<D>& wall) { wall.image.mirror(plane.data()); });
   }
 }
 
@@ -120,7 +119,7 @@ runtime::TaskDeclaration sum_at_planes(const Method<D>& method, std::string name
         if (!any_starts(planes)) return;
         add(method.interpolation(at.group), block_of<D>(at.layout, planes), data[particle::position<D>.previous()],
             planes.data(), sums.data());
-        for_each_wall(method, at, sums.box(), [&](const SymmetryWall<D>& wall) { wall.fold(sums.data()); });
+        for_each_wall(method, at, sums.box(), [&](const Wall<D>& wall) { wall.image.fold(sums.data()); });
       });
 }
 

@@ -6,8 +6,27 @@
 namespace tamp::tasks
 {
 
-using components::SymmetryWall;
+using components::NodeSums;
+using runtime::GridView;
+using runtime::Index;
 using runtime::TaskContext;
+
+namespace
+{
+
+template <int D>
+void fold(const Wall<D>& wall, const TaskContext& at, const GridView<NodeSums<D>>& sums)
+{
+  if (!wall.keeps_normal_push()) return wall.image.fold(sums.data());
+  wall.image.add_image(sums.data());
+  for_each_wall_node(wall, at.layout.grid(), sums.box(), [&](const Index& i) {
+    Vector<D> gradient = sums[i].surface_gradient();
+    gradient[wall.axis] = 0;
+    sums[i].set_surface_gradient(gradient);
+  });
+}
+
+}  // namespace
 
 template <int D>
 runtime::TaskDeclaration particles_to_grid(const Method<D>& method)
@@ -34,8 +53,8 @@ runtime::TaskDeclaration particles_to_grid(const Method<D>& method)
       interpolation.add_gradient_momentum(block, sources.position, sources.mass,
                                           data[particle::velocity_gradient<D>.previous()], sums.data());
     }
-    // The image behind a mirror gives to the grid as the particles do.
-    for_each_wall(method, at, sums.box(), [&](const SymmetryWall<D>& wall) { wall.fold(sums.data()); });
+    // The image behind a wall gives to the grid as the particles do.
+    for_each_wall(method, at, sums.box(), [&](const Wall<D>& wall) { fold(wall, at, sums); });
   };
   if (method.transfer == Transfer::flip) return std::move(task).body(body);
   return std::move(task).reads(particle::velocity_gradient<D>.previous()).body(body);

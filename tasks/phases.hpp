@@ -42,9 +42,9 @@ runtime::TaskDeclaration rigid_nodes_after_contact(const Method<D>& method);
 template <int D>
 runtime::TaskDeclaration contact(const Method<D>& method);
 
-/// Nothing crosses a mirroring face of the domain.
+/// Nothing crosses a wall of the domain.
 template <int D>
-runtime::TaskDeclaration symmetry_walls(const Method<D>& method);
+runtime::TaskDeclaration walls(const Method<D>& method);
 
 /// Rigid bodies take what contact gave them, and move.
 template <int D>

@@ -26,7 +26,8 @@ namespace tamp::tasks
 using Triple = std::array<double, 3>;
 
 /// `symmetry`: the material has its mirror image beyond the face, a smooth wall. `open`: what crosses the face leaves.
-enum class Face { symmetry, open };
+/// `friction`: a wall that may be left, with Coulomb's friction. `no_slip`: a wall to which what touches it sticks.
+enum class Face { symmetry, open, friction, no_slip };
 
 /// How the time step is bounded, see components/loads/time_step.hpp.
 enum class StepRule { published, viscous };
@@ -131,6 +132,8 @@ struct Scene {
   runtime::Index n_patches;
   /// faces[axis][0] is the lower one, faces[axis][1] the upper one.
   std::array<std::array<Face, 2>, 3> faces{};
+  /// Coefficients of the faces with friction.
+  std::array<std::array<double, 2>, 3> wall_friction{};
   SceneTime time;
   Interpolator interpolator = Interpolator::gimp;
   Transfer transfer = Transfer::flip;

@@ -44,8 +44,8 @@ LayerColumn column_of(const Scene& scene, int particles_per_axis, const std::vec
   std::sort(layers.begin(), layers.end());
   layers.erase(std::unique(layers.begin(), layers.end()), layers.end());
   const double reach = 0.75 * column.spacing;
-  column.lower_wall = scene.faces[k][0] == Face::symmetry && layers.front() - grid.coordinate(axis, 0) < reach;
-  column.upper_wall = scene.faces[k][1] == Face::symmetry && grid.coordinate(axis, n_cells) - layers.back() < reach;
+  column.lower_wall = scene.faces[k][0] != Face::open && layers.front() - grid.coordinate(axis, 0) < reach;
+  column.upper_wall = scene.faces[k][1] != Face::open && grid.coordinate(axis, n_cells) - layers.back() < reach;
   return column;
 }
 
@@ -69,7 +69,7 @@ std::size_t vertical_axis(const std::array<LayerColumn, std::size_t{D}>& columns
   std::string axes;
   for (const std::size_t k : open) axes += "xyz"[k];
   throw BadValue(open.empty() ? "a body between walls along every axis" : "a body not between walls along " + axes,
-                 "sides and floor on symmetry faces, and one free face");
+                 "sides and floor on walls, and one free face");
 }
 
 /// The component along each axis of gravity and what rest in the turning frame feels.

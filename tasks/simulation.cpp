@@ -288,7 +288,9 @@ class SimulationOf : public Simulation
     totals_.stable_step = std::numeric_limits<double>::infinity();
     totals_.combine(step);
     asked_ = engine_->warehouse().result(host_requests).bits;
-    impulse_.combine(engine_->warehouse().result(grid_impulse));
+    const GridImpulse& impulse = engine_->warehouse().result(grid_impulse);
+    impulse_.combine(impulse);
+    totals_.contact += impulse.taken_by_walls;
     contact_.combine(engine_->warehouse().result(contact_impulses));
   }
 

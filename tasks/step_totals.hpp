@@ -67,10 +67,13 @@ struct StepTotals {
 /// cancel.
 struct GridImpulse {
   std::array<double, 3> value{0, 0, 0};
+  /// The energy that walls take by friction and by stopping what runs into them [J].
+  double taken_by_walls = 0;
 
   void combine(const GridImpulse& other)
   {
     for (std::size_t k = 0; k < 3; ++k) value[k] += other.value[k];
+    taken_by_walls += other.taken_by_walls;
   }
 };
 

@@ -53,7 +53,7 @@ std::vector<runtime::TaskDeclaration> time_step(const Method<D>& method,
     step.push_back(rigid_nodes_after_contact(method));
   }
   step.push_back(contact(method));
-  step.push_back(symmetry_walls(method));
+  step.push_back(walls(method));
   if (!method.rigid_bodies.empty()) step.push_back(move_rigid_bodies(method));
   for (const RigidBody& body : method.rigid_bodies) step.push_back(move_rigid_particles(method, body.group));
   if (!method.deformable_groups.empty()) step.push_back(grid_to_particles(method));

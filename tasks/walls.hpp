@@ -6,23 +6,48 @@
 namespace tamp::tasks
 {
 
-/// Calls `visit(wall)` for every mirroring face of the domain that the patch of `at` touches. `box` is the block
-/// of nodes to work on, with its halo layer outside of the wall.
+/// A wall of the domain: where it lies, and what it does to what touches it.
+template <int D>
+struct Wall {
+  Face face;
+  double friction;
+  int axis;
+  int outside;  ///< -1 or +1
+  components::SymmetryWall<D> image;
+
+  bool keeps_normal_push() const { return face == Face::friction; }
+};
+
+/// Calls `visit(wall)` for every wall of the domain that the patch of `at` touches. `box` is the block of nodes to work
+/// on, with its halo layer outside of the wall.
 template <int D, class Visit>
 void for_each_wall(const Method<D>& method, const runtime::TaskContext& at, const runtime::IndexBox& box, Visit&& visit)
 {
   std::array<int, std::size_t{D}> n_nodes;
   for (std::size_t k = 0; k < D; ++k) n_nodes[k] = box.extent(static_cast<int>(k));
   for (std::size_t k = 0; k < D; ++k) {
-    const int axis = static_cast<int>(k);
-    if (method.mirrors[k][0] && at.patch.cells.lower[k] == 0) {
-      visit(components::SymmetryWall<D>(n_nodes, axis, -box.lower[k], -1));
-    }
-    const int last = at.layout.grid().n_cells[k];
-    if (method.mirrors[k][1] && at.patch.cells.upper[k] == last) {
-      visit(components::SymmetryWall<D>(n_nodes, axis, last - box.lower[k], +1));
+    const std::array<int, 2> at_edge{0, at.layout.grid().n_cells[k]};
+    const std::array<int, 2> of_patch{at.patch.cells.lower[k], at.patch.cells.upper[k]};
+    for (std::size_t side = 0; side < 2; ++side) {
+      if (!method.mirrors[k][side] || of_patch[side] != at_edge[side]) continue;
+      const int axis = static_cast<int>(k), outside = side == 0 ? -1 : 1;
+      visit(Wall<D>{method.scene.faces[k][side],
+                    method.scene.wall_friction[k][side],
+                    axis,
+                    outside,
+                    {n_nodes, axis, at_edge[side] - box.lower[k], outside}});
     }
   }
+}
+
+/// Calls `visit(node)` for the nodes of `box` on the wall.
+template <int D, class Visit>
+void for_each_wall_node(const Wall<D>& wall, const runtime::Grid& grid, runtime::IndexBox box, Visit&& visit)
+{
+  const auto k = static_cast<std::size_t>(wall.axis);
+  box.lower[k] = wall.outside < 0 ? 0 : grid.n_cells[k];
+  box.upper[k] = box.lower[k] + 1;
+  for_each(box, visit);
 }
 
 /// The nodes that this patch counts in sums over all: its own, and those beyond an open face that particles still

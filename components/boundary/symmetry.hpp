@@ -30,21 +30,29 @@ class SymmetryWall
   template <class Value>
   void fold(Value* field) const
   {
-    for_each_node([&](std::size_t wall, std::size_t ghost, std::size_t inside) {
-      field[wall].hold_on_mirror(axis_);
-      field[inside] += field[ghost].mirrored(axis_);
-    });
+    add_image(field);
+    constrain(field);
+  }
+  /// The same, but the normal components on the wall stay those that the inside gave.
+  template <class Value>
+  void add_image(Value* field) const
+  {
+    for_each_node(
+        [&](std::size_t, std::size_t ghost, std::size_t inside) { field[inside] += field[ghost].mirrored(axis_); });
   }
 
-  /// Takes the normal components away on the wall, so that nothing crosses it, and writes to each ghost the mirrored
-  /// value of its mirror node.
+  /// Takes the normal components away on the wall, so that nothing crosses it.
   template <class Value>
-  void constrain_and_mirror(Value* field) const
+  void constrain(Value* field) const
   {
-    for_each_node([&](std::size_t wall, std::size_t ghost, std::size_t inside) {
-      field[wall].hold_on_mirror(axis_);
-      field[ghost] = field[inside].mirrored(axis_);
-    });
+    for_each_node([&](std::size_t wall, std::size_t, std::size_t) { field[wall].hold_on_mirror(axis_); });
+  }
+  /// Writes to each ghost the mirrored value of its mirror node. After walls of all axes are constrained.
+  template <class Value>
+  void mirror(Value* field) const
+  {
+    for_each_node(
+        [&](std::size_t, std::size_t ghost, std::size_t inside) { field[ghost] = field[inside].mirrored(axis_); });
   }
 
  private:

@@ -66,7 +66,7 @@ TEST_CASE("the grid phases pass over patches that no particle is near", "[ranks]
   simulation->advance(1);
 
   const runtime::Profile profile = simulation->profile();
-  for (const char* name : {"particles to grid", "accelerate nodes", "contact", "symmetry walls", "grid to particles"}) {
+  for (const char* name : {"particles to grid", "accelerate nodes", "contact", "walls", "grid to particles"}) {
     const auto task = std::find_if(profile.tasks.begin(), profile.tasks.end(),
                                    [&](const runtime::TaskStatistics& t) { return t.name == name; });
     REQUIRE(task != profile.tasks.end());

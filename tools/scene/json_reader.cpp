@@ -209,6 +209,12 @@ std::string JsonReader::text(const std::string& key, const std::string& default_
   return default_value;
 }
 
+bool JsonReader::is_object(const std::string& key)
+{
+  const Json* value = find(key);
+  return value != nullptr && value->is_object();
+}
+
 bool JsonReader::is_text(const std::string& key, const std::string& word)
 {
   const Json* value = find(key);

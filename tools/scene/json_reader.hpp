@@ -43,6 +43,8 @@ class JsonReader
   std::vector<std::vector<double>> rows(const std::string& key, std::size_t n);
   std::vector<int> integers(const std::string& key, std::size_t n, int least, int default_value);
   bool flag(const std::string& key, bool default_value);
+  /// Whether an object stands there, which `object` then reads.
+  bool is_object(const std::string& key);
   /// Whether this word stands there instead of what the key usually has.
   bool is_text(const std::string& key, const std::string& word);
   std::string text(const std::string& key, const std::string& default_value);

@@ -126,8 +126,17 @@ class SceneReader
     for (std::size_t axis = 0; axis < dimension(); ++axis) {
       for (std::size_t side = 0; side < 2; ++side) {
         const std::string key{"xyz"[axis], "-+"[side]};
-        const std::string kind = reader.choice(key, {"symmetry", "open"}, true);
-        scene_.faces[axis][side] = kind == "open" ? tasks::Face::open : tasks::Face::symmetry;
+        if (reader.is_object(key)) {
+          JsonReader wall = reader.object(key);
+          scene_.faces[axis][side] = tasks::Face::friction;
+          scene_.wall_friction[axis][side] = wall.number("friction", zero_or_above);
+          wall.finish();
+        } else {
+          const std::string kind = reader.choice(key, {"symmetry", "open", "no_slip"}, true);
+          scene_.faces[axis][side] = kind == "open"      ? tasks::Face::open
+                                     : kind == "no_slip" ? tasks::Face::no_slip
+                                                         : tasks::Face::symmetry;
+        }
       }
     }
     reader.finish();
@@ -180,6 +189,10 @@ class SceneReader
     }
     auto reader = root_.optional_object("centrifuge");
     if (!reader) return;
+    for (const auto& axis : scene_.faces) {
+      if (std::find(axis.begin(), axis.end(), tasks::Face::friction) == axis.end()) continue;
+      root_.add_problem("centrifuge", "a wall with friction", "expected other boundaries where the grid turns");
+    }
     const std::size_t n_before = document_.problems.size();
     const double speed = reader->number("angular_speed", zero_or_above, "rad/s");
     const tasks::Triple axis = triple(reader->numbers("axis", 3, any_number));

@@ -145,8 +145,8 @@ TEST_CASE("a body that cannot have settled is told why")
   CHECK(problems_with({"/bodies/block/initial_stress=true"}) ==
         "--set#/bodies/block/initial_stress: material \"steel\"; expected a material of type tabular_cap");
   CHECK(problems_with_sand({"/bodies/block/material=sand", "/bodies/block/initial_stress=true"}) ==
-        "--set#/bodies/block/initial_stress: a body not between walls along xy; expected sides and floor on symmetry "
-        "faces, and one free face");
+        "--set#/bodies/block/initial_stress: a body not between walls along xy; expected sides and floor on walls, and "
+        "one free face");
   CHECK_THAT(problems_with_sand({"/bodies/block/material=sand", "/bodies/block/initial_stress=true",
                                  "/bodies/block/geometry/upper=[2,1]", "/gravity=[0,1e7]"}),
              Catch::StartsWith("--set#/bodies/block/initial_stress: q = ") &&
@@ -269,6 +269,19 @@ TEST_CASE("a driven body may lie against a mirror along which it goes without tu
   CHECK_THAT(problems(R"({"velocity":[0,-1]})", "open"), is_refused);
 }
 
+TEST_CASE("a wall has a word or a coefficient of friction, which no turning grid has")
+{
+  CHECK(problems_with({R"(/boundaries/y-="no_slip")"}) == "");
+  CHECK(problems_with({R"(/boundaries/y-={"friction":0.4})"}) == "");
+  CHECK(problems_with({R"(/boundaries/y-="rough")"}) ==
+        "--set#/boundaries/y-: \"rough\"; expected one of symmetry, open, no_slip");
+  CHECK_THAT(problems_with({R"(/boundaries/y-={"friction":-0.4})"}),
+             Catch::StartsWith("--set#/boundaries/y-/friction: -0.4; expected a number"));
+  CHECK_THAT(problems_with({R"(/boundaries/y-={})"}), Catch::Contains("#/boundaries/y-/friction: missing"));
+  CHECK_THAT(problems_with({R"(/boundaries/y-={"friction":0.4,"slip":1})"}),
+             Catch::Contains("#/boundaries/y-/slip: unknown key"));
+}
+
 TEST_CASE("what a rigid body is given of a wrong type is told with what was found")
 {
   CHECK(problems_with({"/bodies/block/rigid=1"}) == "--set#/bodies/block/rigid: 1; expected true or false");
@@ -361,7 +374,8 @@ TEST_CASE("a name that is none of the choices is told with the choices")
   CHECK(problems_with({"/interpolator=linear"}) ==
         "--set#/interpolator: \"linear\"; expected one of gimp, quadratic_spline");
   CHECK(problems_with({"/transfer=apic"}) == "--set#/transfer: \"apic\"; expected one of flip, affine");
-  CHECK(problems_with({"/boundaries/x-=wall"}) == "--set#/boundaries/x-: \"wall\"; expected one of symmetry, open");
+  CHECK(problems_with({"/boundaries/x-=wall"}) ==
+        "--set#/boundaries/x-: \"wall\"; expected one of symmetry, open, no_slip");
   CHECK(problems_with({"/bodies/block/material=stel"}) ==
         "--set#/bodies/block/material: \"stel\"; expected steel, did you mean \"steel\"?");
 }

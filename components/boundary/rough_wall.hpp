@@ -1,0 +1,23 @@
+#pragma once
+
+#include "components/tensors.hpp"
+
+namespace tamp::components
+{
+
+/// What a wall with Coulomb's friction leaves of the velocity of a node on it [m/s]. The wall is normal to `axis`, and
+/// lies on the side `outside`, -1 or +1. What runs into it is stopped, and along it loses at most friction times as
+/// much; what leaves it is free.
+template <int D>
+Vector<D> velocity_on_rough_wall(const Vector<D>& velocity, int axis, int outside, double friction)
+{
+  const double approach = outside * velocity[axis];
+  if (!(approach > 0)) return velocity;
+  Vector<D> along = velocity;
+  along[axis] = 0;
+  const double speed = along.norm();
+  if (speed <= friction * approach) return Vector<D>::Zero();
+  return (1 - friction * approach / speed) * along;
+}
+
+}  // namespace tamp::components

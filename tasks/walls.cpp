@@ -1,0 +1,99 @@
+#include "tasks/walls.hpp"
+
+#include "components/boundary/rough_wall.hpp"
+#include "tasks/labels.hpp"
+#include "tasks/phases.hpp"
+
+namespace tamp::tasks
+{
+
+using components::NodeMotion;
+using components::NodeSums;
+using runtime::GridView;
+using runtime::Index;
+using runtime::PerGroup;
+using runtime::TaskContext;
+
+namespace
+{
+
+/// What the particles of one group take from the nodes that this patch counts. Nodes inside a mirror also hold the
+/// mass of the image, whose normal momentum is opposite: it is taken off again.
+template <int D>
+void add_impulse(const Method<D>& method, const TaskContext& at, const GridView<const NodeSums<D>>& sums,
+                 const GridView<NodeMotion<D>>& motion, GridImpulse& impulse)
+{
+  for_each(counted_nodes(method, at), [&](const Index& i) {
+    const Vector<D> change = motion[i].velocity_change();
+    for (std::size_t k = 0; k < std::size_t{D}; ++k) {
+      double mass = sums[i].mass();
+      for (const int side : {0, 1}) {
+        const int wall = side == 0 ? 0 : at.layout.grid().n_cells[k];
+        const int outside = side == 0 ? -1 : 1;
+        if (!method.mirrors[k][static_cast<std::size_t>(side)] || i[k] != wall - outside) continue;
+        Index ghost = i;
+        ghost[k] = wall + outside;
+        mass -= 2 * sums[ghost].mass();
+      }
+      impulse.value[k] += mass * change[static_cast<int>(k)];
+    }
+  });
+}
+
+/// What a wall that is no mirror leaves of the motion of its nodes, and the energy that this takes: each impulse times
+/// the mean of the velocities before and after the step, as the energies of leapfrog are counted.
+template <int D>
+void hold(const Method<D>& method, const TaskContext& at, const Wall<D>& wall, const GridView<const NodeSums<D>>& sums,
+          const GridView<NodeMotion<D>>& motion, GridImpulse& totals)
+{
+  const runtime::IndexBox counted = counted_nodes(method, at);
+  for_each_wall_node(wall, at.layout.grid(), motion.box(), [&](const Index& i) {
+    const double mass = sums[i].mass();
+    if (!(mass > method.least_node_mass)) return;
+    const Vector<D> arriving = motion[i].velocity();
+    Vector<D> left = Vector<D>::Zero();
+    if (wall.face == Face::friction) {
+      left = components::velocity_on_rough_wall<D>(arriving, wall.axis, wall.outside, wall.friction);
+    }
+    motion[i].set(left, motion[i].velocity_change() + left - arriving);
+    const Vector<D> at_start = sums[i].momentum() / mass;
+    if (counted.contains(i)) totals.taken_by_walls += 0.5 * mass * (arriving - left).dot(at_start + left);
+  });
+}
+
+}  // namespace
+
+/// The image of a particle takes as much normal momentum to the nodes of the wall as the particle brings: there the
+/// normal velocity is zero before and after the step, and the nodes behind the wall mirror those before it. A wall with
+/// friction pushes back what runs into its nodes, and no more than friction times that push along it; one without slip
+/// stops them.
+template <int D>
+runtime::TaskDeclaration walls(const Method<D>& method)
+{
+  return runtime::task("walls")
+      .over_patches()
+      .sparse()
+      .reads(node::sums<D>.halo(method.halo).every_group())
+      .updates(node::motion<D>.halo(method.halo).every_group())
+      .reduces(grid_impulse)
+      .body([&method](const TaskContext& at, auto data) {
+        const auto sums = data[node::sums<D>];
+        const auto motions = data[node::motion<D>];
+        for (std::size_t g = 0; g < motions.size(); ++g) {
+          const GridView<NodeMotion<D>>& motion = motions[g];
+          for_each_wall(method, at, motion.box(), [&](const Wall<D>& wall) {
+            if (wall.face == Face::symmetry) wall.image.constrain(motion.data());
+          });
+          for_each_wall(method, at, motion.box(), [&](const Wall<D>& wall) {
+            if (wall.face != Face::symmetry) hold(method, at, wall, sums[g], motion, data[grid_impulse]);
+          });
+          for_each_wall(method, at, motion.box(), [&](const Wall<D>& wall) { wall.image.mirror(motion.data()); });
+          add_impulse(method, at, sums[g], motion, data[grid_impulse]);
+        }
+      });
+}
+
+template runtime::TaskDeclaration walls(const Method<2>&);
+template runtime::TaskDeclaration walls(const Method<3>&);
+
+}  // namespace tamp::tasks
