@@ -1,7 +1,9 @@
 #include <array>
 
+#include "components/loads/local_damping.hpp"
 #include "tasks/labels.hpp"
 #include "tasks/phases.hpp"
+#include "tasks/walls.hpp"
 
 namespace tamp::tasks
 {
@@ -60,10 +62,13 @@ runtime::TaskDeclaration accelerate_nodes(const Method<D>& method)
       .sparse()
       .reads(node::sums<D>.halo(method.halo))
       .computes(node::motion<D>.halo(method.halo), node::inverse_mass.halo(method.halo))
+      .reduces(grid_impulse)
       .body([&method](const TaskContext& at, auto data) {
         const auto sums = data[node::sums<D>];
         const auto motion = data[node::motion<D>];
         const auto inverse_mass = data[node::inverse_mass];
+        double& taken = data[grid_impulse].taken_by_damping;
+        const runtime::IndexBox counted = counted_nodes(method, at);
         const double kick = 0.5 * (at.step.previous_size + at.step.size);
         for_each(sums.box(), [&](const Index& i) {
           const NodeSums<D>& node = sums[i];
@@ -78,6 +83,12 @@ runtime::TaskDeclaration accelerate_nodes(const Method<D>& method)
           Vector<D> change = Vector<D>::Zero();
           if (mass > method.least_node_mass) {
             change = velocity_change(method, at, i, velocity, by_force, kick);
+          }
+          if (method.damping > 0) {
+            const Vector<D> undamped = change;
+            change = components::damped_change<D>(velocity, undamped, method.damping);
+            // Nodes on a seam are worked on by every patch around it, and counted by one.
+            if (counted.contains(i)) taken += 0.5 * mass * (undamped - change).dot(2 * velocity + change);
           }
           motion[i].set(velocity + change, change);
         });

@@ -38,6 +38,7 @@ Method<D>::Method(const Scene& given)
       gravity(vector_of<D>(scene.gravity)),
       centrifuge(scene.centrifuge),
       viscosity(scene.artificial_viscosity),
+      damping(scene.local_damping),
       time_step_rule(scene.time.rule),
       contacts(static_cast<int>(scene.materials.size())),
       materials(scene.materials)

@@ -81,6 +81,8 @@ struct Method {
   /// Faces of the domain that are walls, as [axis][side]: side 0 is the lower. Behind each is a mirror image.
   std::array<std::array<bool, 2>, std::size_t{D}> mirrors;
   std::optional<components::ArtificialViscosity> viscosity;
+  /// The part of unbalanced forces that local damping takes.
+  double damping;
   StepRule time_step_rule;
   components::ContactTable contacts;
   std::span<const SceneMaterial> materials;

@@ -143,6 +143,8 @@ struct Scene {
   /// The frame of the grid, where it turns; in three dimensions only.
   std::optional<components::RotatingFrame> centrifuge;
   std::optional<components::ArtificialViscosity> artificial_viscosity;
+  /// See components/loads/local_damping.hpp; 0: none.
+  double local_damping = 0;
   std::vector<SceneMaterial> materials;
   std::vector<SceneBody> bodies;
   std::vector<SceneContact> contacts;

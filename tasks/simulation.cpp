@@ -291,6 +291,7 @@ class SimulationOf : public Simulation
     const GridImpulse& impulse = engine_->warehouse().result(grid_impulse);
     impulse_.combine(impulse);
     totals_.contact += impulse.taken_by_walls;
+    totals_.viscous += impulse.taken_by_damping;
     contact_.combine(engine_->warehouse().result(contact_impulses));
   }
 

@@ -36,7 +36,7 @@ struct StepTotals {
   /// Work stored, and work turned to heat, in this step [J].
   double elastic = 0;
   double plastic = 0;
-  double viscous = 0;
+  double viscous = 0;  ///< by artificial viscosity and local damping
   double contact = 0;
   /// Work of what drives bodies, in this step [J].
   double driving = 0;
@@ -69,11 +69,14 @@ struct GridImpulse {
   std::array<double, 3> value{0, 0, 0};
   /// The energy that walls take by friction and by stopping what runs into them [J].
   double taken_by_walls = 0;
+  /// That which local damping takes [J].
+  double taken_by_damping = 0;
 
   void combine(const GridImpulse& other)
   {
     for (std::size_t k = 0; k < 3; ++k) value[k] += other.value[k];
     taken_by_walls += other.taken_by_walls;
+    taken_by_damping += other.taken_by_damping;
   }
 };
 

@@ -178,6 +178,7 @@ class SceneReader
     scene_.gravity = triple(root_.numbers("gravity", dimension(), any_number, 0));
     read_centrifuge();
     read_artificial_viscosity();
+    scene_.local_damping = root_.number("local_damping", {.lower = 0, .upper = 1, .holds_upper = false}, 0);
   }
 
   void read_centrifuge()

@@ -269,6 +269,14 @@ TEST_CASE("a driven body may lie against a mirror along which it goes without tu
   CHECK_THAT(problems(R"({"velocity":[0,-1]})", "open"), is_refused);
 }
 
+TEST_CASE("local damping is a part of a force")
+{
+  CHECK(problems_with({"/local_damping=0.3"}) == "");
+  CHECK_THAT(problems_with({"/local_damping=1"}), Catch::StartsWith("--set#/local_damping: 1; expected a number"));
+  CHECK_THAT(problems_with({"/local_damping=-0.1"}),
+             Catch::StartsWith("--set#/local_damping: -0.1; expected a number"));
+}
+
 TEST_CASE("a wall has a word or a coefficient of friction, which no turning grid has")
 {
   CHECK(problems_with({R"(/boundaries/y-="no_slip")"}) == "");
