@@ -87,7 +87,7 @@ inline const runtime::ReductionLabel<GridImpulse, "grid impulse"> grid_impulse;
 inline const runtime::ReductionLabel<ContactImpulses, "contact impulses"> contact_impulses;
 inline const runtime::ReductionLabel<RigidCouplings, "rigid couplings"> rigid_couplings;
 
-/// Of rigid bodies; like the velocities of particles, their momenta are half a step behind.
+/// Where rigid bodies are and how they move; like the velocities of particles, their momenta are half a step behind.
 inline const runtime::GlobalLabel<RigidStates, "rigid states"> rigid_states;
 /// As they were at the start of the step, with the momenta that body forces alone give them in it.
 inline const runtime::GlobalLabel<RigidStates, "free rigid states"> free_rigid_states;

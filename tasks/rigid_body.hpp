@@ -34,7 +34,7 @@ struct RigidBody {
 /// Where the rigid bodies are, by group, and how they move; materials that are none have nothing here.
 struct RigidStates {
   std::array<components::RigidState, runtime::PerGroup<int>::max_groups> by_group;
-  /// Of driven bodies: the impulse that drives them in this step [N s].
+  /// The impulse that drives each driven body in this step [N s].
   std::array<Eigen::Vector3d, runtime::PerGroup<int>::max_groups> driving;
 
   const components::RigidState& of(const RigidBody& body) const

@@ -85,7 +85,7 @@ struct SceneBody {
   Triple angular_velocity{0, 0, 0};
   /// Keeps its shape: its material gives it mass, but no stress, and is no other body's.
   bool rigid = false;
-  /// Of a rigid body; `velocity` is then the one it starts with.
+  /// Set for a rigid body that is driven; `velocity` is then the one it starts with.
   std::optional<BodyDrive> drive{};
   /// Followed in reports.
   std::optional<BodyAxis> axis{};
