@@ -62,12 +62,12 @@ runtime::TaskDeclaration accelerate_nodes(const Method<D>& method)
       .sparse()
       .reads(node::sums<D>.halo(method.halo))
       .computes(node::motion<D>.halo(method.halo), node::inverse_mass.halo(method.halo))
-      .reduces(grid_impulse)
+      .reduces(grid_totals)
       .body([&method](const TaskContext& at, auto data) {
         const auto sums = data[node::sums<D>];
         const auto motion = data[node::motion<D>];
         const auto inverse_mass = data[node::inverse_mass];
-        double& taken = data[grid_impulse].taken_by_damping;
+        double& taken = data[grid_totals].taken_by_damping;
         const runtime::IndexBox counted = counted_nodes(method, at);
         const double kick = 0.5 * (at.step.previous_size + at.step.size);
         for_each(sums.box(), [&](const Index& i) {

@@ -83,7 +83,7 @@ inline const runtime::ReductionLabel<HostRequests, "host requests"> host_request
 
 /// What a step adds to the energies, and how long the next may be.
 inline const runtime::ReductionLabel<StepTotals, "step totals"> step_totals;
-inline const runtime::ReductionLabel<GridImpulse, "grid impulse"> grid_impulse;
+inline const runtime::ReductionLabel<GridTotals, "grid totals"> grid_totals;
 inline const runtime::ReductionLabel<ContactImpulses, "contact impulses"> contact_impulses;
 inline const runtime::ReductionLabel<RigidCouplings, "rigid couplings"> rigid_couplings;
 

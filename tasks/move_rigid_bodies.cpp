@@ -59,11 +59,11 @@ namespace
 /// What the body as a whole has been given in the step; one patch tells of it. The work of driving goes with the mean
 /// of the velocities before and after, as the energies of leapfrog are counted.
 void add_totals(const TaskContext& at, const RigidBody& body, const RigidStates& before, const RigidStates& after,
-                GridImpulse& impulse, StepTotals& totals)
+                GridTotals& grid, StepTotals& totals)
 {
   if (at.patch.id != 0) return;
   const Eigen::Vector3d p = before.of(body).momentum, q = after.of(body).momentum;
-  for (int k = 0; k < 3; ++k) impulse.value[static_cast<std::size_t>(k)] += q[k] - p[k];
+  for (int k = 0; k < 3; ++k) grid.impulse[static_cast<std::size_t>(k)] += q[k] - p[k];
   if (body.drive == nullptr) return;
   totals.driving += after.driving[static_cast<std::size_t>(body.group)].dot(p + q) / (2 * body.properties.mass);
 }
@@ -81,7 +81,7 @@ runtime::TaskDeclaration move_rigid_particles(const Method<D>& method, int group
              particle::volume.previous())
       .computes(particle::position<D>, particle::velocity<D>, particle::deformation_gradient<D>, particle::volume,
                 particle::stress<D>, particle::viscous_pressure)
-      .reduces(step_totals, grid_impulse)
+      .reduces(step_totals, grid_totals)
       .body([&method](const TaskContext& at, auto data) {
         const auto id = data[particle::id.previous()];
         const auto reference = data[particle::reference_position<D>.previous()];
@@ -95,7 +95,7 @@ runtime::TaskDeclaration move_rigid_particles(const Method<D>& method, int group
         StepTotals& totals = data[step_totals];
         const RigidBody& body = *method.rigid_body(at.group);
         const components::RigidState& state = data[rigid_states].of(body);
-        add_totals(at, body, data[rigid_states.previous()], data[rigid_states], data[grid_impulse], totals);
+        add_totals(at, body, data[rigid_states.previous()], data[rigid_states], data[grid_totals], totals);
         const components::RigidMotion motion = components::motion_of(body.properties, state);
         const Matrix<D> turn = state.orientation.toRotationMatrix().template topLeftCorner<D, D>();
         const Vector<D> start = body.properties.centre.template head<D>(), centre = state.centre.template head<D>();

@@ -131,7 +131,7 @@ class SimulationOf : public Simulation
     runtime::ByteWriter own;
     own.add(last_step_size_);
     own.add(totals_);
-    own.add(impulse_);
+    own.add(grid_totals_);
     own.add(contact_);
     own.add(contact_since_);
     lost_->share(engine_->layout(), communicator_);
@@ -149,7 +149,7 @@ class SimulationOf : public Simulation
     runtime::ByteReader own(found.host);
     own.read(last_step_size_);
     own.read(totals_);
-    own.read(impulse_);
+    own.read(grid_totals_);
     own.read(contact_);
     own.read(contact_since_);
     lost_->read(own);
@@ -288,10 +288,10 @@ class SimulationOf : public Simulation
     totals_.stable_step = std::numeric_limits<double>::infinity();
     totals_.combine(step);
     asked_ = engine_->warehouse().result(host_requests).bits;
-    const GridImpulse& impulse = engine_->warehouse().result(grid_impulse);
-    impulse_.combine(impulse);
-    totals_.contact += impulse.taken_by_walls;
-    totals_.viscous += impulse.taken_by_damping;
+    const GridTotals& of_nodes = engine_->warehouse().result(tasks::grid_totals);
+    grid_totals_.combine(of_nodes);
+    totals_.contact += of_nodes.taken_by_walls;
+    totals_.viscous += of_nodes.taken_by_damping;
     contact_.combine(engine_->warehouse().result(contact_impulses));
   }
 

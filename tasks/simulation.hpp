@@ -63,7 +63,7 @@ class Simulation
   /// Sums since the start; `stable_step` is that of the last step.
   const StepTotals& totals() const { return totals_; }
   /// What the grid gave to the particles since the start [N s].
-  const GridImpulse& impulse() const { return impulse_; }
+  const GridTotals& grid_totals() const { return grid_totals_; }
 
   /// By material, the means since the last call, or the start; not collective, but to be called by all ranks alike.
   std::vector<ContactForce> take_contact_forces();
@@ -124,7 +124,7 @@ class Simulation
   double time_ = 0;
   double last_step_size_ = 0;
   StepTotals totals_;
-  GridImpulse impulse_;
+  GridTotals grid_totals_;
   /// Since the forces of contact were last taken.
   ContactImpulses contact_;
   double contact_since_ = 0;

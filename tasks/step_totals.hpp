@@ -63,18 +63,18 @@ struct StepTotals {
   }
 };
 
-/// What all particles take from the nodes in one step [N s]: gravity and the walls; forces within and between bodies
-/// cancel.
-struct GridImpulse {
-  std::array<double, 3> value{0, 0, 0};
+/// Sums over the nodes of one step.
+struct GridTotals {
+  /// What all particles take from the nodes [N s]: gravity and the walls; forces within and between bodies cancel.
+  std::array<double, 3> impulse{0, 0, 0};
   /// The energy that walls take by friction and by stopping what runs into them [J].
   double taken_by_walls = 0;
   /// That which local damping takes [J].
   double taken_by_damping = 0;
 
-  void combine(const GridImpulse& other)
+  void combine(const GridTotals& other)
   {
-    for (std::size_t k = 0; k < 3; ++k) value[k] += other.value[k];
+    for (std::size_t k = 0; k < 3; ++k) impulse[k] += other.impulse[k];
     taken_by_walls += other.taken_by_walls;
     taken_by_damping += other.taken_by_damping;
   }

@@ -68,7 +68,7 @@ runtime::HostData host_data(const Method<D>& method)
   runtime::HostData data{{&particle::id, &particle::body, &particle::reference_position<D>, &particle::mass,
                           &particle::position<D>, &particle::velocity<D>, &particle::deformation_gradient<D>,
                           &particle::volume, &particle::stress<D>, &particle::viscous_pressure, &rigid_states},
-                         {&step_totals, &grid_impulse, &contact_impulses, &host_requests}};
+                         {&step_totals, &grid_totals, &contact_impulses, &host_requests}};
   for (const SceneMaterial& material : method.materials) add_state_of(material.model, data);
   if (method.transfer == Transfer::affine) data.state.push_back(&particle::velocity_gradient<D>);
   return data;

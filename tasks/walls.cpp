@@ -21,7 +21,7 @@ namespace
 /// mass of the image, whose normal momentum is opposite: it is taken off again.
 template <int D>
 void add_impulse(const Method<D>& method, const TaskContext& at, const GridView<const NodeSums<D>>& sums,
-                 const GridView<NodeMotion<D>>& motion, GridImpulse& impulse)
+                 const GridView<NodeMotion<D>>& motion, GridTotals& totals)
 {
   for_each(counted_nodes(method, at), [&](const Index& i) {
     const Vector<D> change = motion[i].velocity_change();
@@ -35,7 +35,7 @@ void add_impulse(const Method<D>& method, const TaskContext& at, const GridView<
         ghost[k] = wall + outside;
         mass -= 2 * sums[ghost].mass();
       }
-      impulse.value[k] += mass * change[static_cast<int>(k)];
+      totals.impulse[k] += mass * change[static_cast<int>(k)];
     }
   });
 }
@@ -44,7 +44,7 @@ void add_impulse(const Method<D>& method, const TaskContext& at, const GridView<
 /// the mean of the velocities before and after the step, as the energies of leapfrog are counted.
 template <int D>
 void hold(const Method<D>& method, const TaskContext& at, const Wall<D>& wall, const GridView<const NodeSums<D>>& sums,
-          const GridView<NodeMotion<D>>& motion, GridImpulse& totals)
+          const GridView<NodeMotion<D>>& motion, GridTotals& totals)
 {
   const runtime::IndexBox counted = counted_nodes(method, at);
   for_each_wall_node(wall, at.layout.grid(), motion.box(), [&](const Index& i) {
@@ -75,7 +75,7 @@ runtime::TaskDeclaration walls(const Method<D>& method)
       .sparse()
       .reads(node::sums<D>.halo(method.halo).every_group())
       .updates(node::motion<D>.halo(method.halo).every_group())
-      .reduces(grid_impulse)
+      .reduces(grid_totals)
       .body([&method](const TaskContext& at, auto data) {
         const auto sums = data[node::sums<D>];
         const auto motions = data[node::motion<D>];
@@ -85,10 +85,10 @@ runtime::TaskDeclaration walls(const Method<D>& method)
             if (wall.face == Face::symmetry) wall.image.constrain(motion.data());
           });
           for_each_wall(method, at, motion.box(), [&](const Wall<D>& wall) {
-            if (wall.face != Face::symmetry) hold(method, at, wall, sums[g], motion, data[grid_impulse]);
+            if (wall.face != Face::symmetry) hold(method, at, wall, sums[g], motion, data[grid_totals]);
           });
           for_each_wall(method, at, motion.box(), [&](const Wall<D>& wall) { wall.image.mirror(motion.data()); });
-          add_impulse(method, at, sums[g], motion, data[grid_impulse]);
+          add_impulse(method, at, sums[g], motion, data[grid_totals]);
         }
       });
 }

@@ -130,7 +130,7 @@ void check_written(const fs::path& file, std::span<const std::byte> host, Wareho
     const std::vector<StateTable> tables = state_tables(warehouse, group_names);
     together(communicator, [&] {
       expect_tables(file, CheckpointReader(file).tables(), tables);
-      // Those of the first rank were written; between values they may differ from rank to rank.
+      // The first rank's bytes are in the file; those of others may differ in the padding between values.
       if (communicator.is_first() && !std::equal(host.begin(), host.end(), found.host.begin(), found.host.end())) {
         throw FileError(file.string(), "has other bytes of the host");
       }

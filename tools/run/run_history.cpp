@@ -164,7 +164,7 @@ void RunHistory::measure()
   for (std::size_t b = 0; b < simulation_.scene().bodies.size(); ++b) {
     momentum_scale += std::max(initial_.bodies[b].momentum.norm(), report_.bodies[b].momentum.norm());
   }
-  const Eigen::Vector3d given(simulation_.impulse().value.data());
+  const Eigen::Vector3d given(simulation_.grid_totals().impulse.data());
   const Eigen::Vector3d change = report_.momentum() + lost_.momentum - initial_.momentum();
   momentum_error_ = momentum_scale > 0 ? (change - given).norm() / momentum_scale : 0;
 }

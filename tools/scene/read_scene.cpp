@@ -190,8 +190,10 @@ class SceneReader
     }
     auto reader = root_.optional_object("centrifuge");
     if (!reader) return;
-    for (const auto& axis : scene_.faces) {
-      if (std::find(axis.begin(), axis.end(), tasks::Face::friction) == axis.end()) continue;
+    const auto has_friction = [](const std::array<tasks::Face, 2>& sides) {
+      return std::find(sides.begin(), sides.end(), tasks::Face::friction) != sides.end();
+    };
+    if (std::any_of(scene_.faces.begin(), scene_.faces.end(), has_friction)) {
       root_.add_problem("centrifuge", "a wall with friction", "expected other boundaries where the grid turns");
     }
     const std::size_t n_before = document_.problems.size();

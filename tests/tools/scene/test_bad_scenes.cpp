@@ -288,6 +288,14 @@ TEST_CASE("a wall has a word or a coefficient of friction, which no turning grid
   CHECK_THAT(problems_with({R"(/boundaries/y-={})"}), Catch::Contains("#/boundaries/y-/friction: missing"));
   CHECK_THAT(problems_with({R"(/boundaries/y-={"friction":0.4,"slip":1})"}),
              Catch::Contains("#/boundaries/y-/slip: unknown key"));
+  const std::vector<std::string> in_space{"/dimension=3", "/grid/upper=[2,2,2]", "/bodies/block/geometry/lower=[0,0,0]",
+                                          "/bodies/block/geometry/upper=[1,1,1]",
+                                          R"(/boundaries={"x-":{"friction":0.4},"z-":{"friction":0.4}})"};
+  std::vector<std::string> turning = in_space;
+  turning.push_back(R"(/centrifuge={"angular_speed":1,"axis":[0,1,0],"centre":[0,0,0]})");
+  CHECK(problems_with(in_space) == "");
+  CHECK(problems_with(turning) ==
+        "--set#/centrifuge: a wall with friction; expected other boundaries where the grid turns");
 }
 
 TEST_CASE("what a rigid body is given of a wrong type is told with what was found")
