@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "runtime/engine.hpp"
-#include "tasks/report.hpp"
+#include "tasks/report/report.hpp"
 #include "tasks/time_step.hpp"
 
 namespace tamp::tasks

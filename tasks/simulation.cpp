@@ -15,14 +15,14 @@
 #include "runtime/ranks/deal_patches.hpp"
 #include "runtime/ranks/load_balance.hpp"
 #include "tasks/common_failure.hpp"
-#include "tasks/field_columns.hpp"
-#include "tasks/fill_bodies.hpp"
 #include "tasks/graphs.hpp"
-#include "tasks/initial_moduli.hpp"
 #include "tasks/labels.hpp"
-#include "tasks/settled_sand.hpp"
+#include "tasks/report/field_columns.hpp"
+#include "tasks/report/state_digest.hpp"
+#include "tasks/set_up/fill_bodies.hpp"
+#include "tasks/set_up/initial_moduli.hpp"
+#include "tasks/set_up/settled_sand.hpp"
 #include "tasks/simulation_error.hpp"
-#include "tasks/state_digest.hpp"
 
 namespace tamp::tasks
 {

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "tasks/labels.hpp"
-#include "tasks/phases.hpp"
+#include "tasks/phases/phases.hpp"
 
 namespace tamp::tasks
 {

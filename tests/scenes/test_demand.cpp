@@ -1,7 +1,7 @@
 #include <catch2/catch.hpp>
 
-#include "tasks/demand.hpp"
-#include "tasks/pace.hpp"
+#include "tasks/forecast/demand.hpp"
+#include "tasks/forecast/pace.hpp"
 #include "tasks/simulation.hpp"
 #include "tools/scene/read_scene.hpp"
 

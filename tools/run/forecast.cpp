@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "tasks/demand.hpp"
+#include "tasks/forecast/demand.hpp"
 #include "tools/errors.hpp"
 #include "tools/machine_room.hpp"
 

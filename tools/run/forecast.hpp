@@ -4,7 +4,7 @@
 #include <optional>
 #include <string>
 
-#include "tasks/pace.hpp"
+#include "tasks/forecast/pace.hpp"
 #include "tools/scene/read_scene.hpp"
 
 namespace tamp::tools

@@ -10,7 +10,7 @@
 
 #include "components/portable_math.hpp"
 #include "runtime/ranks/together.hpp"
-#include "tasks/initial_moduli.hpp"
+#include "tasks/set_up/initial_moduli.hpp"
 
 namespace tamp::tools
 {

@@ -9,7 +9,7 @@
 #include <variant>
 
 #include "components/portable_math.hpp"
-#include "tasks/initial_moduli.hpp"
+#include "tasks/set_up/initial_moduli.hpp"
 #include "tools/scene/csv_table.hpp"
 #include "tools/scene/file_kind.hpp"
 

@@ -7,7 +7,7 @@
 
 #include "components/errors.hpp"
 #include "tasks/method.hpp"
-#include "tasks/settled_sand.hpp"
+#include "tasks/set_up/settled_sand.hpp"
 #include "tools/machine_room.hpp"
 #include "tools/scene/body_sites.hpp"
 #include "tools/scene/read_solid.hpp"

@@ -7,7 +7,7 @@
 
 #include "components/errors.hpp"
 #include "tasks/method.hpp"
-#include "tasks/report.hpp"
+#include "tasks/report/report.hpp"
 #include "tools/scene/check_bodies.hpp"
 #include "tools/scene/json_reader.hpp"
 #include "tools/scene/read_body.hpp"

@@ -3,7 +3,7 @@
 
     tools/studies/projectile_pictures.py runs/table --out docs/projectile.png
 
-Draws the middle 5 mm of the box with tools/picture.py, so it needs a display (or Xvfb -noreset) and Debian's
+Draws the middle 5 mm of the box with tools/python/picture.py, so it needs a display (or Xvfb -noreset) and Debian's
 python3-paraview and python3-matplotlib."""
 
 import argparse
@@ -27,7 +27,7 @@ TITLES = {"velocity": "speed, 0 to 50 m/s", "p": "mean stress, 0.1 to 100 MPa, l
 
 
 def draw(run, field, time, file):
-    subprocess.run(["pvpython", ranks.ROOT / "tools/picture.py", run, "--field", field, *FIELDS[field], "--slab", "0.0475",
+    subprocess.run(["pvpython", ranks.ROOT / "tools/python/picture.py", run, "--field", field, *FIELDS[field], "--slab", "0.0475",
                     "0.0525", "--beside", "projectile", "--time", str(time), "--point-size", "7", "--out", file],
                    check=True)
 

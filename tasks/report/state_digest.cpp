@@ -1,4 +1,4 @@
-#include "tasks/state_digest.hpp"
+#include "tasks/report/state_digest.hpp"
 
 #include <fmt/format.h>
 

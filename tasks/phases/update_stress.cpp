@@ -7,7 +7,7 @@
 #include "components/materials/state_columns.hpp"
 #include "components/materials/wave_speed.hpp"
 #include "tasks/labels.hpp"
-#include "tasks/phases.hpp"
+#include "tasks/phases/phases.hpp"
 #include "tasks/simulation_error.hpp"
 
 namespace tamp::tasks

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Make unloading.csv and hydrostat.csv of hydrostatic load-unload tests.
 
-    python3 tools/unloading_from_tests.py --strain percent --pressure MPa --out FOLDER TEST.csv ...
+    python3 tools/python/unloading_from_tests.py --strain percent --pressure MPa --out FOLDER TEST.csv ...
 
 One file a test: volumetric strain in the first column, pressure in the second, both positive in compression, loading
 first and then unloading; rows that are not numbers are passed over. Each unloading branch becomes a curve of
@@ -130,7 +130,7 @@ def main():
         check(path, rows)
 
     options.out.mkdir(parents=True, exist_ok=True)
-    made = ["Made by tools/unloading_from_tests.py. SI units, compression positive."]
+    made = ["Made by tools/python/unloading_from_tests.py. SI units, compression positive."]
     largest = max(tests, key=lambda rows: rows[turning_point(rows)][0])
     loading = thinned(loading_branch(largest))
     write(options.out / "hydrostat.csv", ["Hydrostatic loading.", *made], HYDROSTAT_HEADER, loading)

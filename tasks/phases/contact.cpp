@@ -3,10 +3,10 @@
 
 #include "components/contact/friction.hpp"
 #include "components/loads/time_step.hpp"
-#include "tasks/contact_nodes.hpp"
 #include "tasks/labels.hpp"
-#include "tasks/phases.hpp"
-#include "tasks/walls.hpp"
+#include "tasks/phases/contact_nodes.hpp"
+#include "tasks/phases/phases.hpp"
+#include "tasks/phases/walls.hpp"
 
 namespace tamp::tasks
 {

@@ -1,4 +1,4 @@
-#include "tasks/pace.hpp"
+#include "tasks/forecast/pace.hpp"
 
 #include <algorithm>
 #include <ctime>
@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "components/portable_math.hpp"
-#include "tasks/demand.hpp"
+#include "tasks/forecast/demand.hpp"
 #include "tasks/simulation.hpp"
 
 namespace tamp::tasks

@@ -1,4 +1,4 @@
-#include "tasks/field_columns.hpp"
+#include "tasks/report/field_columns.hpp"
 
 #include "components/materials/state_columns.hpp"
 #include "components/portable_math.hpp"

@@ -2,8 +2,8 @@
 
 #include "components/loads/local_damping.hpp"
 #include "tasks/labels.hpp"
-#include "tasks/phases.hpp"
-#include "tasks/walls.hpp"
+#include "tasks/phases/phases.hpp"
+#include "tasks/phases/walls.hpp"
 
 namespace tamp::tasks
 {

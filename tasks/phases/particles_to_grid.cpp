@@ -1,7 +1,7 @@
 #include "components/shapes/transfer.hpp"
 #include "tasks/labels.hpp"
-#include "tasks/phases.hpp"
-#include "tasks/walls.hpp"
+#include "tasks/phases/phases.hpp"
+#include "tasks/phases/walls.hpp"
 
 namespace tamp::tasks
 {

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Writes inputs/uxo/projectile.stl, the surface of inputs/uxo/projectile.json, as binary STL in millimetres.
 
-    tools/projectile_mesh.py inputs/uxo/projectile.json inputs/uxo/projectile.stl
+    tools/python/projectile_mesh.py inputs/uxo/projectile.json inputs/uxo/projectile.stl
 
 Made for that shape: a body of revolution along x whose last piece, the boom, is a cylinder, and a ring of rectangular
 fins that end with it. The surface is one: the boom is left out within the fins, and the fins within the boom.

@@ -1,4 +1,4 @@
-#include "tasks/body_sums.hpp"
+#include "tasks/report/body_sums.hpp"
 
 #include <Eigen/Geometry>
 #include <Eigen/LU>

@@ -2,7 +2,7 @@
 
 #include "components/loads/time_step.hpp"
 #include "tasks/labels.hpp"
-#include "tasks/phases.hpp"
+#include "tasks/phases/phases.hpp"
 #include "tasks/simulation_error.hpp"
 
 namespace tamp::tasks

@@ -1,4 +1,4 @@
-#include "tasks/lost_particles.hpp"
+#include "tasks/report/lost_particles.hpp"
 
 #include <cstring>
 #include <span>

@@ -1,7 +1,7 @@
 """Draws a scalar field of one material's particles at one time of a run, with ParaView's own Python:
 
-    pvpython tools/picture.py runs/table --material sand --field p --time 1e-3 --out p.png
-    pvpython tools/picture.py runs/table --field velocity --slab 0.0475 0.0525 --beside projectile --out v.png
+    pvpython tools/python/picture.py runs/table --material sand --field p --time 1e-3 --out p.png
+    pvpython tools/python/picture.py runs/table --field velocity --slab 0.0475 0.0525 --beside projectile --out v.png
 
 In space --slab draws the particles between two places along y, seen along it. A vector is drawn by its length. The
 output nearest to --time is drawn; its time and what 5 %, 1 % and 0.1 % of the particles drawn pass are printed, and the

@@ -4,7 +4,7 @@
 #include "components/kinematics/strain_increment.hpp"
 #include "components/shapes/transfer.hpp"
 #include "tasks/labels.hpp"
-#include "tasks/phases.hpp"
+#include "tasks/phases/phases.hpp"
 #include "tasks/simulation_error.hpp"
 
 namespace tamp::tasks

@@ -1,6 +1,6 @@
 """Prints the rows of a run's history.csv nearest to some times, and where columns are largest, as Markdown tables:
 
-    python3 tools/history_at.py runs/table --times 0.5e-3 1e-3 2e-3 --columns punch.depth sand.p_max
+    python3 tools/python/history_at.py runs/table --times 0.5e-3 1e-3 2e-3 --columns punch.depth sand.p_max
 """
 
 import argparse

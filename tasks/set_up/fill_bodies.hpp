@@ -9,7 +9,7 @@
 #include "components/tensors.hpp"
 #include "runtime/warehouse/warehouse.hpp"
 #include "tasks/scene.hpp"
-#include "tasks/settled_sand.hpp"
+#include "tasks/set_up/settled_sand.hpp"
 
 namespace tamp::tasks
 {

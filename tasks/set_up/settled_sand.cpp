@@ -1,4 +1,4 @@
-#include "tasks/settled_sand.hpp"
+#include "tasks/set_up/settled_sand.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

@@ -1,4 +1,4 @@
-#include "tasks/demand.hpp"
+#include "tasks/forecast/demand.hpp"
 
 #include <algorithm>
 #include <deque>

@@ -6,8 +6,8 @@
 
 #include "components/contact/logistic_plane.hpp"
 #include "tasks/labels.hpp"
-#include "tasks/phases.hpp"
-#include "tasks/walls.hpp"
+#include "tasks/phases/phases.hpp"
+#include "tasks/phases/walls.hpp"
 
 namespace tamp::tasks
 {

@@ -3,9 +3,9 @@
 #include <algorithm>
 
 #include "components/contact/friction.hpp"
-#include "tasks/contact_nodes.hpp"
 #include "tasks/labels.hpp"
-#include "tasks/phases.hpp"
+#include "tasks/phases/contact_nodes.hpp"
+#include "tasks/phases/phases.hpp"
 #include "tasks/simulation_error.hpp"
 
 namespace tamp::tasks

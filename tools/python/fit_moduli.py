@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Fit the models of the sand's elastic moduli to its measured unloading curves.
 
-    python3 tools/fit_moduli.py FOLDER --page PAGE.html
+    python3 tools/python/fit_moduli.py FOLDER --page PAGE.html
 
 FOLDER holds unloading.csv, which is the table model itself, and hydrostat.csv; docs/fitting.md says how they are made.
 Written are support_vectors.json (SVR) and network.h5 (MLP), and if wanted a page of plots. The errors are printed. The

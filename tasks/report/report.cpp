@@ -1,4 +1,4 @@
-#include "tasks/report.hpp"
+#include "tasks/report/report.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "tasks/initial_moduli.hpp"
+#include "tasks/set_up/initial_moduli.hpp"
 
 #include <variant>
 

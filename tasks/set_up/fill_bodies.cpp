@@ -1,4 +1,4 @@
-#include "tasks/fill_bodies.hpp"
+#include "tasks/set_up/fill_bodies.hpp"
 
 #include <algorithm>
 #include <cmath>

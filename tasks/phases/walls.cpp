@@ -1,8 +1,8 @@
-#include "tasks/walls.hpp"
+#include "tasks/phases/walls.hpp"
 
 #include "components/boundary/rough_wall.hpp"
 #include "tasks/labels.hpp"
-#include "tasks/phases.hpp"
+#include "tasks/phases/phases.hpp"
 
 namespace tamp::tasks
 {

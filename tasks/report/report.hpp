@@ -10,8 +10,8 @@
 #include "components/materials/state_columns.hpp"
 #include "runtime/data/views.hpp"
 #include "runtime/graph/task_graph.hpp"
-#include "tasks/body_sums.hpp"
 #include "tasks/method.hpp"
+#include "tasks/report/body_sums.hpp"
 
 namespace tamp::tasks
 {

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Make inputs/materials/concrete-sand/*.csv from the raw measurements.
 
-    python3 tools/thin_measurements.py RAW_FOLDER [OUTPUT_FOLDER]
+    python3 tools/python/thin_measurements.py RAW_FOLDER [OUTPUT_FOLDER]
 
 RAW_FOLDER holds measured/ (DrySand_LoadUnload_*.csv: strains in %, pressures in MPa) and vaango/
 (DrySand_HydrostaticCapData.json, DrySand_YieldData.json). What is written is SI, compression positive, and thinned to as
@@ -19,7 +19,7 @@ SOURCE = [
     "S. Akers (CCDC Army Research Laboratory), private communication; as published with the Vaango code (MIT licence).",
     "Volumetric strains were measured as engineering ones, 1 - V/V0; the published tables take the same numbers as",
     "logarithmic ones. The material's key strain_measure says which. SI units, compression positive.",
-    "Made by tools/thin_measurements.py.",
+    "Made by tools/python/thin_measurements.py.",
 ]
 
 

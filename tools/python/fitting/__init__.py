@@ -1,0 +1,1 @@
+"""The parts of tools/python/fit_moduli.py."""
