@@ -30,7 +30,7 @@ inline const runtime::ParticleLabel<Vector<D>, "position"> position;
 /// At the middle of the step that led here: half a step behind the position (leapfrog).
 template <int D>
 inline const runtime::ParticleLabel<Vector<D>, "velocity"> velocity;
-/// Of the step that led here, at its middle [1/s]; row: component of velocity. Where the transfer is affine.
+/// At the middle of the step that led here [1/s]; row: component of velocity. Only where the transfer is affine.
 template <int D>
 inline const runtime::ParticleLabel<Matrix<D>, "velocity gradient"> velocity_gradient;
 template <int D>
@@ -39,14 +39,14 @@ inline const runtime::ParticleLabel<double, "volume"> volume;
 /// Cauchy stress [Pa].
 template <int D>
 inline const runtime::ParticleLabel<SymmetricTensor<D>, "stress"> stress;
-/// Of artificial viscosity [Pa], compression positive.
+/// The part of artificial viscosity [Pa], compression positive.
 inline const runtime::ParticleLabel<double, "viscous pressure"> viscous_pressure;
 /// The state that a material model keeps for each particle; only for models that have one.
 template <class Model>
 inline const runtime::ParticleLabel<typename Model::State, Model::state_name> state;
 /// In the nodes of this step, see components::own_stiffness; 0 where the rule for the time step does not ask.
 inline const runtime::ParticleLabel<double, "own stiffness"> own_stiffness;
-/// Of this step, in the frame of its end.
+/// Strain increment of this step, in the frame of its end.
 template <int D>
 inline const runtime::ParticleLabel<SymmetricTensor<D>, "strain increment"> strain_increment;
 

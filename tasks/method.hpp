@@ -36,7 +36,7 @@ Eigen::Vector3d in_space(const Vector<D>& v)
   return padded;
 }
 
-/// Of a node [m].
+/// Position of a node [m].
 template <int D>
 Vector<D> place_of(const runtime::Grid& grid, const runtime::Index& node)
 {

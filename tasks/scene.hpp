@@ -52,7 +52,7 @@ using components::MaterialModel;
 /// Materials are the contact groups too: each has its own velocity field on the grid.
 struct SceneMaterial {
   std::string name;
-  /// Of the unstrained material [kg/m^3].
+  /// Density of the unstrained material [kg/m^3].
   double density;
   MaterialModel model;
   /// Along each axis of a cell, where it is not that of the scene.
@@ -113,7 +113,8 @@ struct SceneOutput {
 
 /// Beyond these a run has gone wrong, and ends.
 struct SceneLimits {
-  /// Of the total energy, relative to what the run has been given: its initial kinetic energy and the work of gravity.
+  /// Error of the total energy, relative to what the run has been given: its initial kinetic energy and the work of
+  /// gravity.
   double energy_error = 0.2;
 };
 

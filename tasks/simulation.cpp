@@ -219,8 +219,8 @@ class SimulationOf : public Simulation
     return std::min(size, end - time_);
   }
 
-  /// Of a body alone whose matter is no faster than `v` along any axis. Its nodes are not known yet, so that each
-  /// particle may have its own to itself.
+  /// The bound for a body by itself whose matter is no faster than `v` along any axis. Its nodes are not known yet, so
+  /// that each particle may have its own to itself.
   double initial_stable_step(const SceneBody& body, const Vector<D>& v) const
   {
     const double h = method_.cell_size;

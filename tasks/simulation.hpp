@@ -79,14 +79,14 @@ class Simulation
   /// One step, as long as stability allows and not past `end` [s].
   virtual void advance(double end) = 0;
   virtual ParticleReport report() = 0;
-  /// Of the last report; without a nose in the scene it is that of no particle.
+  /// Peaks near noses in the last report; those of no particle where the scene has no nose.
   virtual NoseReport near_noses() const = 0;
   virtual LostParticles lost() = 0;
 
   virtual const runtime::TaskGraph& graph() const = 0;
   /// This rank's.
   virtual const runtime::MemoryLedger& ledger() const = 0;
-  /// Of all ranks.
+  /// The memory of fields on all ranks [bytes].
   virtual std::size_t forecast_bytes() const = 0;
   virtual runtime::Profile profile() const = 0;
   /// Off only to measure what recording costs.

@@ -40,9 +40,9 @@ struct StepTotals {
   double contact = 0;
   /// Work of what drives bodies, in this step [J].
   double driving = 0;
-  /// Of all materials.
+  /// Stress updates of all materials.
   components::UpdateCounts updates;
-  /// Of those that failed, the one with the lowest id in the first step that had any.
+  /// The failed update with the lowest id in the first step that had any.
   FailedUpdate failed;
 
   void note(const FailedUpdate& other)

@@ -50,7 +50,7 @@ double reclaimable(const std::string& folder)
   return bytes;
 }
 
-/// Of both versions of control groups; a group is limited by those above it too.
+/// Memory left by control groups, version 1 or 2; a group is limited by those above it too.
 double left_by_control_group()
 {
   double left = unlimited;

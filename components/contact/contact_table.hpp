@@ -29,8 +29,8 @@ class ContactTable
   int normal_of(int a, int b) const { return pairs_[place(a, b)].normal_of; }
   bool has_regression() const;
 
-  /// Of a with b and of b with a. Throws BadValue for a coefficient below 0 or not a number, for groups that are not
-  /// two different ones of the table, and for the normal of a third.
+  /// Sets the contact of a with b, which is that of b with a. Throws BadValue for a coefficient below 0 or not a
+  /// number, for groups that are not two different ones of the table, and for the normal of a third.
   void set(int a, int b, double friction, int normal_of = flatter);
 
  private:

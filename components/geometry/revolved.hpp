@@ -32,7 +32,7 @@ class Revolved
   double reach(const Vector<3>& direction) const;
   Volume volume() const;
 
-  /// Of a place between the ends.
+  /// At a place between the ends.
   double radius_squared(double along) const;
 
  private:

@@ -309,7 +309,7 @@ class CapIntegrator
     return std::max(std::max(old.pressure, pressure), std::max(sqrt_j2, 0.1 * at.crush_pressure));
   }
 
-  /// Of one modulus for the step, in the deviator and in rate form in the pressure too: Pa.
+  /// The error of taking one modulus for the whole step [Pa]: in the deviator and, in rate form, in the pressure too.
   double modulus_error(const Particle& old, double pressure, const DeviatoricTrial& deviatoric,
                        const PathPoint& at) const
   {

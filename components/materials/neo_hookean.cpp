@@ -24,7 +24,7 @@ struct Extremes {
   double least, greatest;
 };
 
-/// Of the principal values.
+/// The least and the greatest principal value.
 Extremes principal_extremes(const SymmetricTensor<2>& b)
 {
   const double middle = 0.5 * (b[0] + b[1]), half = 0.5 * (b[0] - b[1]);

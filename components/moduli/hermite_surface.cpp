@@ -234,8 +234,8 @@ class HermiteSurface::Refinement
     return failing;
   }
 
-  /// Of the fresh squares, each by itself. Its error of pressure, on an edge that smaller squares follow, is one of
-  /// their K: that counts too.
+  /// Which of the fresh squares miss the tolerance, each looked at by itself. Where smaller squares follow an edge, an
+  /// error of pressure on it becomes one of their K, and counts too.
   std::vector<std::size_t> failing_alone()
   {
     return failing_of(std::exchange(fresh_, {}), refined_with,
@@ -253,7 +253,7 @@ class HermiteSurface::Refinement
                       });
   }
 
-  /// Of the squares whose patches are not as they were when they were measured, with other points.
+  /// Which squares miss the tolerance after their patches have changed, measured at other points.
   std::vector<std::size_t> failing_joined()
   {
     join_patches();

@@ -67,7 +67,7 @@ class UnloadingTable
   {
     return pressure_modulus().in_range(pressure, plastic_volumetric);
   }
-  /// Of the surface, up to the end of the longest curve.
+  /// Strains that the surface covers, up to the end of the longest curve.
   StrainRange range() const { return {least_elastic, last_elastic_, 0, curve_plastic_.back()}; }
 
   /// Plastic strains of the curves, ascending; the surface is smooth between them.

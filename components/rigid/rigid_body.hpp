@@ -25,8 +25,8 @@ struct MassProperties {
   Matrix3 second_moment() const { return 0.5 * inertia.trace() * Matrix3::Identity() - inertia; }
 };
 
-/// Of particles of these masses [kg] about their places [m], each spread over a cube of edge `particle_size` [m]; in
-/// the `plane` the body turns about z only. Throws BadValue for fewer than two particles.
+/// Mass, centre and inertia of particles of these masses [kg] at these places [m], each spread over a cube of edge
+/// `particle_size` [m]; in the `plane` the body turns about z only. Throws BadValue for fewer than two particles.
 MassProperties mass_properties(std::span<const double> mass, std::span<const Vector3> position, double particle_size,
                                bool plane);
 

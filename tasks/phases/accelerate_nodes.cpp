@@ -30,7 +30,7 @@ void take_up(const std::array<std::array<bool, 2>, 3>& mirrors, const runtime::G
   }
 }
 
-/// Of a node with this velocity, over a kick, by the acceleration that its force gives it and those of the scene.
+/// What a kick adds to the velocity of a node: the acceleration by its force, and those of the scene.
 template <int D>
 Vector<D> velocity_change(const Method<D>& method, const TaskContext& at, const Index& node, const Vector<D>& velocity,
                           const Vector<D>& by_force, double kick)

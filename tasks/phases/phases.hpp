@@ -25,8 +25,8 @@ runtime::TaskDeclaration accelerate_rigid_bodies(const Method<D>& method);
 template <int D>
 runtime::TaskDeclaration rigid_nodes_before_contact(const Method<D>& method, int material);
 
-/// Of pairs whose normal comes by regression: planes are laid between their particles, and the materials face each
-/// other along the planes' normals where they touch, and nowhere else.
+/// Contact normals by regression: planes are laid between the particles of two materials, which then face each other
+/// along the planes' normals where they touch, and nowhere else.
 template <int D>
 std::vector<runtime::TaskDeclaration> part_materials(const Method<D>& method);
 

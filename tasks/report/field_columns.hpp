@@ -21,7 +21,7 @@ class FieldColumns
   /// what its model shows of its state. Collective.
   std::vector<runtime::ParticleBlock> particles(const Method<D>& method, runtime::Warehouse& warehouse,
                                                 const runtime::Communicator& communicator);
-  /// Of the last step, all materials together: density and velocity at the nodes.
+  /// Density and velocity at the nodes in the last step, all materials together.
   runtime::NodeBlock nodes(const Method<D>& method, runtime::Warehouse& warehouse);
 
  private:

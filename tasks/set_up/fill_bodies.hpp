@@ -27,7 +27,7 @@ class BodyParticles
   std::vector<double> per_patch() const;
   /// Spans the velocities of a body's particles [m/s], but for a velocity field.
   Eigen::AlignedBox<double, D> velocities(int body) const;
-  /// Of a rigid body. Throws BadValue for one that has fewer than two particles.
+  /// Mass, centre and inertia of a rigid body. Throws BadValue for one that has fewer than two particles.
   components::MassProperties mass_properties(int body) const;
   /// Puts them into the patches that are the warehouse's own.
   void store(runtime::Warehouse& warehouse) const;

@@ -8,7 +8,7 @@ namespace tamp::tasks
 /// K and G of a material without strain [Pa].
 components::TangentModuli initial_moduli(const SceneMaterial& material);
 
-/// Of waves of compression in it, without strain [m/s].
+/// Speed of compression waves in the unstrained material [m/s].
 double initial_wave_speed(const SceneMaterial& material);
 
 }  // namespace tamp::tasks

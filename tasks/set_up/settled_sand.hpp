@@ -28,7 +28,8 @@ class SettledSand
     SymmetricTensor<D> stress;
     components::CapState state;
   };
-  /// Of the particle at x. Throws components::BadValue where the stress is more than the sand can bear.
+  /// Stress and state of the particle at x. Throws components::BadValue where the stress is more than the sand can
+  /// bear.
   Particle at(const Vector<D>& x) const;
 
   /// The greatest tangent bulk modulus of a particle of the layers, where the sides press most [Pa].
@@ -41,7 +42,7 @@ class SettledSand
   const components::TabularCap* sand_;
   std::size_t vertical_ = 0;
   std::array<components::LayerColumn, std::size_t{D}> columns_;
-  /// Of each axis by its layers: what its own body force asks for [Pa, tension positive].
+  /// For each axis, the stress in each layer that carries the body force along it [Pa, tension positive].
   std::array<std::vector<double>, std::size_t{D}> along_;
 };
 

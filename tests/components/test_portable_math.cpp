@@ -82,7 +82,7 @@ TEST_CASE("portable functions are within a unit in the last place of the exact v
   }
 }
 
-// Of SLEEF 3.5.1. A change means that results differ from those of other machines.
+// The bits are those of SLEEF 3.5.1. A change means that results differ from those of other machines.
 TEST_CASE("portable functions have the bits that they have everywhere")
 {
   std::uint64_t hash = 14695981039346656037U;

@@ -76,7 +76,7 @@ Scene bar_on_a_corner(bool turns)
   return scene;
 }
 
-/// Of the particles whose y is within these bounds.
+/// Mean over the particles whose y is within these bounds.
 double mean_stress_yy(const std::vector<Particle>& particles, double lower, double upper)
 {
   double sum = 0, n = 0;

@@ -36,9 +36,9 @@ Scene sand_at_wall()
 struct Hugoniot {
   /// Pa, compression positive
   double stress;
-  /// Of the density to that ahead.
+  /// Ratio of the density behind the front to that ahead.
   double compression;
-  /// Of the front in the sand ahead [m/s].
+  /// Speed of the front into the sand ahead [m/s].
   double shock_speed;
 
   static Hugoniot of(const components::TabularCap& sand)

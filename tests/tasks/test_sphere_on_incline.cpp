@@ -17,7 +17,7 @@ const double cosine = 1 / std::sqrt(1 + slope * slope), sine = slope * cosine;
 struct Incline {
   double radius;
   double friction;
-  /// Of the ground [m/s].
+  /// Wave speed of the ground [m/s].
   double wave_speed;
   int length;
 };

@@ -15,7 +15,7 @@ constexpr double pi = std::numbers::pi;
 constexpr double length = 25;
 constexpr double density = 1;
 constexpr double poisson = 0.25;
-/// Of uniaxial strain; the bar's waves run at 10 m/s.
+/// Modulus of uniaxial strain; the bar's waves run at 10 m/s.
 constexpr double modulus = 100;
 constexpr double wave_speed = 10;
 
@@ -45,7 +45,7 @@ double mode(const std::vector<Particle>& start, const std::vector<Particle>& now
 
 struct Vibration {
   double frequency_error;
-  /// Of the last period's mean energy against the first period's, relative.
+  /// Mean energy of the last period against that of the first, relative.
   double energy_drift;
 };
 

@@ -35,7 +35,7 @@ class StampedTasks
   /// "step 3, point 7"
   std::string describe(int task) const;
 
-  /// Of each task; 0 for an empty body.
+  /// Work of each task; 0 for an empty body.
   int kernel_iterations = 0;
 
   /// To be called before each run of all tasks.
@@ -65,7 +65,7 @@ class StampedTasks
 
   int width_;
   int n_steps_;
-  /// Of task t: from first_inputs_[t] up to first_inputs_[t + 1].
+  /// Inputs of task t stand in inputs_ from first_inputs_[t] up to first_inputs_[t + 1].
   std::vector<int> first_inputs_;
   std::vector<int> inputs_;
   std::vector<Output> outputs_;

@@ -19,10 +19,10 @@ struct TaskContest {
 
 /// What one round found. Absent where the processor's speed did not hold still for long enough.
 struct TaskFigures {
-  /// Of a task with an empty body [ns], threads times time.
+  /// Cost of a task with an empty body [ns], threads times time.
   std::optional<double> overhead;
   std::optional<double> metg50;
-  /// Of the kernel, per iteration [ns].
+  /// Time of the kernel per iteration [ns].
   double calibration = 0;
   /// Measurements thrown away because the calibrations before and after differed by more than `most_drift`.
   int n_discarded = 0;
@@ -35,7 +35,7 @@ constexpr double most_drift = 0.1;
 struct TaskSubject {
   /// Time of all cores per task [ns] with so many iterations of the kernel in each.
   std::function<double(int kernel_iterations)> granularity;
-  /// Of the kernel alone on all these cores at once, per iteration [ns].
+  /// Time of the kernel per iteration, alone and on all these cores at once [ns].
   std::function<double()> kernel_ns;
 };
 

@@ -10,7 +10,7 @@ namespace tamp::tools::bench
 struct TaskSample {
   /// Time of all threads over the number of tasks [ns].
   double granularity = 0;
-  /// Of the kernel alone, at the speed that the processor had at the time [ns].
+  /// Time of the kernel alone, at the speed that the processor had at the time [ns].
   double kernel = 0;
 
   double efficiency() const { return kernel / granularity; }

@@ -20,7 +20,7 @@ namespace
 
 using Clock = std::chrono::steady_clock;
 
-/// Of the slowest rank, per step: so all ranks come to the same decisions.
+/// Time per step of the slowest rank, so that all ranks come to the same decisions.
 double step_ns(RowScheduler& scheduler, int n_steps, const runtime::Communicator& ranks)
 {
   ranks.barrier();

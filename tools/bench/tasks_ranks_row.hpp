@@ -28,7 +28,7 @@ class StampedRow
   explicit StampedRow(const PatchRow& shape) : shape_(shape) {}
 
   const PatchRow& shape() const { return shape_; }
-  /// Of each task; 0 for an empty body.
+  /// Work of each task; 0 for an empty body.
   int kernel_iterations = 0;
 
   /// What stands in a patch when a step, counted from 0, begins.

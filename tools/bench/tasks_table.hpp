@@ -14,7 +14,7 @@ struct TaskRow {
   std::string scheduler;
   std::string pattern;
   int ranks = 1;
-  /// Of each rank.
+  /// Threads of each rank.
   int threads = 1;
   /// Data of a message from rank to rank; 0 where there are none.
   int message_bytes = 0;

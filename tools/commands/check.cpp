@@ -24,7 +24,7 @@ struct CheckArguments {
   std::vector<std::string> assignments;
 };
 
-/// Of the solid, which may be known within an error only.
+/// Volume of the solid, which may be known only to within an error.
 components::Volume solid_volume(const tasks::SceneBody& body)
 {
   return std::visit([](const auto& solid) { return solid.volume(); }, body.solid);

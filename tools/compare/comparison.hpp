@@ -39,7 +39,7 @@ struct ModelResult {
   std::size_t modulus_evaluations = 0;
   std::optional<double> modulus_ns;  ///< of one evaluation, over the states of its own sand
   std::size_t ledger_peak_bytes = 0;
-  /// Of a process that runs this model alone for a few steps.
+  /// Peak memory of a process that runs this model alone for a few steps.
   std::optional<std::size_t> peak_rss_bytes;
   std::string digest;
 

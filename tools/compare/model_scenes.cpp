@@ -13,8 +13,8 @@ namespace
 
 constexpr std::string_view compiled_suffix = "-compiled";
 
-/// Of p and K, relative: what a compiled model may differ by from the one it was made of. The K of a relu network has
-/// kinks, which no smooth patches follow closely.
+/// By how much p and K of a compiled model may differ from the model it was made of, relative. The K of a relu network
+/// has kinks, which no smooth patches follow closely.
 std::string compile_tolerance(const std::string& type)
 {
   return type == "mlp" ? "1e-2" : "1e-4";

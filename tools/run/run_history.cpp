@@ -59,7 +59,7 @@ void add_peak_columns(const tasks::SceneMaterial& material, const std::string& w
   });
 }
 
-/// Of gravity and the centrifuge on matter at rest, anywhere in the grid [m/s^2].
+/// The greatest acceleration by gravity and centrifuge of matter at rest, anywhere in the grid [m/s^2].
 double greatest_acceleration(const tasks::Scene& scene)
 {
   const double gravity = Eigen::Vector3d(scene.gravity.data()).norm();

@@ -61,7 +61,7 @@ class RunHistory
   /// How far a body's centre of mass has moved along its initial velocity; of one that starts at rest, how far it is
   /// from where it started [m].
   double depth(std::size_t body) const;
-  /// Of a body with a nose: the angle of its axis below the horizontal [degrees], the last axis of the scene being
+  /// For a body with a nose, the angle of its axis below the horizontal [degrees], the last axis of the scene being
   /// vertical; 90 points straight down.
   double axis_angle(std::size_t body) const;
 

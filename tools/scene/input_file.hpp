@@ -22,7 +22,7 @@ struct InputFile {
   /// The pointer of the key that names it in the resolved scene; empty for the scene itself and what is merged into it.
   std::string pointer;
   std::filesystem::path file;
-  /// Of its content, as 16 hexadecimal digits; empty for a file that is not read, as that of a model that is not used.
+  /// Hash of its content, 16 hexadecimal digits; empty for a file that is not read, such as one of a model not used.
   std::string hash;
 };
 

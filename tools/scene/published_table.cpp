@@ -109,7 +109,7 @@ class PublishedTableReader
     }
   }
 
-  /// Of what is no number only the first is told.
+  /// Reports only the first entry that is no number.
   std::vector<double> read_numbers(const Json& list, const JsonPointer& pointer)
   {
     if (!list.is_array()) {

@@ -33,7 +33,7 @@ struct PublishedTable {
 
   /// Every name in it, with the number of entries of each level.
   std::string names() const;
-  /// Of a level; the number of levels if there is none of this name.
+  /// Place of a level; the number of levels if there is none of this name.
   std::size_t level(const std::string& name) const;
   /// Is each level but `name`'s of one entry, so that it can be left out of account?
   bool depends_on_no_level_but(const std::string& name) const;

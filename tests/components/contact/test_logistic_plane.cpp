@@ -76,7 +76,7 @@ struct Around {
     return -sums<EdgeSums<D>>(first, -1, plane.coefficients, add).edge(particle_size) -
            sums<EdgeSums<D>>(second, 1, plane.coefficients, add).edge(particle_size);
   }
-  /// Of the materials' surface gradients, which regression is to better.
+  /// The normal by the materials' surface gradients, which regression is to better.
   Vector<D> gradient_normal() const { return facing<D>(gradient(first), gradient(second)).normalized(); }
 
  private:

@@ -44,7 +44,7 @@ Vector<3> place(double along, double radius, double angle)
   return tip + Vector<3>(along, radius * std::cos(angle), radius * std::sin(angle));
 }
 
-/// Of the body of revolution, and of what of the fins is beyond the boom [m^3].
+/// Volume of the body of revolution and of the fins beyond the boom [m^3].
 double exact_volume()
 {
   const double greatest = 5.8 * 5.8, boom = 2.05 * 2.05;
