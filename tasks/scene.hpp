@@ -104,11 +104,23 @@ struct SceneContact {
   int normal_of = components::ContactTable::flatter;
 };
 
+/// Fields of particles, and of nodes as "nodes/NAME", by their names in field files.
+struct FieldChoice {
+  /// Left out: all.
+  std::optional<std::vector<std::string>> names{};
+
+  bool has(const std::string& name) const
+  {
+    return !names || std::find(names->begin(), names->end(), name) != names->end();
+  }
+};
+
 struct SceneOutput {
   double fields_interval;
   double history_interval;
   /// How far from a nose its surroundings reach [m].
   double near_nose = 0.01;
+  FieldChoice fields{};
 };
 
 /// Beyond these a run has gone wrong, and ends.

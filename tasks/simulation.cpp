@@ -120,11 +120,14 @@ class SimulationOf : public Simulation
   {
     return sum_over_ranks(engine_->warehouse().n_particles(material));
   }
-  std::vector<runtime::ParticleBlock> particle_columns() override
+  std::vector<runtime::ParticleBlock> particle_columns(const FieldChoice& choice) override
   {
-    return columns_.particles(method_, engine_->warehouse(), communicator_);
+    return columns_.particles(method_, choice, engine_->warehouse(), communicator_);
   }
-  runtime::NodeBlock node_columns() override { return columns_.nodes(method_, engine_->warehouse()); }
+  runtime::NodeBlock node_columns(const FieldChoice& choice) override
+  {
+    return columns_.nodes(method_, choice, engine_->warehouse());
+  }
   void write_checkpoint(const std::filesystem::path& folder, const std::string& fingerprint,
                         std::span<const std::byte> host, int keep) override
   {

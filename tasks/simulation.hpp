@@ -92,10 +92,12 @@ class Simulation
   /// Off only to measure what recording costs.
   virtual void record(bool on) = 0;
 
-  /// Particles of a material now, on all ranks; and what a run's files hold of them, this rank's part.
+  /// Particles of a material now, on all ranks; and chosen fields of them and of the nodes, this rank's part.
   virtual std::size_t n_particles(int material) const = 0;
-  virtual std::vector<runtime::ParticleBlock> particle_columns() = 0;
-  virtual runtime::NodeBlock node_columns() = 0;
+  virtual std::vector<runtime::ParticleBlock> particle_columns(const FieldChoice& choice) = 0;
+  virtual runtime::NodeBlock node_columns(const FieldChoice& choice) = 0;
+  std::vector<runtime::ParticleBlock> particle_columns() { return particle_columns({}); }
+  runtime::NodeBlock node_columns() { return node_columns({}); }
   /// Keeps the state in a folder, with bytes of the host's own, which are the same on all ranks; see
   /// runtime::write_checkpoint. Throws FileError.
   virtual void write_checkpoint(const std::filesystem::path& folder, const std::string& fingerprint,

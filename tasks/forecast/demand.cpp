@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <deque>
 #include <string>
-#include <variant>
 #include <vector>
 
 #include "runtime/warehouse/warehouse.hpp"
 #include "tasks/graphs.hpp"
+#include "tasks/report/field_columns.hpp"
 
 namespace tamp::tasks
 {
@@ -22,18 +22,24 @@ std::vector<std::size_t> particles_of_materials(const Scene& scene)
   return n;
 }
 
-/// Numbers that a particle has in an output file, see FieldColumns.
-int n_output_numbers(const SceneMaterial& material)
+/// Numbers that a particle has in an output file.
+std::size_t n_output_numbers(const SceneMaterial& material, const FieldChoice& choice)
 {
-  constexpr int id = 1, vectors = 2 * 3, stress = 6, scalars = 4;
-  const auto of_state = std::visit(
-      []<class Model>(const Model&) {
-        const auto& columns = components::state_columns<Model>();
-        return std::count_if(columns.begin(), columns.end(),
-                             [](const auto& column) { return column.shown != components::Shown::by_drive; });
-      },
-      material.model);
-  return id + vectors + stress + scalars + static_cast<int>(of_state);
+  std::size_t n = 1;  // id
+  for (const FieldName& field : particle_field_names(material)) {
+    if (choice.has(field.name) || is_always_written(field.name)) n += runtime::n_in_file(field.kind);
+  }
+  return n;
+}
+
+/// The same of a node.
+std::size_t n_output_numbers(const FieldChoice& choice)
+{
+  std::size_t n = 0;
+  for (const FieldName& field : node_field_names()) {
+    if (choice.has(field.name)) n += runtime::n_in_file(field.kind);
+  }
+  return n;
 }
 
 template <int D>
@@ -60,10 +66,12 @@ Demand demand_of(const Scene& scene)
   double n_nodes = 1;
   for (int k = 0; k < scene.grid.dimension; ++k) n_nodes *= scene.grid.n_cells[static_cast<std::size_t>(k)] + 1;
   constexpr double bytes_of_number = 8;
-  demand.output_file = 4 * bytes_of_number * n_nodes;
+  const FieldChoice& choice = scene.output.fields;
+  demand.output_file = bytes_of_number * static_cast<double>(n_output_numbers(choice)) * n_nodes;
   for (std::size_t m = 0; m < n_particles.size(); ++m) {
     demand.n_particles += n_particles[m];
-    demand.output_file += bytes_of_number * n_output_numbers(scene.materials[m]) * static_cast<double>(n_particles[m]);
+    demand.output_file +=
+        bytes_of_number * static_cast<double>(n_output_numbers(scene.materials[m], choice) * n_particles[m]);
   }
   demand.fields = scene.grid.dimension == 2 ? field_bytes<2>(scene, n_particles) : field_bytes<3>(scene, n_particles);
   // Vectors that grow as they are filled have room to spare.

@@ -253,10 +253,12 @@ class Runner
   {
     expect_own_folder();
     const auto watch = executor_->watch("writing fields");
-    const auto particles = simulation_->particle_columns();
+    const tasks::FieldChoice& chosen = checked_.scene.output.fields;
+    const auto particles = simulation_->particle_columns(chosen);
     // What is on the grid is no state: after a restart there is nothing there before the first step.
     std::optional<runtime::NodeBlock> nodes;
-    if (simulation_->n_steps() != restarted_at_) nodes = simulation_->node_columns();
+    if (simulation_->n_steps() != restarted_at_) nodes = simulation_->node_columns(chosen);
+    if (nodes && nodes->columns.empty()) nodes.reset();
     fields_->write_step(simulation_->n_steps(), simulation_->time(), particles, nodes);
     written_.fields = simulation_->n_steps();
   }

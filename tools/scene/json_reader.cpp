@@ -375,6 +375,27 @@ std::vector<std::string> JsonReader::choices(const std::string& key, std::size_t
   return names;
 }
 
+std::vector<std::string> JsonReader::some_of(const std::string& key, const std::vector<std::string>& choices)
+{
+  if (!has(key)) write(key, choices);
+  const std::string expected = "expected a list of some of " + joined(choices);
+  const Json* value = find(key);
+  if (value == nullptr) return {};
+  if (!value->is_array() || !std::all_of(value->begin(), value->end(), [](const Json& v) { return v.is_string(); })) {
+    add_problem(key, shown(*value), expected);
+    return {};
+  }
+  const auto names = value->get<std::vector<std::string>>();
+  for (auto name = names.begin(); name != names.end(); ++name) {
+    if (std::find(choices.begin(), choices.end(), *name) == choices.end()) {
+      add_problem(key, fmt::format("\"{}\"", *name), expected + did_you_mean(*name, choices));
+    } else if (std::find(names.begin(), name, *name) != name) {
+      add_problem(key, fmt::format("\"{}\" twice", *name), expected);
+    }
+  }
+  return names;
+}
+
 void JsonReader::finish() const
 {
   if (!exists_) return;

@@ -68,6 +68,8 @@ class JsonReader
   std::vector<JsonReader> items(const std::string& key);
   /// A list of `n` of the choices; empty if it is none.
   std::vector<std::string> choices(const std::string& key, std::size_t n, const std::vector<std::string>& choices);
+  /// A list of any of the choices, each once; by default all.
+  std::vector<std::string> some_of(const std::string& key, const std::vector<std::string>& choices);
 
   /// The key's value has a meaning, but a wrong one.
   void add_problem(const std::string& key, const std::string& found, const std::string& expected) const;

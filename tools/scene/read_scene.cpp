@@ -7,6 +7,7 @@
 
 #include "components/errors.hpp"
 #include "tasks/method.hpp"
+#include "tasks/report/field_columns.hpp"
 #include "tasks/report/report.hpp"
 #include "tools/scene/check_bodies.hpp"
 #include "tools/scene/json_reader.hpp"
@@ -309,7 +310,25 @@ class SceneReader
     scene_.output.fields_interval = read_interval(reader, "fields_interval", 50, 1e5);
     scene_.output.history_interval = read_interval(reader, "history_interval", 1000, 1e7);
     scene_.output.near_nose = reader.number("near_nose", above_zero, scene_.output.near_nose);
+    read_fields(reader);
     reader.finish();
+  }
+
+  /// Of all materials and of the nodes.
+  void read_fields(JsonReader& reader)
+  {
+    reader.allow("fields");
+    // Nobody knows what the fields of a bad material are.
+    if (scene_.materials.size() != material_names_.size()) return;
+    std::vector<std::string> known;
+    const auto add = [&](const tasks::FieldName& field) {
+      if (std::find(known.begin(), known.end(), field.name) == known.end()) known.push_back(field.name);
+    };
+    for (const tasks::SceneMaterial& material : scene_.materials) {
+      for (const tasks::FieldName& field : tasks::particle_field_names(material)) add(field);
+    }
+    for (const tasks::FieldName& field : tasks::node_field_names()) add(field);
+    scene_.output.fields.names = reader.some_of("fields", known);
   }
 
   /// Between outputs; by default `n` of them, and at most `most`.

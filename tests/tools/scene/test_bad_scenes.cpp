@@ -269,6 +269,21 @@ TEST_CASE("a driven body may lie against a mirror along which it goes without tu
   CHECK_THAT(problems(R"({"velocity":[0,-1]})", "open"), is_refused);
 }
 
+TEST_CASE("fields to be written are named once each, and of the scene's materials")
+{
+  const std::string expected =
+      "; expected a list of some of position, velocity, stress, p, q, density, J, "
+      "nodes/density, nodes/velocity";
+  CHECK(problems_with({R"(/output/fields=["p","nodes/density","J"])"}) == "");
+  CHECK(problems_with({"/output/fields=[]"}) == "");
+  CHECK(problems_with({R"(/output/fields="p")"}) == "--set#/output/fields: \"p\"" + expected);
+  CHECK(problems_with({"/output/fields=[1]"}) == "--set#/output/fields: [1]" + expected);
+  CHECK(problems_with({R"(/output/fields=["p","p"])"}) == "--set#/output/fields: \"p\" twice" + expected);
+  CHECK_THAT(problems_with({R"(/output/fields=["velocty"])"}),
+             Catch::StartsWith("--set#/output/fields: \"velocty\"" + expected) && Catch::Contains("velocity\"?"));
+  CHECK_THAT(problems_with({R"(/output/fields=["equivalent_plastic"])"}), Catch::Contains("\"equivalent_plastic\""));
+}
+
 TEST_CASE("local damping is a part of a force")
 {
   CHECK(problems_with({"/local_damping=0.3"}) == "");
