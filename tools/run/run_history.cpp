@@ -50,15 +50,6 @@ void for_each_extreme(const tasks::SceneMaterial& material, const Visit& visit)
       material.model);
 }
 
-void add_peak_columns(const tasks::SceneMaterial& material, const std::string& where, std::vector<std::string>& names)
-{
-  const std::string name = material.name + where;
-  names.insert(names.end(), {name + ".p_max[Pa]", name + ".q_max[Pa]"});
-  for_each_extreme(material, [&](std::size_t, const components::StateExtreme& extreme, const auto& column) {
-    names.push_back(fmt::format("{}.{}_{}[{}]", name, column.name, extreme.greatest ? "max" : "min", column.unit));
-  });
-}
-
 /// The greatest acceleration by gravity and centrifuge of matter at rest, anywhere in the grid [m/s^2].
 double greatest_acceleration(const tasks::Scene& scene)
 {
@@ -90,52 +81,106 @@ RunHistory::RunHistory(tasks::Simulation& simulation)
       initial_(simulation.report()),
       report_(initial_)
 {
+  add_columns();
 }
 
 void RunHistory::begin(const std::filesystem::path& folder)
 {
-  runtime::by_first(simulation_.communicator(), [&] { csv_.emplace(folder / "history.csv", columns()); });
+  runtime::by_first(simulation_.communicator(), [&] { csv_.emplace(folder / "history.csv", column_names()); });
 }
 
 std::string RunHistory::go_on(const std::filesystem::path& folder, long kept_until, const runtime::CsvExtent& expected)
 {
   runtime::by_first(simulation_.communicator(), [&] {
-    csv_ = runtime::CsvWriter::continued(folder / "history.csv", columns(), kept_until, expected);
+    csv_ = runtime::CsvWriter::continued(folder / "history.csv", column_names(), kept_until, expected);
   });
   return csv_ ? csv_->notice() : "";
 }
 
-std::vector<std::string> RunHistory::columns() const
+template <class Value>
+void RunHistory::add_vector(const std::string& name, const std::string& unit, const Value& value)
+{
+  for (int k = 0; k < simulation_.scene().grid.dimension; ++k) {
+    columns_.push_back({fmt::format("{}_{}[{}]", name, axis_names[static_cast<std::size_t>(k)], unit),
+                        [value, k] { return Eigen::Vector3d(value())[k]; }});
+  }
+}
+
+void RunHistory::add_columns()
 {
   const tasks::Scene& scene = simulation_.scene();
-  const auto dimension = static_cast<std::size_t>(scene.grid.dimension);
-  std::vector<std::string> names{"step",       "time[s]",    "dt[s]",      "kinetic[J]",  "elastic[J]",
-                                 "plastic[J]", "viscous[J]", "contact[J]", "external[J]", "total[J]"};
-  const auto add_vector = [&](const std::string& name, const std::string& unit) {
-    for (std::size_t k = 0; k < dimension; ++k) names.push_back(fmt::format("{}_{}[{}]", name, axis_names[k], unit));
+  columns_ = {{"step", [this] { return static_cast<double>(simulation_.n_steps()); }},
+              {"time[s]", [this] { return simulation_.time(); }},
+              {"dt[s]", [this] { return simulation_.last_step_size(); }},
+              {"kinetic[J]", [this] { return energies_.kinetic; }},
+              {"elastic[J]", [this] { return energies_.elastic; }},
+              {"plastic[J]", [this] { return energies_.plastic; }},
+              {"viscous[J]", [this] { return energies_.viscous; }},
+              {"contact[J]", [this] { return energies_.contact; }},
+              {"external[J]", [this] { return energies_.external; }},
+              {"total[J]", [this] { return energies_.total; }}};
+  add_vector("momentum", "N s", [this] { return report_.momentum(); });
+  for (const std::size_t b : tracked_) add_body_columns(b);
+  for (std::size_t m = 0; m < scene.materials.size(); ++m) add_peak_columns(m, "", report_.materials);
+  for (std::size_t m = 0; scene.has_nose() && m < scene.materials.size(); ++m) {
+    add_peak_columns(m, ".near_nose", near_noses_.materials);
+  }
+  columns_.push_back({"lost[particles]", [this] { return static_cast<double>(lost_.count); }});
+  columns_.push_back({"lost_mass[kg]", [this] { return lost_.mass; }});
+  add_vector("lost_momentum", "N s", [this] { return lost_.momentum; });
+}
+
+void RunHistory::add_body_columns(std::size_t body)
+{
+  const tasks::SceneBody& given = simulation_.scene().bodies[body];
+  const int dimension = simulation_.scene().grid.dimension;
+  const auto sums = [this, body]() -> const tasks::BodySums& { return report_.bodies[body]; };
+  const auto contact = [this, &given]() -> const tasks::ContactForce& {
+    return contact_forces_[static_cast<std::size_t>(given.material)];
   };
-  add_vector("momentum", "N s");
-  for (const std::size_t b : tracked_) {
-    const std::string& body = scene.bodies[b].name;
-    names.push_back(body + ".depth[m]");
-    add_vector(body + ".velocity", "m/s");
-    names.push_back(body + ".tilt[deg]");
-    if (dimension == 3) add_vector(body + ".spin", "rad/s");
-    add_vector(body + ".contact_force", "N");
-    if (scene.bodies[b].drive) {
-      dimension == 3 ? add_vector(body + ".contact_torque", "N m") : names.push_back(body + ".contact_torque[N m]");
-    }
-    if (!scene.bodies[b].axis) continue;
-    add_vector(body + ".nose", "m");
-    add_vector(body + ".tail", "m");
-    names.push_back(body + ".axis_angle[deg]");
+  const auto first = static_cast<std::ptrdiff_t>(columns_.size());
+  columns_.push_back({given.name + ".depth[m]", [this, body] { return depth(body); }});
+  add_vector(given.name + ".velocity", "m/s", [sums]() -> Eigen::Vector3d { return sums().momentum / sums().mass; });
+  columns_.push_back(
+      {given.name + ".tilt[deg]", [sums, dimension] { return sums().tilt(dimension) * 180 / std::numbers::pi; }});
+  if (dimension == 3) add_vector(given.name + ".spin", "rad/s", [sums] { return sums().spin(); });
+  add_vector(given.name + ".contact_force", "N", [contact] { return contact().force; });
+  if (given.drive && dimension == 3) {
+    add_vector(given.name + ".contact_torque", "N m", [contact] { return contact().torque; });
+  } else if (given.drive) {
+    columns_.push_back({given.name + ".contact_torque[N m]", [contact] { return contact().torque.z(); }});
   }
-  for (const tasks::SceneMaterial& m : scene.materials) add_peak_columns(m, "", names);
-  if (scene.has_nose()) {
-    for (const tasks::SceneMaterial& m : scene.materials) add_peak_columns(m, ".near_nose", names);
+  if (given.axis) {
+    const Eigen::Vector3d nose(given.axis->nose.data()), tail(given.axis->tail.data());
+    add_vector(given.name + ".nose", "m", [sums, nose] { return sums().place_of(nose); });
+    add_vector(given.name + ".tail", "m", [sums, tail] { return sums().place_of(tail); });
+    columns_.push_back({given.name + ".axis_angle[deg]", [this, body] { return axis_angle(body); }});
   }
-  names.insert(names.end(), {"lost[particles]", "lost_mass[kg]"});
-  add_vector("lost_momentum", "N s");
+  // Nothing is known of a body that has left; the sign of what is not a number would be chance.
+  std::for_each(columns_.begin() + first, columns_.end(), [sums](Column& column) {
+    column.value = [sums, value = column.value] {
+      return sums().mass == 0 ? std::numeric_limits<double>::quiet_NaN() : value();
+    };
+  });
+}
+
+void RunHistory::add_peak_columns(std::size_t material, const std::string& where, const tasks::PeaksOfMaterials& peaks)
+{
+  const tasks::SceneMaterial& given = simulation_.scene().materials[material];
+  const std::string name = given.name + where;
+  const tasks::MaterialPeaks& of_material = peaks[material];
+  columns_.push_back({name + ".p_max[Pa]", [&of_material] { return extreme_or_nothing(of_material.pressure); }});
+  columns_.push_back({name + ".q_max[Pa]", [&of_material] { return of_material.q; }});
+  for_each_extreme(given, [&](std::size_t k, const components::StateExtreme& extreme, const auto& column) {
+    columns_.push_back({fmt::format("{}.{}_{}[{}]", name, column.name, extreme.greatest ? "max" : "min", column.unit),
+                        [&of_material, &extreme, k] { return extreme_or_nothing(of_material.extreme(k, extreme)); }});
+  });
+}
+
+std::vector<std::string> RunHistory::column_names() const
+{
+  std::vector<std::string> names;
+  for (const Column& column : columns_) names.push_back(column.name);
   return names;
 }
 
@@ -214,64 +259,12 @@ double RunHistory::axis_angle(std::size_t body) const
   return portable::asin(-along[simulation_.scene().grid.dimension - 1] / along.norm()) * 180 / std::numbers::pi;
 }
 
-void RunHistory::add_body(std::size_t body, const std::vector<tasks::ContactForce>& forces,
-                          std::vector<double>& row) const
-{
-  const int dimension = simulation_.scene().grid.dimension;
-  const tasks::SceneBody& given = simulation_.scene().bodies[body];
-  const tasks::BodySums& sums = report_.bodies[body];
-  const auto add = [&](const Eigen::Vector3d& v) { row.insert(row.end(), v.data(), v.data() + dimension); };
-  const auto first = static_cast<std::ptrdiff_t>(row.size());
-  row.push_back(depth(body));
-  add(sums.momentum / sums.mass);
-  row.push_back(sums.tilt(dimension) * 180 / std::numbers::pi);
-  if (dimension == 3) add(sums.spin());
-  const tasks::ContactForce& contact = forces[static_cast<std::size_t>(given.material)];
-  add(contact.force);
-  if (given.drive) dimension == 3 ? add(contact.torque) : row.push_back(contact.torque.z());
-  if (given.axis) {
-    add(sums.place_of(Eigen::Vector3d(given.axis->nose.data())));
-    add(sums.place_of(Eigen::Vector3d(given.axis->tail.data())));
-    row.push_back(axis_angle(body));
-  }
-  // Nothing is known of a body that has left; the sign of what is not a number would be chance.
-  if (sums.mass == 0) std::fill(row.begin() + first, row.end(), std::numeric_limits<double>::quiet_NaN());
-}
-
-void RunHistory::add_peaks(std::size_t material, const tasks::MaterialPeaks& peaks, std::vector<double>& row) const
-{
-  row.insert(row.end(), {extreme_or_nothing(peaks.pressure), peaks.q});
-  for_each_extreme(simulation_.scene().materials[material],
-                   [&](std::size_t k, const components::StateExtreme& extreme, const auto&) {
-                     row.push_back(extreme_or_nothing(peaks.extreme(k, extreme)));
-                   });
-}
-
 void RunHistory::write_row()
 {
   measure();
-  const EnergyBalance& e = energies_;
-  std::vector<double> row{static_cast<double>(simulation_.n_steps()),
-                          simulation_.time(),
-                          simulation_.last_step_size(),
-                          e.kinetic,
-                          e.elastic,
-                          e.plastic,
-                          e.viscous,
-                          e.contact,
-                          e.external,
-                          e.total};
-  const Eigen::Vector3d momentum = report_.momentum();
-  for (int k = 0; k < simulation_.scene().grid.dimension; ++k) row.push_back(momentum[k]);
-  const std::vector<tasks::ContactForce> forces = simulation_.take_contact_forces();
-  for (const std::size_t b : tracked_) add_body(b, forces, row);
-  const std::size_t n_materials = simulation_.scene().materials.size();
-  for (std::size_t m = 0; m < n_materials; ++m) add_peaks(m, report_.materials[m], row);
-  if (simulation_.scene().has_nose()) {
-    for (std::size_t m = 0; m < n_materials; ++m) add_peaks(m, near_noses_.materials[m], row);
-  }
-  row.insert(row.end(), {static_cast<double>(lost_.count), lost_.mass});
-  row.insert(row.end(), lost_.momentum.data(), lost_.momentum.data() + simulation_.scene().grid.dimension);
+  contact_forces_ = simulation_.take_contact_forces();
+  std::vector<double> row;
+  for (const Column& column : columns_) row.push_back(column.value());
   runtime::by_first(simulation_.communicator(), [&] { csv_->write_row(row); });
 }
 

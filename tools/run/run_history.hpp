@@ -1,10 +1,13 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "runtime/storage/csv_writer.hpp"
+#include "tasks/report/report.hpp"
 #include "tasks/simulation.hpp"
 
 namespace tamp::tools
@@ -28,6 +31,8 @@ class RunHistory
  public:
   /// To be made of a simulation at its start, even if that is restarted then. Here and below, calls are collective.
   explicit RunHistory(tasks::Simulation& simulation);
+  RunHistory(const RunHistory&) = delete;
+  RunHistory& operator=(const RunHistory&) = delete;
 
   /// Begins `history.csv` in a folder anew; the first rank writes it.
   void begin(const std::filesystem::path& folder);
@@ -66,12 +71,22 @@ class RunHistory
   double axis_angle(std::size_t body) const;
 
  private:
-  std::vector<std::string> columns() const;
+  /// Of `history.csv`: the name with the unit, and the value in the state that was last measured.
+  struct Column {
+    std::string name;
+    std::function<double()> value;
+  };
+
+  /// One for each axis of the scene.
+  template <class Value>
+  void add_vector(const std::string& name, const std::string& unit, const Value& value);
+  void add_columns();
+  void add_body_columns(std::size_t body);
+  void add_peak_columns(std::size_t material, const std::string& where, const tasks::PeaksOfMaterials& peaks);
+  std::vector<std::string> column_names() const;
   /// That of all mass at a millionth of the fastest wave's speed, as what is at rest has no other energy to compare
   /// with, and what half a step of free fall makes [J].
   double negligible_energy() const;
-  void add_body(std::size_t body, const std::vector<tasks::ContactForce>& forces, std::vector<double>& row) const;
-  void add_peaks(std::size_t material, const tasks::MaterialPeaks& peaks, std::vector<double>& row) const;
 
   tasks::Simulation& simulation_;
   std::vector<std::size_t> tracked_;
@@ -83,6 +98,9 @@ class RunHistory
   double given_from_outside_ = 0;
   double energy_error_ = 0;
   double momentum_error_ = 0;
+  /// By material, since the row before.
+  std::vector<tasks::ContactForce> contact_forces_;
+  std::vector<Column> columns_;
   /// On the first rank only.
   std::optional<runtime::CsvWriter> csv_;
 };
