@@ -3,6 +3,7 @@
 #include <cstdint>
 
 #include "components/contact/logistic_plane.hpp"
+#include "components/loads/pressure_load.hpp"
 #include "components/shapes/node_sums.hpp"
 #include "components/tensors.hpp"
 #include "runtime/data/label.hpp"
@@ -61,6 +62,9 @@ template <int D>
 inline const runtime::NodeLabel<components::NodeMotion<D>, "node motion"> motion;
 /// 0 at nodes that hardly exist [1/kg].
 inline const runtime::NodeLabel<double, "inverse mass"> inverse_mass;
+/// Of materials with a body under a pressure load.
+template <int D>
+inline const runtime::NodeLabel<components::PressureSums<D>, "pressure sums"> pressure_sums;
 template <int D>
 inline const runtime::NodeLabel<components::ContactPlane<D>, "contact plane"> contact_plane;
 /// One for each pass over the particles that turns the planes.
@@ -85,6 +89,7 @@ inline const runtime::ReductionLabel<HostRequests, "host requests"> host_request
 inline const runtime::ReductionLabel<StepTotals, "step totals"> step_totals;
 inline const runtime::ReductionLabel<GridTotals, "grid totals"> grid_totals;
 inline const runtime::ReductionLabel<ContactImpulses, "contact impulses"> contact_impulses;
+inline const runtime::ReductionLabel<LoadTotals, "load totals"> load_totals;
 inline const runtime::ReductionLabel<RigidCouplings, "rigid couplings"> rigid_couplings;
 
 /// Where rigid bodies are and how they move; like the velocities of particles, their momenta are half a step behind.

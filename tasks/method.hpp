@@ -90,6 +90,8 @@ struct Method {
   std::vector<RigidBody> rigid_bodies;
   /// Materials that are no rigid body.
   std::vector<int> deformable_groups;
+  /// Materials with a body under a pressure load.
+  std::vector<int> pressed_groups;
 };
 
 /// The nodes of a view as the kernels of components see them.

@@ -12,6 +12,7 @@
 #include "components/contact/contact_table.hpp"
 #include "components/geometry/solid.hpp"
 #include "components/loads/artificial_viscosity.hpp"
+#include "components/loads/pressure_load.hpp"
 #include "components/loads/rotating_frame.hpp"
 #include "components/materials/material_model.hpp"
 #include "components/rigid/prescribed_motion.hpp"
@@ -74,6 +75,19 @@ struct BodyDrive {
   bool turns = false;
 };
 
+/// On the surface of a body, or on the part of it that starts within a box.
+struct BodyPressure {
+  components::PressureCurve curve;
+  components::PressedBox<3> box{};
+
+  /// The box in a scene of D dimensions.
+  template <int D>
+  components::PressedBox<D> box_of() const
+  {
+    return {box.lower.head<D>(), box.upper.head<D>()};
+  }
+};
+
 struct SceneBody {
   std::string name;
   /// Place in Scene::materials.
@@ -91,6 +105,8 @@ struct SceneBody {
   std::optional<BodyAxis> axis{};
   /// Sand that has settled in its place: see SettledSand.
   bool initial_stress = false;
+  /// Only on a body that is not rigid.
+  std::optional<BodyPressure> pressure{};
   /// For scenes made in code: velocity [m/s] where a particle starts [m]; `velocity` then only bounds the first step.
   std::function<Triple(const Triple&)> velocity_field{};
 };
@@ -176,6 +192,8 @@ struct Scene {
   }
   /// Distance in cells along an axis from a particle of a material to the furthest node it can reach.
   double reach_of(int material) const { return components::reach(interpolator, particles_per_axis_of(material)); }
+  /// How deep beneath a surface the matter lies that its nodes reach [m]; see components::PressedBox.
+  double pressed_depth(int material) const { return 2 * reach_of(material) * grid.cell_size; }
 };
 
 }  // namespace tamp::tasks

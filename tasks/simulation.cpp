@@ -137,6 +137,8 @@ class SimulationOf : public Simulation
     own.add(grid_totals_);
     own.add(contact_);
     own.add(contact_since_);
+    own.add(loads_);
+    own.add(loads_since_);
     lost_->share(engine_->layout(), communicator_);
     lost_->write(own);
     own.add_bytes(host);
@@ -155,6 +157,8 @@ class SimulationOf : public Simulation
     own.read(grid_totals_);
     own.read(contact_);
     own.read(contact_since_);
+    own.read(loads_);
+    own.read(loads_since_);
     lost_->read(own);
     return {own.rest().begin(), own.rest().end()};
   }
@@ -296,6 +300,10 @@ class SimulationOf : public Simulation
     totals_.contact += of_nodes.taken_by_walls;
     totals_.viscous += of_nodes.taken_by_damping;
     contact_.combine(engine_->warehouse().result(contact_impulses));
+    if (method_.pressed_groups.empty()) return;
+    const LoadTotals& loads = engine_->warehouse().result(load_totals);
+    loads_.combine(loads);
+    totals_.driving += loads.work;
   }
 
   /// Looks at what the patches have cost since the last look, and deals them anew if that pays.
@@ -354,6 +362,18 @@ std::vector<ContactForce> Simulation::take_contact_forces()
   }
   contact_ = {};
   contact_since_ = time_;
+  return forces;
+}
+
+std::vector<Eigen::Vector3d> Simulation::take_load_forces()
+{
+  const double span = time_ - loads_since_;
+  std::vector<Eigen::Vector3d> forces(scene_.materials.size(), Eigen::Vector3d::Zero());
+  for (std::size_t m = 0; m < forces.size() && span > 0; ++m) {
+    forces[m] = Eigen::Vector3d(loads_.impulse[m].data()) / span;
+  }
+  loads_ = {};
+  loads_since_ = time_;
   return forces;
 }
 

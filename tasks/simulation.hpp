@@ -68,6 +68,9 @@ class Simulation
   /// By material, the means since the last call, or the start; not collective, but to be called by all ranks alike.
   std::vector<ContactForce> take_contact_forces();
 
+  /// By material, the mean force of pressure loads since the last call, or the start [N]; called as the one above.
+  std::vector<Eigen::Vector3d> take_load_forces();
+
   /// Bits that this rank tells all ranks with the next step; not collective. A rank without patches is not heard.
   void ask(unsigned requests) { requests_ |= requests; }
   /// What any rank asked for in the last step.
@@ -130,6 +133,9 @@ class Simulation
   /// Since the forces of contact were last taken.
   ContactImpulses contact_;
   double contact_since_ = 0;
+  /// Since the forces of loads were last taken.
+  LoadTotals loads_;
+  double loads_since_ = 0;
 };
 
 }  // namespace tamp::tasks

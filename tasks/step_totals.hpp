@@ -10,6 +10,7 @@
 #include "components/errors.hpp"
 #include "components/materials/material_model.hpp"
 #include "components/materials/state_columns.hpp"
+#include "runtime/data/views.hpp"
 
 namespace tamp::tasks
 {
@@ -38,7 +39,7 @@ struct StepTotals {
   double plastic = 0;
   double viscous = 0;  ///< by artificial viscosity and local damping
   double contact = 0;
-  /// Work of what drives bodies, in this step [J].
+  /// Work of what drives bodies, in this step [J]; what the simulation sums has that of pressure loads too.
   double driving = 0;
   /// Stress updates of all materials.
   components::UpdateCounts updates;
@@ -65,7 +66,8 @@ struct StepTotals {
 
 /// Sums over the nodes of one step.
 struct GridTotals {
-  /// What all particles take from the nodes [N s]: gravity and the walls; forces within and between bodies cancel.
+  /// What all particles take from the nodes [N s]: gravity, pressure loads and the walls; forces within and between
+  /// bodies cancel.
   std::array<double, 3> impulse{0, 0, 0};
   /// The energy that walls take by friction and by stopping what runs into them [J].
   double taken_by_walls = 0;
@@ -77,6 +79,21 @@ struct GridTotals {
     for (std::size_t k = 0; k < 3; ++k) impulse[k] += other.impulse[k];
     taken_by_walls += other.taken_by_walls;
     taken_by_damping += other.taken_by_damping;
+  }
+};
+
+/// What pressure loads do in one step.
+struct LoadTotals {
+  /// To each material [N s].
+  std::array<std::array<double, 3>, runtime::PerGroup<int>::max_groups> impulse{};
+  double work = 0;  ///< J
+
+  void combine(const LoadTotals& other)
+  {
+    work += other.work;
+    for (std::size_t g = 0; g < impulse.size(); ++g) {
+      for (std::size_t k = 0; k < 3; ++k) impulse[g][k] += other.impulse[g][k];
+    }
   }
 };
 

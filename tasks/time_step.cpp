@@ -42,6 +42,9 @@ std::vector<runtime::TaskDeclaration> time_step(const Method<D>& method,
   std::vector<runtime::TaskDeclaration> step;
   step.push_back(hear_hosts());
   step.push_back(particles_to_grid(method));
+  if (!method.pressed_groups.empty()) {
+    for (runtime::TaskDeclaration& phase : press(method)) step.push_back(std::move(phase));
+  }
   if (!method.deformable_groups.empty()) step.push_back(accelerate_nodes(method));
   if (!method.rigid_bodies.empty()) step.push_back(accelerate_rigid_bodies(method));
   for (const RigidBody& body : method.rigid_bodies) step.push_back(rigid_nodes_before_contact(method, body.group));
@@ -54,6 +57,7 @@ std::vector<runtime::TaskDeclaration> time_step(const Method<D>& method,
   }
   step.push_back(contact(method));
   step.push_back(walls(method));
+  if (!method.pressed_groups.empty()) step.push_back(account_for_pressure(method));
   if (!method.rigid_bodies.empty()) step.push_back(move_rigid_bodies(method));
   for (const RigidBody& body : method.rigid_bodies) step.push_back(move_rigid_particles(method, body.group));
   if (!method.deformable_groups.empty()) step.push_back(grid_to_particles(method));
@@ -70,6 +74,7 @@ runtime::HostData host_data(const Method<D>& method)
                           &particle::volume, &particle::stress<D>, &particle::viscous_pressure, &rigid_states},
                          {&step_totals, &grid_totals, &contact_impulses, &host_requests}};
   for (const SceneMaterial& material : method.materials) add_state_of(material.model, data);
+  if (!method.pressed_groups.empty()) data.results.push_back(&load_totals);
   if (method.transfer == Transfer::affine) data.state.push_back(&particle::velocity_gradient<D>);
   return data;
 }

@@ -57,6 +57,12 @@ class InterpolationBy final : public Interpolation<D>
     }
   }
 
+  void add_pressure(const GridBlock<D>& block, std::span<const Vector<D>> position, std::span<const ByFace<D>> pressure,
+                    PressureSums<D>* sums) const override
+  {
+    components::add_pressure(shape_, block, position, pressure, sums);
+  }
+
   void mark_planes(const GridBlock<D>& block, ContactPlane<D>* planes) const override
   {
     mark_starts(block, Shape::support, planes);

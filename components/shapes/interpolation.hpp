@@ -4,6 +4,7 @@
 #include <span>
 
 #include "components/contact/logistic_plane.hpp"
+#include "components/loads/pressure_load.hpp"
 #include "components/shapes/grid_block.hpp"
 #include "components/shapes/interpolator.hpp"
 #include "components/shapes/transfer.hpp"
@@ -37,6 +38,10 @@ class Interpolation
   virtual void own_stiffness(const GridBlock<D>& block, std::span<const Vector<D>> position,
                              std::span<const double> mass, const double* inverse_mass,
                              std::span<double> stiffness) const = 0;
+
+  /// `pressure` is m_p P_p of each particle.
+  virtual void add_pressure(const GridBlock<D>& block, std::span<const Vector<D>> position,
+                            std::span<const ByFace<D>> pressure, PressureSums<D>* sums) const = 0;
 
   /// Marks the nodes that tell `add_regression` and `add_edges` which particles reach a node with a plane.
   virtual void mark_planes(const GridBlock<D>& block, ContactPlane<D>* planes) const = 0;

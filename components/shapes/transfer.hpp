@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <span>
 
+#include "components/loads/pressure_load.hpp"
 #include "components/shapes/gimp.hpp"
 #include "components/shapes/grid_block.hpp"
 #include "components/shapes/node_sums.hpp"
@@ -81,6 +82,21 @@ void add_gradient_momentum(const Interpolator& interpolator, const GridBlock<D>&
       for (std::size_t i = 0; i < Interpolator::support; ++i) {
         sums[row.first + static_cast<std::ptrdiff_t>(i)].add_momentum(stencil.weight[0][i] * by_weight +
                                                                       stencil.slope[0][i] * by_moment);
+      }
+    });
+  }
+}
+
+/// Adds to the nodes what particles bring of a pressure load, m_p P_p S_ip.
+template <class Interpolator, int D = Interpolator::dimension>
+void add_pressure(const Interpolator& interpolator, const GridBlock<D>& block, std::span<const Vector<D>> position,
+                  std::span<const ByFace<D>> pressure, PressureSums<D>* sums)
+{
+  for (std::size_t p = 0; p < position.size(); ++p) {
+    const auto stencil = interpolator.at(block, position[p]);
+    for_each_row<D>(block, stencil, [&](const StencilRow<D>& row) {
+      for (std::size_t i = 0; i < Interpolator::support; ++i) {
+        sums[row.first + static_cast<std::ptrdiff_t>(i)].add(stencil.weight[0][i] * row.across * pressure[p]);
       }
     });
   }

@@ -13,6 +13,10 @@ namespace tamp::tasks
 template <int D>
 runtime::TaskDeclaration particles_to_grid(const Method<D>& method);
 
+/// Pressure loads push on the nodes of the surfaces that they act on.
+template <int D>
+std::vector<runtime::TaskDeclaration> press(const Method<D>& method);
+
 /// Nodes of deformable materials are accelerated by their forces, gravity and what the turning of the frame adds.
 template <int D>
 runtime::TaskDeclaration accelerate_nodes(const Method<D>& method);
@@ -45,6 +49,10 @@ runtime::TaskDeclaration contact(const Method<D>& method);
 /// Nothing crosses a wall of the domain.
 template <int D>
 runtime::TaskDeclaration walls(const Method<D>& method);
+
+/// What pressure loads have given to the materials, and their work.
+template <int D>
+runtime::TaskDeclaration account_for_pressure(const Method<D>& method);
 
 /// Rigid bodies take what contact gave them, and move.
 template <int D>

@@ -17,8 +17,7 @@ using runtime::TaskContext;
 namespace
 {
 
-/// What the particles of one group take from the nodes that this patch counts. Nodes inside a mirror also hold the
-/// mass of the image, whose normal momentum is opposite: it is taken off again.
+/// What the particles of one group take from the nodes that this patch counts.
 template <int D>
 void add_impulse(const Method<D>& method, const TaskContext& at, const GridView<const NodeSums<D>>& sums,
                  const GridView<NodeMotion<D>>& motion, GridTotals& totals)
@@ -26,16 +25,7 @@ void add_impulse(const Method<D>& method, const TaskContext& at, const GridView<
   for_each(counted_nodes(method, at), [&](const Index& i) {
     const Vector<D> change = motion[i].velocity_change();
     for (std::size_t k = 0; k < std::size_t{D}; ++k) {
-      double mass = sums[i].mass();
-      for (const int side : {0, 1}) {
-        const int wall = side == 0 ? 0 : at.layout.grid().n_cells[k];
-        const int outside = side == 0 ? -1 : 1;
-        if (!method.mirrors[k][static_cast<std::size_t>(side)] || i[k] != wall - outside) continue;
-        Index ghost = i;
-        ghost[k] = wall + outside;
-        mass -= 2 * sums[ghost].mass();
-      }
-      totals.impulse[k] += mass * change[static_cast<int>(k)];
+      totals.impulse[k] += own_mass(method, at, sums, i, k) * change[static_cast<int>(k)];
     }
   });
 }

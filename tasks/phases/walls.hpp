@@ -1,6 +1,7 @@
 #pragma once
 
 #include "components/boundary/symmetry.hpp"
+#include "components/shapes/node_sums.hpp"
 #include "tasks/method.hpp"
 
 namespace tamp::tasks
@@ -61,6 +62,24 @@ runtime::IndexBox counted_nodes(const Method<D>& method, const runtime::TaskCont
     if (!method.mirrors[k][1] && at.patch.cells.upper[k] == at.layout.grid().n_cells[k]) ++nodes.upper[k];
   }
   return nodes;
+}
+
+/// The mass by which the particles of a node take momentum along an axis. Nodes inside a mirror also hold the mass of
+/// the image, whose normal momentum is opposite: it is taken off again.
+template <int D>
+double own_mass(const Method<D>& method, const runtime::TaskContext& at,
+                const runtime::GridView<const components::NodeSums<D>>& sums, const runtime::Index& i, std::size_t axis)
+{
+  double mass = sums[i].mass();
+  for (const int side : {0, 1}) {
+    const int wall = side == 0 ? 0 : at.layout.grid().n_cells[axis];
+    const int outside = side == 0 ? -1 : 1;
+    if (!method.mirrors[axis][static_cast<std::size_t>(side)] || i[axis] != wall - outside) continue;
+    runtime::Index ghost = i;
+    ghost[axis] = wall + outside;
+    mass -= 2 * sums[ghost].mass();
+  }
+  return mass;
 }
 
 }  // namespace tamp::tasks

@@ -91,6 +91,28 @@ TEST_CASE("soil that lands on a floor ends with the same bits on any ranks and t
   CHECK(ending(*simulation) == expected);
 }
 
+TEST_CASE("a body under pressure ends with the same bits on any ranks and threads", "[ranks]")
+{
+  Scene scene = empty_scene(2, {12, 12, 1}, 0.1);
+  scene.n_patches = {4, 3, 1};
+  scene.faces[0][0] = Face::symmetry;
+  scene.local_damping = 0.3;
+  scene.interpolator = GENERATE(Interpolator::gimp, Interpolator::quadratic_spline);
+  add_disk(scene, add_elastic(scene, 1000, 1e6, 0.3), 0, 0.6, 0.5, {0, 0, 0}).pressure =
+      BodyPressure{components::PressureCurve({{0, 1e3}, {0.1, 1e4}}), {{0, 0.4, 0}, {1, 2, 0}}};
+  const auto pushed = [](Simulation& simulation) { return Eigen::Vector3d(simulation.take_load_forces().at(0)); };
+  const auto single = Simulation::make(scene, 1);
+  advance_to(*single, 0.1);
+  const int n_threads = GENERATE(1, 3);
+
+  const auto simulation = on_all_ranks(scene, n_threads);
+  advance_to(*simulation, 0.1);
+
+  CHECK(ending(*simulation) == ending(*single));
+  CHECK(simulation->totals().driving == single->totals().driving);
+  CHECK(pushed(*simulation) == pushed(*single));
+}
+
 TEST_CASE("a collision in three dimensions ends with the same bits on any ranks", "[ranks]")
 {
   Scene scene = empty_scene(3, {12, 8, 8}, 0.1);

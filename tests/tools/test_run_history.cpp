@@ -50,6 +50,31 @@ TEST_CASE("the depth of a body that starts at rest is the way it has moved")
   CHECK(depth_at_end("[0,0]") == Approx(0.2));
 }
 
+TEST_CASE("the history of a pressed body has the force of its load, and counts its work")
+{
+  const test::TemporaryFolder folder;
+  const auto file = folder.write("scene.json", falling_block);
+  const auto checked = tools::read_scene(
+      file, {"/bodies/block/rigid=false", "/gravity=[0,0]", "/output/history_interval=0.02",
+             R"(/bodies/block/pressure={"values":[[0,0],[0.2,100]],"within":{"lower":[0,1.4],"upper":[2,2]}})"});
+  const auto simulation = tasks::Simulation::make(checked.scene, 1);
+  tools::RunHistory history(*simulation);
+  history.begin(folder.path());
+  simulation->advance(0.01);
+  while (simulation->time() < 0.2) simulation->advance(0.2);
+
+  history.write_row();
+
+  const std::string text = test::read_text(folder.path() / "history.csv");
+  CHECK_THAT(text, Catch::Contains("block.depth[m]") && Catch::Contains("block.load_x[N],block.load_y[N]"));
+  // The mean of a ramp on a side of 0.5 m; to that of the steps.
+  const Eigen::Vector3d momentum = simulation->report().momentum();
+  CHECK(momentum.y() == Approx(-0.5 * 0.5 * 100 * 0.2).epsilon(0.1));
+  CHECK(history.momentum_error() < 1e-9);
+  CHECK(history.energy_error() < 0.02);
+  CHECK(history.energies().external > 0);
+}
+
 TEST_CASE("an energy error is told beyond its limit, and never where the limit is off")
 {
   const auto checked = tools::read_scene(TAMP_SOURCE_DIR "/inputs/punch/quick.json");

@@ -31,7 +31,7 @@ std::vector<std::size_t> moving_bodies(const tasks::Scene& scene)
   for (std::size_t b = 0; b < scene.bodies.size(); ++b) {
     const tasks::SceneBody& body = scene.bodies[b];
     const bool turns = Eigen::Vector3d(body.angular_velocity.data()).norm() > 0;
-    if (velocity_of(body).norm() > 0 || turns || body.rigid) moving.push_back(b);
+    if (velocity_of(body).norm() > 0 || turns || body.rigid || body.pressure) moving.push_back(b);
   }
   return moving;
 }
@@ -150,6 +150,10 @@ void RunHistory::add_body_columns(std::size_t body)
   } else if (given.drive) {
     columns_.push_back({given.name + ".contact_torque[N m]", [contact] { return contact().torque.z(); }});
   }
+  if (given.pressure) {
+    add_vector(given.name + ".load", "N",
+               [this, &given] { return load_forces_[static_cast<std::size_t>(given.material)]; });
+  }
   if (given.axis) {
     const Eigen::Vector3d nose(given.axis->nose.data()), tail(given.axis->tail.data());
     add_vector(given.name + ".nose", "m", [sums, nose] { return sums().place_of(nose); });
@@ -263,6 +267,7 @@ void RunHistory::write_row()
 {
   measure();
   contact_forces_ = simulation_.take_contact_forces();
+  load_forces_ = simulation_.take_load_forces();
   std::vector<double> row;
   for (const Column& column : columns_) row.push_back(column.value());
   runtime::by_first(simulation_.communicator(), [&] { csv_->write_row(row); });

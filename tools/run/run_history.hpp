@@ -61,7 +61,7 @@ class RunHistory
   const tasks::ParticleReport& report() const { return report_; }
   const tasks::NoseReport& near_noses() const { return near_noses_; }
 
-  /// Bodies that move at the start; the others are what they move into.
+  /// Bodies that move at the start, are rigid or under a pressure load; the others are what they move into.
   const std::vector<std::size_t>& tracked_bodies() const { return tracked_; }
   /// How far a body's centre of mass has moved along its initial velocity; of one that starts at rest, how far it is
   /// from where it started [m].
@@ -100,6 +100,7 @@ class RunHistory
   double momentum_error_ = 0;
   /// By material, since the row before.
   std::vector<tasks::ContactForce> contact_forces_;
+  std::vector<Eigen::Vector3d> load_forces_;
   std::vector<Column> columns_;
   /// On the first rank only.
   std::optional<runtime::CsvWriter> csv_;

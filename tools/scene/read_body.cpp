@@ -10,6 +10,7 @@
 #include "tasks/set_up/settled_sand.hpp"
 #include "tools/machine_room.hpp"
 #include "tools/scene/body_sites.hpp"
+#include "tools/scene/read_pressure.hpp"
 #include "tools/scene/read_solid.hpp"
 
 namespace tamp::tools
@@ -193,6 +194,7 @@ std::optional<tasks::SceneBody> read(const std::string& name, JsonReader& reader
   const auto axis = read_axis<D>(reader);
   const auto solid = read_solid<D>(reader, "geometry");
   const bool initial_stress = reader.flag("initial_stress", false);
+  auto pressure = read_pressure<D>(reader);
   reader.finish();
   const bool materials_are_good = scene.materials.size() == material_names.size();
   if (!solid || material.empty() || !grid_is_good || !materials_are_good) return std::nullopt;
@@ -227,8 +229,10 @@ std::optional<tasks::SceneBody> read(const std::string& name, JsonReader& reader
   }
   body.axis = axis;
   body.initial_stress = initial_stress;
+  body.pressure = std::move(pressure);
   if (axis) check_axis<D>(*axis, *solid, scene.grid.cell_size / scene.particles_per_axis_of(number), reader);
   if (initial_stress) check_settled<D>(scene, body, reader);
+  if (body.pressure) check_pressed<D>(scene, body, reader);
   return body;
 }
 

@@ -269,6 +269,50 @@ TEST_CASE("a driven body may lie against a mirror along which it goes without tu
   CHECK_THAT(problems(R"({"velocity":[0,-1]})", "open"), is_refused);
 }
 
+TEST_CASE("a pressure load pushes on a surface of a body that is not rigid")
+{
+  // The block of 1 m x 1 m lies against walls on its left and below it.
+  const std::string pressure = "--set#/bodies/block/pressure";
+  const auto problems = [](const std::string& load, const std::string& more = "/title=pressed") {
+    return problems_with({"/bodies/block/pressure=" + load, more});
+  };
+  CHECK(problems(R"({"value":1e3})") == "");
+  CHECK(problems(R"({"values":[[0,0],[1,1e3]],"within":{"lower":[-1,0.99],"upper":[1,2]}})") == "");
+  CHECK(problems("null") == "");
+
+  CHECK(problems("1000") == pressure + ": 1000; expected an object");
+  CHECK(problems(R"({})") == pressure + "/value: neither value nor values; expected one of value and values");
+  CHECK(problems(R"({"value":1,"values":[[0,1]]})") ==
+        pressure + "/value: beside values; expected one of value and values");
+  CHECK(problems(R"({"value":-1})") == pressure + "/value: -1; expected a number of at least 0 [Pa]");
+  CHECK_THAT(problems(R"({"value":"much"})"), Catch::StartsWith(pressure + "/value: \"much\"; expected a number"));
+  CHECK(problems(R"({"values":[[0,1],[0,2]]})") ==
+        pressure + "/values: entry 1: 0.000000 s after 0.000000 s; expected times that ascend");
+  CHECK(problems(R"({"values":[[0,1],[1,-2]]})") ==
+        pressure + "/values: entry 1: -2.000000 Pa; expected a pressure of 0 or above");
+  CHECK(problems(R"({"values":[]})") == pressure + "/values: no point; expected one or more");
+  CHECK_THAT(problems(R"({"values":[[0,1,2]]})"), Catch::Contains("expected a list of lists of 2 numbers"));
+  CHECK(problems(R"({"value":1,"within":{"lower":[0,0],"upper":[1,0]}})") ==
+        pressure + "/within/upper: 0 along y; expected more than lower, 0");
+  CHECK_THAT(problems(R"({"value":1,"within":{"lower":[0,0]}})"),
+             Catch::StartsWith(pressure + "/within/upper: missing"));
+  CHECK_THAT(problems(R"({"value":1,"side":"top"})"), Catch::StartsWith(pressure + "/side: unknown key"));
+  const std::string surface = "; expected a box that holds some of the body's surface";
+  CHECK(problems(R"({"value":1,"within":{"lower":[5,5],"upper":[6,6]}})") ==
+        pressure + "/within: from [5, 5] to [6, 6]" + surface);
+  CHECK(problems(R"({"value":1,"within":{"lower":[0.1,0.1],"upper":[0.9,0.9]}})") ==
+        pressure + "/within: from [0.1, 0.1] to [0.9, 0.9]" + surface);
+  // A wall is no surface, but an open face is.
+  CHECK(problems(R"({"value":1,"within":{"lower":[-1,-1],"upper":[0.1,0.9]}})") ==
+        pressure + "/within: from [-1, -1] to [0.1, 0.9]" + surface);
+  CHECK(problems(R"({"value":1,"within":{"lower":[-1,-1],"upper":[0.1,0.9]}})", R"(/boundaries/x-="open")") == "");
+  CHECK(problems(R"({"value":1})", "/bodies/block/geometry/upper=[2,2]") ==
+        pressure + ": a body without a surface, between walls; expected one with a free side");
+  CHECK(problems_with({"/grid/upper=[9,9]", "/bodies/block/geometry/lower=[2,2]", "/bodies/block/geometry/upper=[3,3]",
+                       "/bodies/block/rigid=true", R"(/bodies/block/pressure={"value":1})"}) ==
+        pressure + ": a rigid body, which bears no stress; expected one that is not rigid");
+}
+
 TEST_CASE("fields to be written are named once each, and of the scene's materials")
 {
   const std::string expected =

@@ -1,0 +1,135 @@
+#include "tasks/labels.hpp"
+#include "tasks/phases/phases.hpp"
+#include "tasks/phases/walls.hpp"
+
+namespace tamp::tasks
+{
+
+using components::NodeSums;
+using components::PressureSums;
+using runtime::Index;
+using runtime::TaskContext;
+
+namespace
+{
+
+/// The pressure loads of the bodies in one step, as their particles bring them to the grid.
+template <int D>
+class Pressures
+{
+ public:
+  Pressures(const Method<D>& method, int group, double time)
+      : size_(method.cell_size / method.scene.particles_per_axis_of(group)), depth_(method.scene.pressed_depth(group))
+  {
+    for (const SceneBody& body : method.scene.bodies) {
+      const bool is_pressed = body.pressure.has_value();
+      loads_.push_back({is_pressed ? body.pressure->curve.at(time) : 0,
+                        is_pressed ? body.pressure->template box_of<D>() : components::PressedBox<D>{}});
+    }
+  }
+
+  /// Of a particle that started at `reference` [Pa].
+  components::ByFace<D> at(std::int64_t body, const Vector<D>& reference) const
+  {
+    const Load& load = loads_[static_cast<std::size_t>(body)];
+    return load.pressure * load.box.part_of(reference, size_, depth_);
+  }
+
+ private:
+  struct Load {
+    double pressure;
+    components::PressedBox<D> box;
+  };
+  std::vector<Load> loads_;
+  double size_;
+  double depth_;
+};
+
+/// What nodes should be pressed with: their matter tells.
+template <int D>
+runtime::TaskDeclaration gather_pressure(const Method<D>& method)
+{
+  return runtime::task("gather pressure")
+      .over_patches_and_groups(method.pressed_groups)
+      .sparse()
+      .reads(particle::body.previous(), particle::reference_position<D>.previous(), particle::position<D>.previous(),
+             particle::mass.previous())
+      .accumulates(node::pressure_sums<D>.halo(method.halo))
+      .body([&method](const TaskContext& at, auto data) {
+        const auto body = data[particle::body.previous()];
+        const auto reference = data[particle::reference_position<D>.previous()];
+        const auto mass = data[particle::mass.previous()];
+        const auto sums = data[node::pressure_sums<D>];
+        const Pressures<D> pressures(method, at.group, at.step.time);
+        std::vector<components::ByFace<D>> pressure(mass.size());
+        for (std::size_t p = 0; p < mass.size(); ++p) pressure[p] = mass[p] * pressures.at(body[p], reference[p]);
+        method.interpolation(at.group).add_pressure(block_of<D>(at.layout, sums),
+                                                    data[particle::position<D>.previous()], pressure, sums.data());
+        for_each_wall(method, at, sums.box(), [&](const Wall<D>& wall) { wall.image.add_image(sums.data()); });
+      });
+}
+
+template <int D>
+runtime::TaskDeclaration press_nodes(const Method<D>& method)
+{
+  return runtime::task("press nodes")
+      .over_patches_and_groups(method.pressed_groups)
+      .sparse()
+      .reads(node::pressure_sums<D>.halo(method.halo))
+      .updates(node::sums<D>.halo(method.halo))
+      .body([](const TaskContext&, auto data) {
+        const auto pressure = data[node::pressure_sums<D>];
+        const auto sums = data[node::sums<D>];
+        for_each(sums.box(), [&](const Index& i) {
+          NodeSums<D>& node = sums[i];
+          node.add_force(components::pressure_force(pressure[i], node.mass(), node.surface_gradient()));
+        });
+      });
+}
+
+}  // namespace
+
+/// The surface is where the surface gradient of the whole material says it is, so that neither a mirror nor another
+/// body of the same material counts as one.
+template <int D>
+std::vector<runtime::TaskDeclaration> press(const Method<D>& method)
+{
+  return {gather_pressure(method), press_nodes(method)};
+}
+
+/// Work goes with the mean of the velocities before and after the step, as the energies of leapfrog are counted.
+template <int D>
+runtime::TaskDeclaration account_for_pressure(const Method<D>& method)
+{
+  return runtime::task("account for pressure")
+      .over_patches_and_groups(method.pressed_groups)
+      .sparse()
+      .reads(node::pressure_sums<D>.halo(method.halo), node::sums<D>.halo(method.halo),
+             node::motion<D>.halo(method.halo))
+      .reduces(load_totals)
+      .body([&method](const TaskContext& at, auto data) {
+        const auto pressure = data[node::pressure_sums<D>];
+        const auto sums = data[node::sums<D>];
+        const auto motion = data[node::motion<D>];
+        LoadTotals& totals = data[load_totals];
+        auto& given = totals.impulse[static_cast<std::size_t>(at.group)];
+        const double kick = 0.5 * (at.step.previous_size + at.step.size);
+        for_each(counted_nodes(method, at), [&](const Index& i) {
+          const double mass = sums[i].mass();
+          if (!(mass > method.least_node_mass)) return;
+          const Vector<D> change =
+              kick / mass * components::pressure_force(pressure[i], mass, sums[i].surface_gradient());
+          totals.work += 0.5 * mass * change.dot(sums[i].momentum() / mass + motion[i].velocity());
+          for (std::size_t k = 0; k < std::size_t{D}; ++k) {
+            given[k] += own_mass(method, at, sums, i, k) * change[static_cast<int>(k)];
+          }
+        });
+      });
+}
+
+template std::vector<runtime::TaskDeclaration> press(const Method<2>&);
+template std::vector<runtime::TaskDeclaration> press(const Method<3>&);
+template runtime::TaskDeclaration account_for_pressure(const Method<2>&);
+template runtime::TaskDeclaration account_for_pressure(const Method<3>&);
+
+}  // namespace tamp::tasks
