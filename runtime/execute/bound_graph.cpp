@@ -32,7 +32,7 @@ BoundGraph::BoundGraph(const TaskGraph& graph, Warehouse& warehouse, const Commu
   for (const Instance& instance : graph.instances()) {
     bound_.push_back(bind(instance));
     if (instance.kind == InstanceKind::send_particles && migration_ == nullptr) {
-      migration_ = std::make_unique<Migration>(warehouse, *graph.declaration(instance).accesses.front().label);
+      migration_ = std::make_unique<Migration>(warehouse, graph.declaration(instance));
     }
   }
   if (communicator.size() > 1) {
@@ -134,7 +134,7 @@ void BoundGraph::bind_sparse(const Instance& instance, Bound& bound)
 /// The patch of an instance; one without cells in a task over ranks.
 const Patch& BoundGraph::patch_of(const Instance& instance) const
 {
-  static const Patch none{-1, 0, {}, {}, {}};
+  static const Patch none{-1, 0, {}, {}, {}, {}};
   return instance.patch < 0 ? none : graph_.layout()[instance.patch];
 }
 

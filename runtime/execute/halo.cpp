@@ -10,12 +10,12 @@ namespace tamp::runtime
 namespace
 {
 
-/// Where the row of a box at (j, k) begins in a field's storage, in bytes.
-std::size_t row_offset(const Field& f, const IndexBox& box, int j, int k)
+/// Where the value of a node or cell stands in a field's storage, in bytes.
+std::size_t offset_of(const Field& f, const Index& i)
 {
   const auto strides = f.box.strides();
-  return static_cast<std::size_t>((box.lower[0] - f.box.lower[0]) + strides[1] * (j - f.box.lower[1]) +
-                                  strides[2] * (k - f.box.lower[2])) *
+  return static_cast<std::size_t>((i[0] - f.box.lower[0]) + strides[1] * (i[1] - f.box.lower[1]) +
+                                  strides[2] * (i[2] - f.box.lower[2])) *
          f.label->value_bytes();
 }
 
@@ -24,21 +24,25 @@ std::size_t row_bytes(const Field& f, const IndexBox& box)
   return static_cast<std::size_t>(box.extent(0)) * f.label->value_bytes();
 }
 
-/// Calls `row(j, k)` for every row of `box`.
+/// Calls `row(first)` for every row of `box`.
 template <class Row>
 void for_each_row(const IndexBox& box, const Row& row)
 {
   if (box.empty()) return;
   for (int k = box.lower[2]; k < box.upper[2]; ++k) {
-    for (int j = box.lower[1]; j < box.upper[1]; ++j) row(j, k);
+    for (int j = box.lower[1]; j < box.upper[1]; ++j) row(Index{box.lower[0], j, k});
   }
 }
 
-/// Calls `row(offset in a, offset in b, length)` for every row of `box`, in bytes of two fields' storage.
+/// Calls `row(offset in to, offset in from, length)` for every row of a part, in bytes of the fields' storage.
 template <class Row>
-void for_each_row(const IndexBox& box, const Field& a, const Field& b, const Row& row)
+void for_each_row(const Field& to, const BoundHalo::Part& part, const Row& row)
 {
-  for_each_row(box, [&](int j, int k) { row(row_offset(a, box, j, k), row_offset(b, box, j, k), row_bytes(a, box)); });
+  const Index& shift = part.shift;
+  for_each_row(part.box, [&](const Index& i) {
+    const Index there{i[0] - shift[0], i[1] - shift[1], i[2] - shift[2]};
+    row(offset_of(to, i), offset_of(*part.from, there), row_bytes(to, part.box));
+  });
 }
 
 /// What of `a` lies outside of `b`, in boxes that do not overlap.
@@ -71,11 +75,10 @@ BoundHalo bind_halo_sum(Warehouse& warehouse, const Label& label, int patch, int
 {
   const PatchLayout& layout = warehouse.layout();
   const auto box_of = [&](int p) { return grown(patch_box(label, layout[p]), halo, layout.grid().dimension); };
-  std::vector<int> sources = layout[patch].neighbours;
-  sources.insert(std::upper_bound(sources.begin(), sources.end(), patch), patch);
   BoundHalo bound{&warehouse.field(label, patch, group), {}};
-  for (const int from : sources) {
-    bound.parts.push_back({&warehouse.field(label, from, group), intersection(box_of(patch), box_of(from))});
+  for (const auto& [from, shift] : layout[patch].images) {
+    const IndexBox shared = intersection(box_of(patch), moved(box_of(from), shift));
+    bound.parts.push_back({&warehouse.field(label, from, group), shared, shift});
   }
   return bound;
 }
@@ -86,11 +89,11 @@ bool sum_halo(const BoundHalo& halo)
   std::byte* const sums = halo.to->current_buffer.data();
   const AddValues add = halo.to->label->add();
   bool any = false;
-  for (const auto& [from, box] : halo.parts) {
-    if (from->is_zero(FieldBuffer::part)) continue;
+  for (const BoundHalo::Part& part : halo.parts) {
+    if (part.from->is_zero(FieldBuffer::part)) continue;
     any = true;
-    const std::byte* const values = from->part_buffer.data();
-    for_each_row(box, *halo.to, *from, [&](std::size_t to_offset, std::size_t from_offset, std::size_t bytes) {
+    const std::byte* const values = part.from->part_buffer.data();
+    for_each_row(*halo.to, part, [&](std::size_t to_offset, std::size_t from_offset, std::size_t bytes) {
       add(sums + to_offset, values + from_offset, bytes);
     });
   }
@@ -104,11 +107,11 @@ BoundHalo bind_halo_fill(Warehouse& warehouse, const Label& label, int patch, in
   const IndexBox own = patch_box(label, layout[patch]);
   const IndexBox box = grown(own, halo, layout.grid().dimension);
   BoundHalo bound{&warehouse.field(label, patch, group), {}};
-  for (const int other : layout[patch].neighbours) {
+  for (const auto& [other, shift] : layout[patch].images) {
     const Field& from = warehouse.field(label, other, group);
     // Seam nodes are both patches' own, and stay as they are.
-    for (const IndexBox& piece : difference(intersection(box, patch_box(label, layout[other])), own)) {
-      bound.parts.push_back({&from, piece});
+    for (const IndexBox& piece : difference(intersection(box, moved(patch_box(label, layout[other]), shift)), own)) {
+      bound.parts.push_back({&from, piece, shift});
     }
   }
   return bound;
@@ -117,9 +120,9 @@ BoundHalo bind_halo_fill(Warehouse& warehouse, const Label& label, int patch, in
 void fill_halo(const BoundHalo& halo, FieldBuffer buffer)
 {
   std::byte* const to = halo.to->buffer(buffer).data();
-  for (const auto& [from, box] : halo.parts) {
-    const std::byte* const values = from->buffer(buffer).data();
-    for_each_row(box, *halo.to, *from, [&](std::size_t to_offset, std::size_t from_offset, std::size_t bytes) {
+  for (const BoundHalo::Part& part : halo.parts) {
+    const std::byte* const values = part.from->buffer(buffer).data();
+    for_each_row(*halo.to, part, [&](std::size_t to_offset, std::size_t from_offset, std::size_t bytes) {
       std::memcpy(to + to_offset, values + from_offset, bytes);
     });
   }
@@ -129,8 +132,7 @@ std::byte* copy_out(const Field& field, FieldBuffer buffer, const IndexBox& box,
 {
   const std::byte* values = field.buffer(buffer).data();
   if (field.label->centring() == Centring::reduction) return std::copy_n(values, field.n_bytes(), to);
-  for_each_row(
-      box, [&](int j, int k) { to = std::copy_n(values + row_offset(field, box, j, k), row_bytes(field, box), to); });
+  for_each_row(box, [&](const Index& i) { to = std::copy_n(values + offset_of(field, i), row_bytes(field, box), to); });
   return to;
 }
 
@@ -144,7 +146,7 @@ const std::byte* copy_in(Field& field, FieldBuffer buffer, const IndexBox& box, 
   if (field.label->centring() == Centring::reduction) {
     take(values, field.n_bytes());
   } else {
-    for_each_row(box, [&](int j, int k) { take(values + row_offset(field, box, j, k), row_bytes(field, box)); });
+    for_each_row(box, [&](const Index& i) { take(values + offset_of(field, i), row_bytes(field, box)); });
   }
   return from;
 }

@@ -11,14 +11,16 @@ namespace tamp::runtime
 struct BoundHalo {
   struct Part {
     const Field* from;
+    /// In the indices of the field that takes it; those of `from` are less by the shift.
     IndexBox box;
+    Index shift;
   };
 
   Field* to;
   std::vector<Part> parts;
 };
 
-/// For the values of a patch with `halo` layers: the parts of the patch and its neighbours, in the order of their ids.
+/// For the values of a patch with `halo` layers: the parts of the patch and its neighbours, in the order of its images.
 BoundHalo bind_halo_sum(Warehouse& warehouse, const Label& label, int patch, int group, int halo);
 
 /// Adds all parts into the current values: the same sums on both sides of every seam, bit for bit. Parts known to be

@@ -36,6 +36,18 @@ void close_gaps(Field& field, const std::vector<std::size_t>& leavers, std::size
   }
 }
 
+const Label* laps_label(const TaskDeclaration& migration)
+{
+  const auto& accesses = migration.accesses;
+  return accesses.size() > 1 && accesses[1].mode == Mode::update ? accesses[1].label : nullptr;
+}
+
+/// Number of the cell in which a coordinate is, as far outside of the grid as it may be.
+double cell_along(const Grid& grid, std::size_t axis, double x)
+{
+  return std::floor((x - grid.lower[axis]) / grid.cell_size);
+}
+
 void clear(ParticleParcel& parcel)
 {
   parcel.n_particles = 0;
@@ -44,9 +56,10 @@ void clear(ParticleParcel& parcel)
 
 }  // namespace
 
-Migration::Migration(Warehouse& warehouse, const Label& position)
+Migration::Migration(Warehouse& warehouse, const TaskDeclaration& declaration)
     : warehouse_(warehouse),
-      position_(position),
+      position_(*declaration.accesses.front().label),
+      laps_(laps_label(declaration)),
       outboxes_(static_cast<std::size_t>(warehouse.layout().size() * warehouse.n_groups())),
       arrivals_(outboxes_.size())
 {
@@ -59,19 +72,43 @@ Migration::Migration(Warehouse& warehouse, const Label& position)
   }
 }
 
-int Migration::destination(const std::byte* position) const
+/// The patch that owns a place, put back into a periodic grid; -1 outside.
+int Migration::destination(std::byte* position, Index& laps) const
 {
   const Grid& grid = warehouse_.layout().grid();
   Index cell{0, 0, 0};
   for (std::size_t k = 0; k < static_cast<std::size_t>(grid.dimension); ++k) {
     double x = 0;
     std::memcpy(&x, position + k * sizeof(double), sizeof(double));
-    const double place = std::floor((x - grid.lower[k]) / grid.cell_size);
+    double place = cell_along(grid, k, x);
     // The comparison is false for what is not a number, too.
-    if (!(place >= 0 && place < grid.n_cells[k])) return -1;
+    const auto is_inside = [&]() { return place >= 0 && place < grid.n_cells[k]; };
+    if (grid.periodic[k] && !is_inside()) place = put_back(k, position + k * sizeof(double), laps);
+    if (!is_inside()) return -1;
     cell[k] = static_cast<int>(place);
   }
   return warehouse_.layout().patch_of_cell(cell);
+}
+
+/// Moves a coordinate beyond one end of a periodic axis as far beyond the other, counts that, and gives its cell. Only
+/// here do coordinates change, by the same numbers however the grid is cut.
+double Migration::put_back(std::size_t axis, std::byte* coordinate, Index& laps) const
+{
+  const Grid& grid = warehouse_.layout().grid();
+  double x = 0;
+  std::memcpy(&x, coordinate, sizeof(double));
+  int lap = x < grid.lower[axis] ? -1 : 1;
+  x -= lap * grid.length(axis);
+  double place = cell_along(grid, axis, x);
+  // What is outside by round-off alone is on an end, and has both: the lower one is in a cell.
+  if (lap > 0 ? place < 0 : place == grid.n_cells[axis]) {
+    x = grid.lower[axis];
+    place = 0;
+    lap = std::max(lap, 0);
+  }
+  std::memcpy(coordinate, &x, sizeof(double));
+  laps[axis] += lap;
+  return place;
 }
 
 void Migration::pack(ParticleParcel& parcel, std::size_t particle, const std::vector<Field*>& fields) const
@@ -99,9 +136,12 @@ void Migration::send(int patch, int group)
   if (n == 0) return;
   Outbox& out = box(patch, group);
   Field& positions = warehouse_.field(position_, patch, group);
+  Index uncounted{0, 0, 0};
+  Index* const laps =
+      laps_ == nullptr ? nullptr : reinterpret_cast<Index*>(value(warehouse_.field(*laps_, patch, group), 0));
   std::vector<Field*> fields;
   for (std::size_t p = 0; p < n; ++p) {
-    const int to = destination(value(positions, p));
+    const int to = destination(value(positions, p), laps == nullptr ? uncounted : laps[p]);
     if (to == patch) continue;
     if (fields.empty()) fields = state_fields(warehouse_, patch, group);
     out.leavers.push_back(p);

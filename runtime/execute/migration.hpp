@@ -17,12 +17,14 @@ struct ParticleParcel {
 };
 
 /// Moves particles to the patch whose cells they are in. Stayers keep their order; arrivals are appended in the order
-/// of the patch they come from, so that the result is the same whatever the threads.
+/// of the patch they come from, so that the result is the same whatever the threads. What has left the grid along a
+/// periodic axis is first put back into it, by the axis's length.
 class Migration
 {
  public:
-  /// `position` is the label by whose coordinates (doubles, one for each dimension of the grid) particles are placed.
-  Migration(Warehouse& warehouse, const Label& position);
+  /// `declaration` updates the label by whose coordinates (doubles, one for each dimension of the grid) particles are
+  /// placed, and the one that counts their laps if there is one.
+  Migration(Warehouse& warehouse, const TaskDeclaration& declaration);
 
   /// Packs the particles of a patch and group that have left it and closes the gaps.
   void send(int patch, int group);
@@ -54,7 +56,8 @@ class Migration
     std::vector<std::size_t> leavers;
   };
 
-  int destination(const std::byte* position) const;
+  int destination(std::byte* position, Index& laps) const;
+  double put_back(std::size_t axis, std::byte* coordinate, Index& laps) const;
   void pack(ParticleParcel& parcel, std::size_t particle, const std::vector<Field*>& fields) const;
   const std::byte* field_bytes(const ParticleParcel& parcel, const Label& label, int patch, int group) const;
   std::size_t place(int patch, int group) const
@@ -66,6 +69,7 @@ class Migration
 
   Warehouse& warehouse_;
   const Label& position_;
+  const Label* laps_;
   std::vector<Outbox> outboxes_;
   /// What comes to each patch and group from each of its neighbours, together in memory: most often there is nothing.
   std::vector<std::vector<ParticleParcel>> arrivals_;

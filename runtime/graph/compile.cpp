@@ -144,11 +144,13 @@ class Compiler
     for (const Label* label : labels) {
       const IndexBox box = step_.box_of(*label, patch.id, halo);
       step_.edge(bodies_.at({d, patch.id, group}), sum, label, halo, step_.bytes_of(*label, box));
-      for (const int other : patch.neighbours) {
-        const IndexBox shared = intersection(box, step_.box_of(*label, other, halo));
+      for (const PatchImage& image : patch.images) {
+        const int other = image.patch;
+        if (other == patch.id) continue;
+        const IndexBox shared = step_.shared_box(*label, box, image, halo);
         step_.transfer({bodies_.at({d, other, group}),
                         sum,
-                        {label, other, patch.id, group, FieldBuffer::part, shared},
+                        {label, other, patch.id, group, FieldBuffer::part, shared, image.shift},
                         halo,
                         step_.bytes_of(*label, shared),
                         d});
@@ -271,12 +273,14 @@ class Compiler
   {
     const Label* label = access.label;
     const IndexBox box = step_.box_of(*label, patch, access.halo);
-    for (const int other : layout_[patch].neighbours) {
-      const IndexBox shared = intersection(box, step_.box_of(*label, other, 0));
+    for (const PatchImage& image : layout_[patch].images) {
+      const int other = image.patch;
+      if (other == patch) continue;
+      const IndexBox shared = step_.shared_box(*label, box, image, 0);
       const FieldBuffer buffer = version == nullptr ? FieldBuffer::previous : FieldBuffer::current;
       const Transfer t{version == nullptr ? -1 : instance_of(*version, other, group),
                        filler,
-                       {label, other, patch, group, buffer, shared},
+                       {label, other, patch, group, buffer, shared, image.shift},
                        access.halo,
                        step_.bytes_of(*label, shared),
                        version == nullptr ? -1 : version->declaration};

@@ -186,32 +186,34 @@ inline TaskBuilder<> task(std::string name)
 }
 
 /// The runtime's own task that moves particles to the patch that `position` puts them in, at the end of a step.
-/// `Point` is an array-like of coordinates [m], one for each dimension of the grid. It waits for the whole reduction
-/// `last_check`, and moves nothing if that is not `accepted`: the state before the step is still whole then.
-template <class Point, class T>
+/// `Point` is an array-like of coordinates [m], one for each dimension of the grid; what has left the grid along a
+/// periodic axis is put back into it. `laps`, if given, counts for each axis how often that was done, upwards less
+/// downwards: position + laps x length of the grid goes on where the position jumps.
+template <class Point>
 TaskDeclaration migration(const TypedLabel<Point, Centring::particle>& position,
-                          const TypedLabel<T, Centring::reduction>& last_check,
-                          std::function<bool(const T&)> accepted = nullptr)
+                          const TypedLabel<Index, Centring::particle>* laps = nullptr)
 {
   TaskDeclaration declaration;
   declaration.name = "migrate particles";
   declaration.domain = Domain::migration;
   declaration.add({Mode::update, &position});
+  if (laps != nullptr) declaration.add({Mode::update, laps});
+  return declaration;
+}
+
+/// The same, but it waits for the whole reduction `last_check`, and moves nothing if that is not `accepted`: the state
+/// before the step is still whole then.
+template <class Point, class T>
+TaskDeclaration migration(const TypedLabel<Point, Centring::particle>& position,
+                          const TypedLabel<T, Centring::reduction>& last_check,
+                          std::function<bool(const T&)> accepted = nullptr,
+                          const TypedLabel<Index, Centring::particle>* laps = nullptr)
+{
+  TaskDeclaration declaration = migration(position, laps);
   declaration.add({Mode::read, &last_check});
   if (accepted) {
     declaration.may_move = [f = std::move(accepted)](const void* value) { return f(*static_cast<const T*>(value)); };
   }
-  return declaration;
-}
-
-/// The same for graphs whose tasks do not fail.
-template <class Point>
-TaskDeclaration migration(const TypedLabel<Point, Centring::particle>& position)
-{
-  TaskDeclaration declaration;
-  declaration.name = "migrate particles";
-  declaration.domain = Domain::migration;
-  declaration.add({Mode::update, &position});
   return declaration;
 }
 

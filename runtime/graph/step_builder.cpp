@@ -87,6 +87,11 @@ IndexBox StepBuilder::box_of(const Label& label, int patch, int halo) const
                layout_.grid().dimension);
 }
 
+IndexBox StepBuilder::shared_box(const Label& label, const IndexBox& box, const PatchImage& image, int image_halo) const
+{
+  return intersection(moved(box, opposite(image.shift)), box_of(label, image.patch, image_halo));
+}
+
 std::size_t StepBuilder::bytes_of(const Label& label, const IndexBox& box)
 {
   return static_cast<std::size_t>(box.size()) * label.value_bytes();
@@ -111,7 +116,7 @@ void StepBuilder::measure(Message& message)
     }
     const int halo = instance(message.consumers[k]).halo;
     const int given = message.purpose == InstanceKind::sum_halo ? halo : 0;
-    part.box = intersection(box_of(*part.label, part.to_patch, halo), box_of(*part.label, part.from_patch, given));
+    part.box = shared_box(*part.label, box_of(*part.label, part.to_patch, halo), {part.from_patch, part.shift}, given);
     message.bytes += bytes_of(*part.label, part.box);
   }
 }

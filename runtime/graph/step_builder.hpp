@@ -52,6 +52,8 @@ class StepBuilder
   /// A patch's own nodes or cells, whichever the label is on, with a halo; and the bytes of a label in a box.
   IndexBox box_of(const Label& label, int patch, int halo) const;
   static std::size_t bytes_of(const Label& label, const IndexBox& box);
+  /// Which nodes or cells of an image, with a halo of its own, lie in the box of a patch: in the image's own indices.
+  IndexBox shared_box(const Label& label, const IndexBox& box, const PatchImage& image, int image_halo) const;
 
   CompiledStep finish();
 

@@ -66,6 +66,8 @@ struct MessagePart {
   FieldBuffer buffer = FieldBuffer::current;
   /// What of a node or cell field goes along.
   IndexBox box;
+  /// Of the image of `from_patch` that `to_patch` sees.
+  Index shift{0, 0, 0};
 };
 
 /// All that one rank sends to another in a step for one purpose, together.

@@ -62,6 +62,21 @@ inline IndexBox grown(IndexBox box, int halo, int dimension)
   return box;
 }
 
+/// `box` with its indices `by` higher.
+inline IndexBox moved(IndexBox box, const Index& by)
+{
+  for (std::size_t k = 0; k < 3; ++k) {
+    box.lower[k] += by[k];
+    box.upper[k] += by[k];
+  }
+  return box;
+}
+
+inline Index opposite(const Index& i)
+{
+  return {-i[0], -i[1], -i[2]};
+}
+
 /// Calls `visit(index)` for every index of the box, x fastest.
 template <class Visit>
 void for_each(const IndexBox& box, Visit&& visit)

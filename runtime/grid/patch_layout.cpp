@@ -27,11 +27,27 @@ PatchLayout::PatchLayout(const Grid& grid, const Index& n_patches) : grid_(grid)
     for (std::size_t k = 0; k < static_cast<std::size_t>(grid.dimension); ++k) ++patch.nodes.upper[k];
     patches_.push_back(patch);
   });
-  for (Patch& patch : patches_) {
-    const IndexBox reach = grown(patch.cells, 1, 3);
-    for (const Patch& other : patches_) {
-      if (other.id != patch.id && !intersection(reach, other.cells).empty()) patch.neighbours.push_back(other.id);
-    }
+  for (Patch& patch : patches_) find_neighbours(patch);
+}
+
+void PatchLayout::find_neighbours(Patch& patch) const
+{
+  const IndexBox reach = grown(patch.cells, 1, 3);
+  IndexBox laps{{0, 0, 0}, {1, 1, 1}};
+  for (std::size_t k = 0; k < 3; ++k) {
+    if (grid_.periodic[k]) laps.lower[k] = -1, laps.upper[k] = 2;
+  }
+  for (const Patch& other : patches_) {
+    bool touches = false;
+    for_each(laps, [&](const Index& lap) {
+      // An image further down shows a node by a higher index, so it comes later.
+      Index shift;
+      for (std::size_t k = 0; k < 3; ++k) shift[k] = -lap[k] * grid_.n_cells[k];
+      if (intersection(reach, moved(other.cells, shift)).empty()) return;
+      touches = true;
+      patch.images.push_back({other.id, shift});
+    });
+    if (touches && other.id != patch.id) patch.neighbours.push_back(other.id);
   }
 }
 
@@ -52,7 +68,7 @@ int PatchLayout::narrowest() const
 {
   int cells = std::numeric_limits<int>::max();
   for (std::size_t k = 0; k < 3; ++k) {
-    if (n_patches_[k] > 1) cells = std::min(cells, cells_per_patch_[k]);
+    if (n_patches_[k] > 1 || grid_.periodic[k]) cells = std::min(cells, cells_per_patch_[k]);
   }
   return cells;
 }
@@ -65,6 +81,15 @@ int PatchLayout::patch_of_cell(const Index& cell) const
 }
 
 IndexBox PatchLayout::owned_nodes(const Patch& patch) const
+{
+  IndexBox nodes = shown_nodes(patch);
+  for (std::size_t k = 0; k < 3; ++k) {
+    if (grid_.periodic[k]) nodes.upper[k] = patch.cells.upper[k];
+  }
+  return nodes;
+}
+
+IndexBox PatchLayout::shown_nodes(const Patch& patch) const
 {
   IndexBox nodes = patch.nodes;
   for (std::size_t k = 0; k < static_cast<std::size_t>(grid_.dimension); ++k) {

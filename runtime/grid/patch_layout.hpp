@@ -14,10 +14,21 @@ struct Grid {
   std::array<double, 3> lower{0, 0, 0};
   double cell_size = 1;
   Index n_cells{1, 1, 1};
+  /// Along which axes the two ends of the grid are one place: what leaves at one enters at the other, and node n_cells
+  /// is node 0.
+  std::array<bool, 3> periodic{false, false, false};
 
   IndexBox cells() const { return {{0, 0, 0}, n_cells}; }
   /// Place along `axis` of node or cell face number `index`.
   double coordinate(int axis, int index) const { return lower[static_cast<std::size_t>(axis)] + cell_size * index; }
+  double length(std::size_t axis) const { return cell_size * n_cells[axis]; }
+};
+
+/// A patch as another one sees it, along a periodic axis perhaps beyond an end of the grid.
+struct PatchImage {
+  int patch = 0;
+  /// What its own indices become there.
+  Index shift{0, 0, 0};
 };
 
 /// A box of cells that is worked on as one: it owns its cells and the particles in them.
@@ -29,6 +40,9 @@ struct Patch {
   IndexBox nodes;
   /// Patches that touch this one by a face, an edge or a corner, ascending, without itself.
   std::vector<int> neighbours;
+  /// The same with where they are, and the patch itself; along a periodic axis of one or two patches some come more
+  /// than once. All that see a node see it in the same order: by patch, then by the node's index there.
+  std::vector<PatchImage> images;
 };
 
 /// The grid cut into equal patches, numbered with x fastest.
@@ -50,14 +64,19 @@ class PatchLayout
   auto begin() const { return patches_.begin(); }
   auto end() const { return patches_.end(); }
 
-  /// The fewest cells that a patch has along an axis that is cut; the largest int when none is.
+  /// The fewest cells that a patch has along an axis that is cut or periodic; the largest int when none is.
   int narrowest() const;
   /// The patch that owns a cell; -1 outside of the grid.
   int patch_of_cell(const Index& cell) const;
-  /// Nodes that `patch` alone answers for: each node of the grid is in exactly one such box.
+  /// Nodes that `patch` alone answers for: each node of the grid is in exactly one such box, those at the two ends of a
+  /// periodic axis being the same.
   IndexBox owned_nodes(const Patch& patch) const;
+  /// The same with the upper end of a periodic axis: each index of a node is in exactly one such box.
+  IndexBox shown_nodes(const Patch& patch) const;
 
  private:
+  void find_neighbours(Patch& patch) const;
+
   Grid grid_;
   Index n_patches_;
   Index cells_per_patch_{};

@@ -33,6 +33,16 @@ const ReductionLabel<Sum, "total"> total;
 const GlobalLabel<double, "trace"> trace;
 const GlobalLabel<double, "old trace"> old_trace;
 
+/// The cells of which a task may know: where the grid is periodic, those beyond its ends too.
+IndexBox seen_cells(const Grid& grid)
+{
+  IndexBox cells = grid.cells();
+  for (std::size_t k = 0; k < 3; ++k) {
+    if (grid.periodic[k]) --cells.lower[k], ++cells.upper[k];
+  }
+  return cells;
+}
+
 /// Particles that wander, warm the nodes and are warmed by their neighbourhood: every kind of message there is. The
 /// numbers are such that another order of sums shows.
 std::vector<TaskDeclaration> wandering()
@@ -69,7 +79,7 @@ std::vector<TaskDeclaration> wandering()
                        const auto h = data[heat];
                        const auto old = data[smooth.previous()];
                        const auto now = data[smooth];
-                       const IndexBox all = at.layout.grid().cells();
+                       const IndexBox all = seen_cells(at.layout.grid());
                        for_each(at.patch.cells, [&](const Index& i) {
                          double sum = h[i] + h[{i[0] + 1, i[1] + 1, 0}];
                          for_each(intersection(grown(IndexBox{i, {i[0] + 1, i[1] + 1, 1}}, 1, 2), all),
@@ -95,7 +105,7 @@ std::vector<TaskDeclaration> wandering()
                         .body([](const TaskContext& at, auto data) {
                           const auto s = data[smooth];
                           const auto e = data[edges];
-                          const IndexBox all = at.layout.grid().cells();
+                          const IndexBox all = seen_cells(at.layout.grid());
                           for_each(at.patch.cells, [&](const Index& i) {
                             e[i] = 0;
                             for_each(intersection(grown(IndexBox{i, {i[0] + 1, i[1] + 1, 1}}, 1, 2), all),
@@ -111,7 +121,7 @@ std::vector<TaskDeclaration> wandering()
                              const auto s = data[smooth];
                              const auto now = data[smoother];
                              Sum& sum = data[total];
-                             const IndexBox all = at.layout.grid().cells();
+                             const IndexBox all = seen_cells(at.layout.grid());
                              for_each(at.patch.cells, [&](const Index& i) {
                                now[i] = 0;
                                for_each(intersection(grown(IndexBox{i, {i[0] + 1, i[1] + 1, 1}}, 1, 2), all),
@@ -130,12 +140,14 @@ std::vector<TaskDeclaration> wandering()
                       const auto was = data[warmth.previous()];
                       const auto now = data[place];
                       const auto is = data[warmth];
-                      const Index n = at.layout.grid().n_cells;
+                      const Grid& grid = at.layout.grid();
                       for (std::size_t p = 0; p < old.size(); ++p) {
                         const double w = s[{static_cast<int>(old[p][0]), static_cast<int>(old[p][1]), 0}];
                         is[p] = 0.5 * was[p] + w / (1 + std::abs(sum.value)) + data[trace] - data[old_trace];
                         now[p] = {old[p][0] + 0.9 * std::sin(37 * w), old[p][1] + 0.9 * std::cos(91 * w)};
-                        for (std::size_t k = 0; k < 2; ++k) now[p][k] = std::clamp(now[p][k], 0.01, n[k] - 0.01);
+                        for (std::size_t k = 0; k < 2; ++k) {
+                          if (!grid.periodic[k]) now[p][k] = std::clamp(now[p][k], 0.01, grid.n_cells[k] - 0.01);
+                        }
                       }
                     });
   auto recall =
@@ -151,9 +163,9 @@ std::vector<TaskDeclaration> wandering()
 }
 
 struct World {
-  World(const Communicator& communicator_, const std::vector<int>& ranks, int n_threads)
+  World(const Communicator& communicator_, const std::vector<int>& ranks, int n_threads, bool periodic = false)
       : communicator(communicator_),
-        layout(dealt(ranks)),
+        layout(dealt(ranks, periodic)),
         graph(wandering(), layout, {"only"}, {{&place, &warmth, &smooth, &trace}, {&total}}),
         warehouse(std::vector<const TaskGraph*>{&graph}, communicator.rank()),
         bound(graph, warehouse, communicator),
@@ -168,9 +180,11 @@ struct World {
     return n;
   }
 
-  PatchLayout dealt(const std::vector<int>& ranks) const
+  PatchLayout dealt(const std::vector<int>& ranks, bool periodic) const
   {
-    PatchLayout patches({2, {0, 0, 0}, 1, {16, 12, 1}}, n_patches());
+    Grid grid{2, {0, 0, 0}, 1, {16, 12, 1}};
+    grid.periodic = {periodic, periodic, false};
+    PatchLayout patches(grid, n_patches());
     patches.give_to_ranks(ranks, communicator.size());
     return patches;
   }
@@ -233,9 +247,9 @@ std::vector<int> along_curve(int n_ranks)
   return deal_patches(curve_order(World::n_patches()), std::vector<double>(12, 1.0), n_ranks);
 }
 
-std::vector<double> alone(int n_steps)
+std::vector<double> alone(int n_steps, bool periodic = false)
 {
-  World world({}, std::vector<int>(12, 0), 1);
+  World world({}, std::vector<int>(12, 0), 1, periodic);
   world.fill();
   world.run(n_steps);
   return world.values();
@@ -253,6 +267,19 @@ TEST_CASE("any ranks and threads give the same bits", "[ranks]")
   world.run(40);
 
   CHECK(world.values() == alone(40));
+}
+
+TEST_CASE("a world without ends has the same bits on any ranks and threads", "[ranks][periodic]")
+{
+  const Communicator all = Communicator::world();
+  const int n_threads = GENERATE(1, 3);
+  World world(all, along_curve(all.size()), n_threads, true);
+  world.fill();
+
+  world.run(40);
+
+  CHECK(world.values() == alone(40, true));
+  CHECK(world.values() != alone(40));
 }
 
 TEST_CASE("patches dealt in turn, with neighbours on every rank, give the same bits", "[ranks]")
