@@ -26,6 +26,8 @@ inline const runtime::ParticleLabel<std::int64_t, "body"> body;
 template <int D>
 inline const runtime::ParticleLabel<Vector<D>, "reference position"> reference_position;
 inline const runtime::ParticleLabel<double, "mass"> mass;
+/// Where the grid is periodic: how often it has left at the upper end of each axis, less how often at the lower.
+inline const runtime::ParticleLabel<runtime::Index, "laps"> laps;
 template <int D>
 inline const runtime::ParticleLabel<Vector<D>, "position"> position;
 /// At the middle of the step that led here: half a step behind the position (leapfrog).

@@ -59,7 +59,9 @@ Method<D>::Method(const Scene& given)
     }
   }
   for (std::size_t k = 0; k < std::size_t{D}; ++k) {
-    for (std::size_t side = 0; side < 2; ++side) mirrors[k][side] = scene.faces[k][side] != Face::open;
+    for (std::size_t side = 0; side < 2; ++side) {
+      mirrors[k][side] = scene.faces[k][side] != Face::open && !scene.grid.periodic[k];
+    }
   }
   for (const SceneContact& pair : scene.contacts)
     contacts.set(pair.material_a, pair.material_b, pair.friction, pair.normal_of);

@@ -157,9 +157,10 @@ struct Scene {
   /// The file's name without its ending; what a run's folder is called by default.
   std::string name;
   std::string title;
+  /// Where it is periodic, what leaves at one face enters at the other.
   runtime::Grid grid;
   runtime::Index n_patches;
-  /// faces[axis][0] is the lower one, faces[axis][1] the upper one.
+  /// faces[axis][0] is the lower one, faces[axis][1] the upper one; along a periodic axis there are none.
   std::array<std::array<Face, 2>, 3> faces{};
   /// Coefficients of the faces with friction.
   std::array<std::array<double, 2>, 3> wall_friction{};
@@ -182,6 +183,10 @@ struct Scene {
   SceneOutput output;
   SceneLimits limits;
 
+  bool is_periodic() const
+  {
+    return std::find(grid.periodic.begin(), grid.periodic.end(), true) != grid.periodic.end();
+  }
   bool has_nose() const
   {
     return std::any_of(bodies.begin(), bodies.end(), [](const SceneBody& body) { return body.axis.has_value(); });

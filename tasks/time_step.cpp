@@ -62,7 +62,8 @@ std::vector<runtime::TaskDeclaration> time_step(const Method<D>& method,
   for (const RigidBody& body : method.rigid_bodies) step.push_back(move_rigid_particles(method, body.group));
   if (!method.deformable_groups.empty()) step.push_back(grid_to_particles(method));
   for (const int material : method.deformable_groups) step.push_back(update_stress(method, material));
-  step.push_back(runtime::migration(particle::position<D>, step_totals, std::move(accepted)));
+  step.push_back(runtime::migration(particle::position<D>, step_totals, std::move(accepted),
+                                    method.scene.is_periodic() ? &particle::laps : nullptr));
   return step;
 }
 
@@ -75,6 +76,7 @@ runtime::HostData host_data(const Method<D>& method)
                          {&step_totals, &grid_totals, &contact_impulses, &host_requests}};
   for (const SceneMaterial& material : method.materials) add_state_of(material.model, data);
   if (!method.pressed_groups.empty()) data.results.push_back(&load_totals);
+  if (method.scene.is_periodic()) data.state.push_back(&particle::laps);
   if (method.transfer == Transfer::affine) data.state.push_back(&particle::velocity_gradient<D>);
   return data;
 }

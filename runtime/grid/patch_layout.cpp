@@ -33,10 +33,9 @@ PatchLayout::PatchLayout(const Grid& grid, const Index& n_patches) : grid_(grid)
 void PatchLayout::find_neighbours(Patch& patch) const
 {
   const IndexBox reach = grown(patch.cells, 1, 3);
-  IndexBox laps{{0, 0, 0}, {1, 1, 1}};
-  for (std::size_t k = 0; k < 3; ++k) {
-    if (grid_.periodic[k]) laps.lower[k] = -1, laps.upper[k] = 2;
-  }
+  Index around{0, 0, 0};
+  for (std::size_t k = 0; k < 3; ++k) around[k] = grid_.periodic[k] ? 1 : 0;
+  const IndexBox laps{opposite(around), {around[0] + 1, around[1] + 1, around[2] + 1}};
   for (const Patch& other : patches_) {
     bool touches = false;
     for_each(laps, [&](const Index& lap) {

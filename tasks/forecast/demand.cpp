@@ -23,11 +23,11 @@ std::vector<std::size_t> particles_of_materials(const Scene& scene)
 }
 
 /// Numbers that a particle has in an output file.
-std::size_t n_output_numbers(const SceneMaterial& material, const FieldChoice& choice)
+std::size_t n_output_numbers(const Scene& scene, const SceneMaterial& material)
 {
   std::size_t n = 1;  // id
-  for (const FieldName& field : particle_field_names(material)) {
-    if (choice.has(field.name) || is_always_written(field.name)) n += runtime::n_in_file(field.kind);
+  for (const FieldName& field : particle_field_names(scene, material)) {
+    if (scene.output.fields.has(field.name) || is_always_written(field.name)) n += runtime::n_in_file(field.kind);
   }
   return n;
 }
@@ -66,12 +66,11 @@ Demand demand_of(const Scene& scene)
   double n_nodes = 1;
   for (int k = 0; k < scene.grid.dimension; ++k) n_nodes *= scene.grid.n_cells[static_cast<std::size_t>(k)] + 1;
   constexpr double bytes_of_number = 8;
-  const FieldChoice& choice = scene.output.fields;
-  demand.output_file = bytes_of_number * static_cast<double>(n_output_numbers(choice)) * n_nodes;
+  demand.output_file = bytes_of_number * static_cast<double>(n_output_numbers(scene.output.fields)) * n_nodes;
   for (std::size_t m = 0; m < n_particles.size(); ++m) {
     demand.n_particles += n_particles[m];
     demand.output_file +=
-        bytes_of_number * static_cast<double>(n_output_numbers(scene.materials[m], choice) * n_particles[m]);
+        bytes_of_number * static_cast<double>(n_output_numbers(scene, scene.materials[m]) * n_particles[m]);
   }
   demand.fields = scene.grid.dimension == 2 ? field_bytes<2>(scene, n_particles) : field_bytes<3>(scene, n_particles);
   // Vectors that grow as they are filled have room to spare.

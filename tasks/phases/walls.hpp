@@ -52,12 +52,13 @@ void for_each_wall_node(const Wall<D>& wall, const runtime::Grid& grid, runtime:
 }
 
 /// The nodes that this patch counts in sums over all: its own, and those beyond an open face that particles still
-/// reach.
+/// reach. A periodic axis has no faces.
 template <int D>
 runtime::IndexBox counted_nodes(const Method<D>& method, const runtime::TaskContext& at)
 {
   runtime::IndexBox nodes = at.layout.owned_nodes(at.patch);
   for (std::size_t k = 0; k < D; ++k) {
+    if (at.layout.grid().periodic[k]) continue;
     if (!method.mirrors[k][0] && at.patch.cells.lower[k] == 0) --nodes.lower[k];
     if (!method.mirrors[k][1] && at.patch.cells.upper[k] == at.layout.grid().n_cells[k]) ++nodes.upper[k];
   }

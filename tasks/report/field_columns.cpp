@@ -72,9 +72,17 @@ void add_state_fields(const Model& model, std::vector<ParticleField>& fields)
   }
 }
 
+/// How often a particle has gone around the domain along each axis.
+template <int D>
+Vector<D> laps_of(const ParticleAt& at)
+{
+  const runtime::Index& laps = at[particle::laps];
+  return Eigen::Map<const Eigen::Matrix<int, D, 1>>(laps.data()).template cast<double>();
+}
+
 /// All that can be written of a material's particles, but for id; the material must outlive it.
 template <int D>
-std::vector<ParticleField> particle_fields(const SceneMaterial& material)
+std::vector<ParticleField> particle_fields(const Scene& scene, const SceneMaterial& material)
 {
   using At = const ParticleAt&;
   const auto invariants = [](At at) { return components::invariants(at[particle::stress<D>]); };
@@ -86,6 +94,7 @@ std::vector<ParticleField> particle_fields(const SceneMaterial& material)
       {"q", ColumnKind::scalar, [invariants](At at) { return invariants(at).q(); }},
       {"density", ColumnKind::scalar, [](At at) { return at[particle::mass] / at[particle::volume]; }},
       {"J", ColumnKind::scalar, [](At at) { return at[particle::deformation_gradient<D>].determinant(); }}};
+  if (scene.is_periodic()) fields.emplace_back("laps", ColumnKind::vector, laps_of<D>);
   std::visit([&](const auto& model) { add_state_fields<D>(model, fields); }, material.model);
   return fields;
 }
@@ -139,7 +148,7 @@ void append_nodes(const Method<D>& method, runtime::Warehouse& warehouse, const 
 {
   for (const runtime::Patch& patch : warehouse.layout()) {
     if (!warehouse.is_local(patch)) continue;
-    for_each(warehouse.layout().owned_nodes(patch),
+    for_each(warehouse.layout().shown_nodes(patch),
              [&](const runtime::Index& i) { field.add(method, matter_at<D>(warehouse, patch.id, i), all); });
   }
 }
@@ -147,10 +156,10 @@ void append_nodes(const Method<D>& method, runtime::Warehouse& warehouse, const 
 }  // namespace
 
 // Names and kinds are the same in two and three dimensions.
-std::vector<FieldName> particle_field_names(const SceneMaterial& material)
+std::vector<FieldName> particle_field_names(const Scene& scene, const SceneMaterial& material)
 {
   std::vector<FieldName> names;
-  for (const ParticleField& field : particle_fields<2>(material)) names.push_back({field.name, field.kind});
+  for (const ParticleField& field : particle_fields<2>(scene, material)) names.push_back({field.name, field.kind});
   return names;
 }
 
@@ -184,7 +193,7 @@ std::vector<runtime::ParticleBlock> FieldColumns<D>::particles(const Method<D>& 
       ids.insert(ids.end(), own.begin(), own.end());
     }
     block.columns.push_back({"id", ColumnKind::scalar, std::span<const std::int64_t>(ids)});
-    for (const ParticleField& field : particle_fields<D>(material)) {
+    for (const ParticleField& field : particle_fields<D>(method.scene, material)) {
       if (!choice.has(field.name) && !is_always_written(field.name)) continue;
       auto& numbers = numbers_.emplace_back();
       for (const runtime::Patch& patch : warehouse.layout()) {
@@ -214,7 +223,7 @@ runtime::NodeBlock FieldColumns<D>::nodes(const Method<D>& method, const FieldCh
   std::vector<NodeField<D>> fields = node_fields<D>();
   std::erase_if(fields, [&](const NodeField<D>& field) { return !choice.has(field.choice()); });
   for (const runtime::Patch& patch : layout) {
-    if (warehouse.is_local(patch)) block.boxes->push_back(layout.owned_nodes(patch));
+    if (warehouse.is_local(patch)) block.boxes->push_back(layout.shown_nodes(patch));
   }
   for (const NodeField<D>& field : fields) {
     auto& numbers = numbers_.emplace_back();

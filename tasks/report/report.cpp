@@ -33,6 +33,15 @@ void report_rigid_motion(const TaskContext& at, const RigidBody& body, const com
   report.bodies[static_cast<std::size_t>(body.body)] = sums_of(body.properties, state);
 }
 
+/// Where a particle would be if no periodic end had put it back: there its way and the work of gravity go on.
+template <int D>
+Vector<D> travelled_to(const runtime::Grid& grid, const Vector<D>& position, const runtime::Index& laps)
+{
+  Vector<D> x = position;
+  for (std::size_t k = 0; k < std::size_t{D}; ++k) x[static_cast<Eigen::Index>(k)] += laps[k] * grid.length(k);
+  return x;
+}
+
 template <int D, class Data>
 void report_motion(const Method<D>& method, const TaskContext& at, const Data& data)
 {
@@ -42,8 +51,15 @@ void report_motion(const Method<D>& method, const TaskContext& at, const Data& d
   const auto reference = data[particle::reference_position<D>.previous()];
   const auto velocity = data[particle::velocity<D>.previous()];
   ParticleReport& report = data[particle_report];
+  const auto place = [&](std::size_t p) -> Vector<D> {
+    if constexpr (Data::has(particle::laps)) {
+      return travelled_to<D>(at.layout.grid(), position[p], data[particle::laps.previous()][p]);
+    } else {
+      return position[p];
+    }
+  };
   for (std::size_t p = 0; p < mass.size(); ++p) {
-    report.gravity_work += mass[p] * work_function(method, position[p]);
+    report.gravity_work += mass[p] * work_function<D>(method, place(p));
   }
   if (const RigidBody* rigid = method.rigid_body(at.group)) {
     report_rigid_motion(at, *rigid, data[rigid_states.previous()].of(*rigid), report);
@@ -51,7 +67,7 @@ void report_motion(const Method<D>& method, const TaskContext& at, const Data& d
   }
   for (std::size_t p = 0; p < mass.size(); ++p) {
     report.kinetic += 0.5 * mass[p] * velocity[p].squaredNorm();
-    report.bodies[static_cast<std::size_t>(body[p])].add(mass[p], in_space<D>(position[p]), in_space<D>(reference[p]),
+    report.bodies[static_cast<std::size_t>(body[p])].add(mass[p], in_space<D>(place(p)), in_space<D>(reference[p]),
                                                          in_space<D>(velocity[p]));
   }
 }
@@ -91,11 +107,13 @@ runtime::TaskDeclaration report_of(const Method<D>& method, int group, const Mod
                          particle::position<D>.previous(), particle::reference_position<D>.previous(),
                          particle::velocity<D>.previous(), particle::stress<D>.previous())
                   .reduces(particle_report);
-  return with_state<Model>(std::move(task), [&method, &model](const TaskContext& at, auto data) {
+  const auto body = [&method, &model](const TaskContext& at, auto data) {
     report_motion(method, at, data);
     add_peaks<D>(model, data, data[particle_report].materials[static_cast<std::size_t>(at.group)],
                  [](std::size_t) { return true; });
-  });
+  };
+  if (!method.scene.is_periodic()) return with_state<Model>(std::move(task), body);
+  return with_state<Model>(std::move(task).reads(particle::laps.previous()), body);
 }
 
 /// Where the noses of bodies are now, and how far "near" reaches.

@@ -44,8 +44,11 @@ LayerColumn column_of(const Scene& scene, int particles_per_axis, const std::vec
   std::sort(layers.begin(), layers.end());
   layers.erase(std::unique(layers.begin(), layers.end()), layers.end());
   const double reach = 0.75 * column.spacing;
-  column.lower_wall = scene.faces[k][0] != Face::open && layers.front() - grid.coordinate(axis, 0) < reach;
-  column.upper_wall = scene.faces[k][1] != Face::open && grid.coordinate(axis, n_cells) - layers.back() < reach;
+  const bool at_lower = layers.front() - grid.coordinate(axis, 0) < reach;
+  const bool at_upper = grid.coordinate(axis, n_cells) - layers.back() < reach;
+  // What fills a periodic axis has its like beyond both ends, as between mirrors.
+  column.lower_wall = grid.periodic[k] ? at_lower && at_upper : at_lower && scene.faces[k][0] != Face::open;
+  column.upper_wall = grid.periodic[k] ? at_lower && at_upper : at_upper && scene.faces[k][1] != Face::open;
   return column;
 }
 
@@ -77,7 +80,11 @@ template <int D>
 std::array<components::LinearForce, std::size_t{D}> body_force(const Scene& scene)
 {
   std::array<components::LinearForce, std::size_t{D}> force;
-  for (std::size_t k = 0; k < D; ++k) force[k] = {scene.gravity[k], 0};
+  for (std::size_t k = 0; k < D; ++k) {
+    force[k] = {scene.gravity[k], 0};
+    if (!scene.grid.periodic[k] || scene.gravity[k] == 0) continue;
+    throw BadValue(fmt::format("gravity along {}, which is periodic", "xyz"[k]), "none along an axis without walls");
+  }
   if (!scene.centrifuge) return force;
   const Matrix<3> gradient = scene.centrifuge->gradient_by_position(0);
   const Matrix<3> across = gradient - Matrix<3>(gradient.diagonal().asDiagonal());

@@ -71,6 +71,28 @@ TEST_CASE("a collision with losses ends with the same bits on any ranks and thre
   CHECK(ending(*simulation) == expected);
 }
 
+TEST_CASE("a collision around a periodic domain ends with the same bits on any ranks and threads", "[ranks]")
+{
+  Scene scene = glancing_disks();
+  scene.n_patches = GENERATE(runtime::Index{1, 1, 1}, runtime::Index{2, 1, 1}, runtime::Index{6, 6, 1});
+  scene.grid.periodic = {true, true, false};
+  const auto [transfer, interpolator] = GENERATE(std::pair{Transfer::flip, Interpolator::gimp},
+                                                 std::pair{Transfer::affine, Interpolator::quadratic_spline});
+  scene.transfer = transfer;
+  scene.interpolator = interpolator;
+  // The disks pass all faces.
+  for (SceneBody& body : scene.bodies) body.velocity[1] -= 5;
+  const Ending expected = alone(scene, 0.3);
+  const int n_threads = GENERATE(1, 3);
+
+  const auto simulation = on_all_ranks(scene, n_threads);
+  simulation->balance_every(20);
+  advance_to(*simulation, 0.3);
+
+  CHECK(ending(*simulation) == expected);
+  CHECK(expected.n_lost == 0);
+}
+
 TEST_CASE("soil that lands on a floor ends with the same bits on any ranks and threads", "[ranks]")
 {
   Scene scene = empty_scene(2, {24, 12, 1}, 0.1);

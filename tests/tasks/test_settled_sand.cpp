@@ -66,6 +66,20 @@ TEST_CASE("settled sand stays at rest in a centrifuge and under gravity")
   CHECK(simulation->time() > 1e-4);
 }
 
+TEST_CASE("settled sand that fills a periodic domain from side to side stays at rest")
+{
+  Scene scene = box_of_sand(3);
+  scene.gravity = {0, 0, -9.81};
+  scene.grid.periodic[0] = true;
+  scene.n_patches = {GENERATE(1, 2), 1, 1};
+  scene.interpolator = GENERATE(Interpolator::gimp, Interpolator::quadratic_spline);
+  const auto simulation = Simulation::make(scene, 2);
+
+  for (int i = 0; i < 300; ++i) simulation->advance(1);
+
+  CHECK(fastest(*simulation) < 1e-12);
+}
+
 TEST_CASE("settled sand stays at rest in rate form too")
 {
   const auto simulation = Simulation::make(sand_under_gravity(components::ElasticUpdate::rate), 1);
@@ -113,6 +127,11 @@ TEST_CASE("sand that cannot have settled is refused")
   Scene open_side = sand_under_gravity();
   open_side.faces[0][1] = Face::open;
   CHECK_THROWS_AS(Simulation::make(open_side, 1), components::BadValue);
+
+  Scene without_sides = sand_under_gravity();
+  without_sides.grid.periodic[0] = true;
+  without_sides.gravity[0] = 0.1;
+  CHECK_THROWS_AS(Simulation::make(without_sides, 1), components::BadValue);
 
   Scene not_sand = sand_under_gravity();
   not_sand.bodies[0].material = add_elastic(not_sand, 1000, 1e6, 0.3);

@@ -6,7 +6,9 @@
 #include <chrono>
 #include <csignal>
 #include <fstream>
+#include <limits>
 #include <nlohmann/json.hpp>
+#include <sstream>
 #include <thread>
 
 #include "tests/tools/background_program.hpp"
@@ -162,6 +164,51 @@ TEST_CASE("a footing under a load that grows goes on with the bits of a straight
   CHECK(parted["state_digest"] == straight["state_digest"]);
   CHECK_THAT(read_text(folder.path() / "parted/history.csv"), Catch::Contains("footing.load_y[N]"));
   CHECK(read_text(folder.path() / "parted/history.csv") == read_text(folder.path() / "straight/history.csv"));
+}
+
+namespace
+{
+
+/// What the last row of a table has in a column.
+double last_value(const std::string& csv, const std::string& column)
+{
+  std::istringstream names(csv.substr(0, csv.find('\n')));
+  std::istringstream values(csv.substr(csv.rfind('\n', csv.size() - 2) + 1));
+  std::string name, value;
+  while (std::getline(names, name, ',') && std::getline(values, value, ',')) {
+    if (name == column) return std::stod(value);
+  }
+  return std::numeric_limits<double>::quiet_NaN();
+}
+
+}  // namespace
+
+TEST_CASE("bodies that go around a periodic domain go on with the bits of a straight run, on other ranks too",
+          "[mpiexec]")
+{
+  const TemporaryFolder folder;
+  const fs::path file = folder.write("disk.json", R"({
+    "dimension": 2, "grid": { "upper": [1.2, 0.6], "cell_size": 0.05, "patches": [4, 2] },
+    "boundaries": { "x-": "periodic", "x+": "periodic" }, "time": { "end": 1 }, "gravity": [0, -9.81],
+    "materials": { "rubber": { "type": "hypoelastic", "density": 1000, "bulk_modulus": 1e6, "shear_modulus": 4e5 } },
+    "bodies": { "disk": { "material": "rubber", "velocity": [30, -3],
+                          "geometry": { "type": "ball", "centre": [0.6, 0.3], "radius": 0.2 } } }
+  })");
+  const std::string disk = "run " + file.string();
+  const auto run = [&](const std::string& name) { return " --quiet --out " + (folder.path() / name).string(); };
+  const std::string restart = " --quiet --restart " + (folder.path() / "parted").string();
+
+  REQUIRE(tamp_with(disk + " --steps 600" + run("straight")).exit_code == 0);
+  REQUIRE(tamp_on_ranks(3, disk + " --steps 300 --checkpoint-steps 80" + run("parted")).exit_code == 0);
+  REQUIRE(tamp_on_ranks(2, disk + " --steps 600" + restart).exit_code == 0);
+
+  const auto parted = summary_of(folder.path() / "parted"), straight = summary_of(folder.path() / "straight");
+  CHECK(parted["restarted_at_step"] == 240);
+  CHECK(parted["state_digest"] == straight["state_digest"]);
+  const std::string history = read_text(folder.path() / "straight/history.csv");
+  CHECK(read_text(folder.path() / "parted/history.csv") == history);
+  // It has been around twice.
+  CHECK(last_value(history, "disk.depth[m]") > 2.4);
 }
 
 TEST_CASE("a damaged checkpoint is refused with its reason, and the one before is used")

@@ -179,6 +179,20 @@ std::optional<tasks::BodyDrive> read_drive(JsonReader& body, bool rigid)
   return tasks::BodyDrive{std::move(*motion), turns};
 }
 
+/// What has one place, as a rigid body's centre, has many between periodic boundaries.
+void check_may_go_around(const tasks::Scene& scene, bool rigid, bool has_axis, const JsonReader& reader)
+{
+  if (!scene.is_periodic()) return;
+  if (rigid) {
+    reader.add_problem("rigid", "a rigid body, which cannot go around, between periodic boundaries",
+                       "expected one that is not rigid, or other boundaries");
+  }
+  if (has_axis) {
+    reader.add_problem("nose", "a nose, whose surroundings cannot go around, between periodic boundaries",
+                       "expected none, or other boundaries");
+  }
+}
+
 template <int D>
 std::optional<tasks::SceneBody> read(const std::string& name, JsonReader& reader, const tasks::Scene& scene,
                                      const std::vector<std::string>& material_names, bool grid_is_good)
@@ -196,6 +210,7 @@ std::optional<tasks::SceneBody> read(const std::string& name, JsonReader& reader
   const bool initial_stress = reader.flag("initial_stress", false);
   auto pressure = read_pressure<D>(reader);
   reader.finish();
+  check_may_go_around(scene, rigid, axis.has_value(), reader);
   const bool materials_are_good = scene.materials.size() == material_names.size();
   if (!solid || material.empty() || !grid_is_good || !materials_are_good) return std::nullopt;
 

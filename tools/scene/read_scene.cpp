@@ -37,7 +37,7 @@ class SceneReader
     scene_.interpolator = smooth ? tasks::Interpolator::quadratic_spline : tasks::Interpolator::gimp;
     read_grid();
     const bool grid_is_good = document_.problems.size() == n_before;
-    read_faces();
+    read_faces(grid_is_good);
     read_time();
     const bool affine = root_.choice("transfer", {"flip", "affine"}, true) == "affine";
     scene_.transfer = affine ? tasks::Transfer::affine : tasks::Transfer::flip;
@@ -121,7 +121,7 @@ class SceneReader
     return static_cast<int>(whole);
   }
 
-  void read_faces()
+  void read_faces(bool grid_is_good)
   {
     JsonReader reader = root_.object_or_empty("boundaries");
     for (std::size_t axis = 0; axis < dimension(); ++axis) {
@@ -133,14 +133,32 @@ class SceneReader
           scene_.wall_friction[axis][side] = wall.number("friction", zero_or_above);
           wall.finish();
         } else {
-          const std::string kind = reader.choice(key, {"symmetry", "open", "no_slip"}, true);
+          const std::string kind = reader.choice(key, {"symmetry", "open", "no_slip", "periodic"}, true);
           scene_.faces[axis][side] = kind == "open"      ? tasks::Face::open
                                      : kind == "no_slip" ? tasks::Face::no_slip
                                                          : tasks::Face::symmetry;
         }
       }
+      read_periodic(reader, axis, grid_is_good);
     }
     reader.finish();
+  }
+
+  void read_periodic(JsonReader& reader, std::size_t axis, bool grid_is_good)
+  {
+    const std::array<std::string, 2> keys{std::string{"xyz"[axis], '-'}, std::string{"xyz"[axis], '+'}};
+    const bool lower = reader.is_text(keys[0], "periodic"), upper = reader.is_text(keys[1], "periodic");
+    if (lower != upper) {
+      reader.add_problem(lower ? keys[1] : keys[0], "a face that is not periodic, opposite to one that is",
+                         "expected both faces of an axis periodic, or neither");
+    }
+    if (!lower || !upper) return;
+    scene_.grid.periodic[axis] = true;
+    const int n_cells = scene_.grid.n_cells[axis], least = tasks::least_patch_width(scene_.interpolator);
+    if (grid_is_good && n_cells < least) {
+      reader.add_problem(keys[0], fmt::format("periodic, {} cells along {}", n_cells, "xyz"[axis]),
+                         fmt::format("expected at least {} cells between periodic faces", least));
+    }
   }
 
   void read_time()
@@ -194,6 +212,10 @@ class SceneReader
     const auto has_friction = [](const std::array<tasks::Face, 2>& sides) {
       return std::find(sides.begin(), sides.end(), tasks::Face::friction) != sides.end();
     };
+    if (scene_.is_periodic()) {
+      root_.add_problem("centrifuge", "periodic boundaries, whose ends are not alike in a turning grid",
+                        "expected other boundaries where the grid turns");
+    }
     if (std::any_of(scene_.faces.begin(), scene_.faces.end(), has_friction)) {
       root_.add_problem("centrifuge", "a wall with friction", "expected other boundaries where the grid turns");
     }
@@ -297,11 +319,16 @@ class SceneReader
   }
 
   /// The word for the flatter surface or for regression, or one of the two materials.
-  static std::string read_normal(JsonReader& reader, const std::vector<std::string>& materials)
+  std::string read_normal(JsonReader& reader, const std::vector<std::string>& materials) const
   {
     std::vector<std::string> choices{flatter, regression};
     choices.insert(choices.end(), materials.begin(), materials.end());
-    return reader.choice("normal", choices, true);
+    const std::string normal = reader.choice("normal", choices, true);
+    if (normal == regression && scene_.is_periodic()) {
+      reader.add_problem("normal", "regression, whose planes have one place each, between periodic boundaries",
+                         "expected another normal");
+    }
+    return normal;
   }
 
   void read_output()
@@ -325,7 +352,7 @@ class SceneReader
       if (std::find(known.begin(), known.end(), field.name) == known.end()) known.push_back(field.name);
     };
     for (const tasks::SceneMaterial& material : scene_.materials) {
-      for (const tasks::FieldName& field : tasks::particle_field_names(material)) add(field);
+      for (const tasks::FieldName& field : tasks::particle_field_names(scene_, material)) add(field);
     }
     for (const tasks::FieldName& field : tasks::node_field_names()) add(field);
     scene_.output.fields.names = reader.some_of("fields", known);

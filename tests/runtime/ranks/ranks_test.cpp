@@ -38,7 +38,8 @@ IndexBox seen_cells(const Grid& grid)
 {
   IndexBox cells = grid.cells();
   for (std::size_t k = 0; k < 3; ++k) {
-    if (grid.periodic[k]) --cells.lower[k], ++cells.upper[k];
+    cells.lower[k] -= grid.periodic[k] ? 1 : 0;
+    cells.upper[k] += grid.periodic[k] ? 1 : 0;
   }
   return cells;
 }

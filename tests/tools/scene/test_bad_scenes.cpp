@@ -341,7 +341,7 @@ TEST_CASE("a wall has a word or a coefficient of friction, which no turning grid
   CHECK(problems_with({R"(/boundaries/y-="no_slip")"}) == "");
   CHECK(problems_with({R"(/boundaries/y-={"friction":0.4})"}) == "");
   CHECK(problems_with({R"(/boundaries/y-="rough")"}) ==
-        "--set#/boundaries/y-: \"rough\"; expected one of symmetry, open, no_slip");
+        "--set#/boundaries/y-: \"rough\"; expected one of symmetry, open, no_slip, periodic");
   CHECK_THAT(problems_with({R"(/boundaries/y-={"friction":-0.4})"}),
              Catch::StartsWith("--set#/boundaries/y-/friction: -0.4; expected a number"));
   CHECK_THAT(problems_with({R"(/boundaries/y-={})"}), Catch::Contains("#/boundaries/y-/friction: missing"));
@@ -355,6 +355,48 @@ TEST_CASE("a wall has a word or a coefficient of friction, which no turning grid
   CHECK(problems_with(in_space) == "");
   CHECK(problems_with(turning) ==
         "--set#/centrifuge: a wall with friction; expected other boundaries where the grid turns");
+}
+
+TEST_CASE("both faces of an axis are periodic or neither, and three cells apart")
+{
+  const std::string around = R"(/boundaries={"x-":"periodic","x+":"periodic"})";
+  CHECK(problems_with({"/grid/upper=[3,2]", around}) == "");
+  CHECK(problems_with({R"(/boundaries={"x+":"periodic"})"}) ==
+        "--set#/boundaries/x-: a face that is not periodic, opposite to one that is; expected both faces of an axis "
+        "periodic, or neither");
+  CHECK(problems_with({R"(/boundaries={"y-":"periodic","y+":{"friction":0.4}})"}) ==
+        "--set#/boundaries/y+: a face that is not periodic, opposite to one that is; expected both faces of an axis "
+        "periodic, or neither");
+  CHECK(problems_with({around}) ==
+        "--set#/boundaries/x-: periodic, 2 cells along x; expected at least 3 cells between periodic faces");
+  CHECK_THAT(problems_with({R"(/boundaries={"z-":"periodic","z+":"periodic"})"}),
+             Catch::Contains("#/boundaries/z-: unknown key"));
+}
+
+TEST_CASE("what cannot go around is refused between periodic faces")
+{
+  const auto problems = [](const std::string& first, const std::string& second = "/title=around") {
+    return problems_with({"/grid/upper=[9,9]", "/bodies/block/geometry/lower=[2,2]",
+                          "/bodies/block/geometry/upper=[5,5]", R"(/boundaries={"y-":"periodic","y+":"periodic"})",
+                          first, second});
+  };
+  CHECK(problems("/bodies/block/velocity=[0,1]") == "");
+  CHECK(
+      problems("/bodies/block/rigid=true") ==
+      "--set#/bodies/block/rigid: a rigid body, which cannot go around, between periodic boundaries; expected one that "
+      "is not rigid, or other boundaries");
+  CHECK(problems("/bodies/block/nose=[3,2]", "/bodies/block/tail=[3,5]") ==
+        "--set#/bodies/block/nose: a nose, whose surroundings cannot go around, between periodic boundaries; expected "
+        "none, or other boundaries");
+  CHECK(problems_with_sand({"/grid/upper=[3,2]", R"(/boundaries={"x-":"periodic","x+":"periodic"})",
+                            R"(/contact=[{"materials":["steel","sand"],"friction":0,"normal":"regression"}])"}) ==
+        "--set#/contact/0/normal: regression, whose planes have one place each, between periodic boundaries; expected "
+        "another normal");
+  CHECK(problems_with({"/dimension=3", "/grid/upper=[3,2,2]", "/bodies/block/geometry/lower=[0,0,0]",
+                       "/bodies/block/geometry/upper=[1,1,1]", R"(/boundaries={"x-":"periodic","x+":"periodic"})",
+                       R"(/centrifuge={"angular_speed":1,"axis":[1,0,0],"centre":[0,0,0]})"}) ==
+        "--set#/centrifuge: periodic boundaries, whose ends are not alike in a turning grid; expected other boundaries "
+        "where the grid turns");
 }
 
 TEST_CASE("what a rigid body is given of a wrong type is told with what was found")
@@ -450,7 +492,7 @@ TEST_CASE("a name that is none of the choices is told with the choices")
         "--set#/interpolator: \"linear\"; expected one of gimp, quadratic_spline");
   CHECK(problems_with({"/transfer=apic"}) == "--set#/transfer: \"apic\"; expected one of flip, affine");
   CHECK(problems_with({"/boundaries/x-=wall"}) ==
-        "--set#/boundaries/x-: \"wall\"; expected one of symmetry, open, no_slip");
+        "--set#/boundaries/x-: \"wall\"; expected one of symmetry, open, no_slip, periodic");
   CHECK(problems_with({"/bodies/block/material=stel"}) ==
         "--set#/bodies/block/material: \"stel\"; expected steel, did you mean \"steel\"?");
 }
