@@ -2,16 +2,21 @@
 
 #include <hdf5.h>
 
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
+#include <memory>
+#include <numeric>
 #include <span>
 #include <string>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
 #include "runtime/ranks/communicator.hpp"
 
-/// HDF5's C library behind handles that close themselves and calls that throw.
+/// HDF5's C library: handles that close themselves, and files whose every failure is a FileError.
 namespace tamp::runtime::hdf5
 {
 
@@ -66,16 +71,26 @@ class Quiet
   void* data_ = nullptr;
 };
 
-/// Throws FileError with HDF5's own reason if `result` is negative; otherwise gives it back. `doing` reads like
-/// "cannot write step 12".
-hid_t checked(hid_t result, const std::filesystem::path& file, const std::string& doing);
+/// The type of an element in a file, where it is little-endian, and the same in memory.
+struct ElementType {
+  hid_t in_file;
+  hid_t in_memory;
+};
 
-/// How a file is opened: by all ranks together, or by this process where it is alone. Without locks, because a reader
-/// such as ParaView that has the file open would otherwise stop the run at its next output.
-Properties file_access(const Communicator& communicator, const std::filesystem::path& file);
-
-/// How values are written: by all ranks in one call where there are several.
-Properties collective_transfer(const Communicator& communicator, const std::filesystem::path& file);
+template <class T>
+ElementType element_type()
+{
+  if constexpr (std::is_same_v<T, double>) {
+    return {H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE};
+  } else if constexpr (std::is_same_v<T, std::int64_t>) {
+    return {H5T_STD_I64LE, H5T_NATIVE_INT64};
+  } else if constexpr (std::is_same_v<T, std::uint64_t>) {
+    return {H5T_STD_U64LE, H5T_NATIVE_UINT64};
+  } else {
+    static_assert(std::is_same_v<T, std::byte>);
+    return {H5T_STD_U8LE, H5T_NATIVE_UINT8};
+  }
+}
 
 /// A box of a dataset's elements: the first along each dimension, and how many.
 struct Slab {
@@ -83,8 +98,135 @@ struct Slab {
   std::vector<hsize_t> n;
 };
 
-/// Selects the elements of all slabs together; none where there is no slab.
-herr_t select(hid_t space, std::span<const Slab> slabs);
+/// The dimensions of a dataset, and the boxes of it that one rank gives.
+struct Share {
+  std::vector<hsize_t> dimensions;
+  std::vector<Slab> slabs;
+};
+
+/// What a file says of a dataset without its values.
+struct DatasetInfo {
+  std::vector<hsize_t> dimensions;
+  bool whole_numbers = false;
+  /// The place in the file behind its last byte; 0 if it has none.
+  std::uintmax_t end = 0;
+};
+
+enum class MemberOrder { by_name, as_made };
+
+/// What the locations of an open file share.
+struct FileState {
+  Quiet quiet;
+  std::filesystem::path path;
+  std::string doing;
+  Communicator communicator;
+  Properties transfer;
+  File id;
+  /// Why values could not be written on this rank.
+  std::string failure;
+};
+
+/// An open file, or a group in it. What it has is named by paths from it. All throws FileError.
+///
+/// Where ranks have opened a file together, all of them make the same calls that write.
+class Location
+{
+ public:
+  /// The path of the file.
+  const std::filesystem::path& file() const { return file_->path; }
+
+  /// Makes a group, and those on the way to it, which know in which order their members were made.
+  Location make_group(const std::string& path) const;
+  /// One value becomes a scalar.
+  void write_attribute(const std::string& name, std::span<const double> values) const
+  {
+    write_attribute(name, element_type<double>(), values.size(), values.data());
+  }
+  void write_attribute(const std::string& name, std::span<const std::int64_t> values) const
+  {
+    write_attribute(name, element_type<std::int64_t>(), values.size(), values.data());
+  }
+  void write_attribute(const std::string& name, const std::string& text) const;
+  /// Makes a dataset; this rank gives the values of its share, in the order of the file. What fails on one rank alone
+  /// is kept until `OpenFile::agree`: the calls that follow are made all the same, as other ranks wait in them.
+  void write(const std::string& path, const Share& share, ElementType type, const void* values) const;
+  /// The same where the first rank gives all values.
+  void write_by_first(const std::string& path, const std::vector<hsize_t>& dimensions, ElementType type,
+                      const void* values) const;
+  void write_by_first(const std::string& path, const std::string& text) const;
+  void remove(const std::string& path) const;
+
+  Location group(const std::string& path) const;
+  std::vector<std::string> members(MemberOrder order) const;
+  /// Throws too unless there are as many values.
+  void read_attribute(const std::string& name, std::span<double> values) const
+  {
+    read_attribute(name, element_type<double>(), values.size(), values.data());
+  }
+  void read_attribute(const std::string& name, std::span<std::int64_t> values) const
+  {
+    read_attribute(name, element_type<std::int64_t>(), values.size(), values.data());
+  }
+  std::string text_attribute(const std::string& name) const;
+  DatasetInfo info(const std::string& path) const;
+  /// Values of a dataset: those of a box, in its order, or all.
+  void read(const std::string& path, const Slab& box, ElementType type, void* values) const;
+  template <class T>
+  std::vector<T> read(const std::string& path) const
+  {
+    const std::vector<hsize_t> n = info(path).dimensions;
+    std::vector<T> values(std::accumulate(n.begin(), n.end(), std::size_t{1}, std::multiplies<>()));
+    read(path, {std::vector<hsize_t>(n.size(), 0), n}, element_type<T>(), values.data());
+    return values;
+  }
+  std::string read_text(const std::string& path) const;
+
+ private:
+  friend class OpenFile;
+  explicit Location(std::shared_ptr<FileState> file, Group group = Group())
+      : file_(std::move(file)), group_(std::move(group))
+  {
+  }
+
+  hid_t id() const { return group_ < 0 ? hid_t{file_->id} : hid_t{group_}; }
+  hid_t checked(hid_t result) const;
+  void write_attribute(const std::string& name, ElementType type, hsize_t n, const void* values) const;
+  void read_attribute(const std::string& name, ElementType type, std::size_t n, void* values) const;
+  /// Selects the elements of all slabs together, none without one, and gives their space in memory: one after another.
+  Space select(const Space& in_file, std::span<const Slab> slabs) const;
+
+  std::shared_ptr<FileState> file_;
+  /// None where it is the file itself.
+  Group group_;
+};
+
+/// A file opened by all ranks together, or by this process where it is alone: without locks, because a reader such as
+/// ParaView that has the file open would otherwise stop the run at its next output. The calls below are collective;
+/// what fails on one rank throws on all.
+class OpenFile : public Location
+{
+ public:
+  enum class Access { read, write };
+
+  /// `doing` is what errors say of the calls that follow: "cannot write step 12".
+  OpenFile(const std::filesystem::path& file, Access access, std::string doing, const Communicator& communicator = {});
+
+  const Communicator& communicator() const { return file_->communicator; }
+
+  /// A group that no path leads to until it is linked.
+  Location make_loose_group() const;
+  void link(const Location& loose_group, const std::string& path) const;
+  /// Throws if values could not be written on one rank.
+  void agree() const;
+  /// Puts everything on disk.
+  void flush() const;
+  /// Once its groups have gone.
+  void close() const;
+};
+
+/// Makes an empty file, in the place of one that is there, with room at its front for `n_front` bytes that HDF5 leaves
+/// alone: 0, or 512 times a power of two. Of one process.
+void create_file(const std::filesystem::path& file, std::size_t n_front = 0);
 
 /// How much of a file that is closed is in use: it may be longer by room that was reserved.
 std::uintmax_t used_size(const std::filesystem::path& file);

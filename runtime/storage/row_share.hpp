@@ -5,6 +5,9 @@
 #include <span>
 #include <vector>
 
+#include "runtime/ranks/communicator.hpp"
+#include "runtime/warehouse/warehouse.hpp"
+
 namespace tamp::runtime
 {
 
@@ -44,5 +47,8 @@ RowShare share_by_patch(std::span<const std::uint64_t> n_rows, IsOwn&& is_own)
   }
   return share;
 }
+
+/// Where this rank's particles of a group stand in a table of those of all ranks, patch after patch. Collective.
+RowShare particle_share(const Warehouse& warehouse, int group, const Communicator& communicator);
 
 }  // namespace tamp::runtime

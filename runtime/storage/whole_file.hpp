@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <string>
 
@@ -16,5 +17,13 @@ std::filesystem::path name_aside(const std::filesystem::path& file);
 /// Gives a finished file the name under which it is looked for, once it is on the disk and not only on its way there:
 /// whoever finds it finds all of it, even after the power has failed. Throws FileError.
 void put_in_place(const std::filesystem::path& part, const std::filesystem::path& file);
+
+/// Lengthens a file by `n_bytes`, with room on the disk behind every byte, so that what is written there next cannot
+/// run out of it: a library that fails in the middle of an update may leave a file that nobody can read. Throws
+/// FileError, and leaves the file as it was, if there is no such room.
+void reserve_room(const std::filesystem::path& file, std::int64_t n_bytes);
+
+/// Cuts a file to the `size` that is in use of it, unless it is shorter. Throws FileError.
+void give_back_room(const std::filesystem::path& file, std::uintmax_t size);
 
 }  // namespace tamp::runtime

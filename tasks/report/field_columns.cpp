@@ -5,7 +5,7 @@
 
 #include "components/materials/state_columns.hpp"
 #include "components/portable_math.hpp"
-#include "runtime/storage/particle_share.hpp"
+#include "runtime/storage/row_share.hpp"
 #include "tasks/labels.hpp"
 
 namespace tamp::tasks

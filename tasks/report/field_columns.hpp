@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "runtime/ranks/communicator.hpp"
-#include "runtime/storage/field_columns.hpp"
+#include "runtime/storage/fields/field_columns.hpp"
 #include "runtime/warehouse/warehouse.hpp"
 #include "tasks/method.hpp"
 

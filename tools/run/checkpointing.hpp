@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "runtime/storage/checkpoint.hpp"
+#include "runtime/storage/checkpoints/checkpoint.hpp"
 #include "tools/run/moments.hpp"
 #include "tools/scene/read_scene.hpp"
 

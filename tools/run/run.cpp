@@ -12,7 +12,7 @@
 #include "runtime/file_error.hpp"
 #include "runtime/profile/report.hpp"
 #include "runtime/ranks/together.hpp"
-#include "runtime/storage/field_file.hpp"
+#include "runtime/storage/fields/field_file.hpp"
 #include "runtime/storage/whole_file.hpp"
 #include "tasks/simulation.hpp"
 #include "tasks/simulation_error.hpp"

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "runtime/storage/field_columns.hpp"
+#include "runtime/storage/fields/field_columns.hpp"
 
 namespace tamp::test
 {

@@ -1,4 +1,4 @@
-#include "runtime/storage/particle_share.hpp"
+#include "runtime/storage/row_share.hpp"
 
 #include "runtime/storage/known_by_all.hpp"
 

@@ -5,11 +5,11 @@
 #include <filesystem>
 
 #include "runtime/file_error.hpp"
-#include "runtime/storage/field_file.hpp"
+#include "runtime/storage/fields/field_file.hpp"
+#include "tests/runtime/storage/fields/two_particles.hpp"
 #include "tests/runtime/storage/file_size_limit.hpp"
 #include "tests/runtime/storage/stored_data.hpp"
 #include "tests/runtime/storage/temporary_folder.hpp"
-#include "tests/runtime/storage/two_particles.hpp"
 
 using namespace tamp::runtime;
 using namespace tamp::test;

@@ -1,4 +1,4 @@
-#include "runtime/storage/checkpoint.hpp"
+#include "runtime/storage/checkpoints/checkpoint.hpp"
 
 #include <fmt/core.h>
 
@@ -9,9 +9,8 @@
 
 #include "runtime/file_error.hpp"
 #include "runtime/ranks/together.hpp"
-#include "runtime/storage/checkpoint_reader.hpp"
-#include "runtime/storage/checkpoint_writer.hpp"
-#include "runtime/storage/sealed_file.hpp"
+#include "runtime/storage/checkpoints/checkpoint_file.hpp"
+#include "runtime/storage/checkpoints/sealed_file.hpp"
 #include "runtime/storage/whole_file.hpp"
 
 namespace tamp::runtime

@@ -1,4 +1,4 @@
-#include "runtime/storage/item_place.hpp"
+#include "runtime/storage/fields/item_place.hpp"
 
 #include <fmt/core.h>
 
@@ -44,8 +44,20 @@ hdf5::Slab slab_of(const IndexBox& box)
 std::size_t ItemPlace::n_total() const
 {
   std::size_t n = 1;
-  for (const hsize_t along_axis : dimensions) n *= along_axis;
+  for (const hsize_t along_axis : share.dimensions) n *= along_axis;
   return n;
+}
+
+hdf5::Share share_of(const ItemPlace& place, std::size_t n_components)
+{
+  hdf5::Share share = place.share;
+  if (n_components == 1) return share;
+  share.dimensions.push_back(n_components);
+  for (hdf5::Slab& slab : share.slabs) {
+    slab.first.push_back(0);
+    slab.n.push_back(n_components);
+  }
+  return share;
 }
 
 ItemPlace place_of(const ParticleBlock& block)
@@ -54,7 +66,7 @@ ItemPlace place_of(const ParticleBlock& block)
   if (share.n_own() != block.n) {
     throw std::invalid_argument(fmt::format("'{}': rows for {} of {} particles", block.name, share.n_own(), block.n));
   }
-  ItemPlace place{{share.n_total}, {}, block.n, {}};
+  ItemPlace place{{{share.n_total}, {}}, block.n, {}};
   std::vector<PlacedRun> runs;
   std::size_t own = 0;
   for (const RowRun& run : share.runs) {
@@ -62,7 +74,7 @@ ItemPlace place_of(const ParticleBlock& block)
       throw std::invalid_argument(fmt::format("'{}': row {} of {}", block.name, run.first + run.n, share.n_total));
     }
     if (run.n == 0) continue;
-    place.slabs.push_back({{run.first}, {run.n}});
+    place.share.slabs.push_back({{run.first}, {run.n}});
     runs.push_back({run.first, {own, run.n}});
     own += run.n;
   }
@@ -75,12 +87,12 @@ ItemPlace place_of(const NodeBlock& block)
   const IndexBox all{{0, 0, 0}, block.n_nodes};
   const auto strides = all.strides();
   const hdf5::Slab whole = slab_of(all);
-  ItemPlace place{whole.n, {}, 0, {}};
+  ItemPlace place{{whole.n, {}}, 0, {}};
   std::vector<PlacedRun> runs;
   for (const IndexBox& box : block.boxes.value_or(std::vector{all})) {
     if (intersection(box, all) != box) throw std::invalid_argument("a box of nodes that leaves the grid");
     if (box.empty()) continue;
-    place.slabs.push_back(slab_of(box));
+    place.share.slabs.push_back(slab_of(box));
     IndexBox starts = box;
     starts.upper[0] = starts.lower[0] + 1;
     for_each(starts, [&](const Index& i) {

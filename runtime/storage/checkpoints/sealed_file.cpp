@@ -1,4 +1,4 @@
-#include "runtime/storage/sealed_file.hpp"
+#include "runtime/storage/checkpoints/sealed_file.hpp"
 
 #include <fmt/core.h>
 

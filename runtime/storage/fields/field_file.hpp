@@ -7,8 +7,8 @@
 #include <string>
 
 #include "runtime/ranks/communicator.hpp"
-#include "runtime/storage/field_columns.hpp"
-#include "runtime/storage/xdmf.hpp"
+#include "runtime/storage/fields/field_columns.hpp"
+#include "runtime/storage/fields/xdmf.hpp"
 
 namespace tamp::runtime
 {

@@ -1,12 +1,12 @@
-#include "runtime/storage/checkpoint.hpp"
+#include "runtime/storage/checkpoints/checkpoint.hpp"
 
 #include <catch2/catch.hpp>
 
-#include "file_size_limit.hpp"
 #include "runtime/file_error.hpp"
-#include "state_scene.hpp"
-#include "stored_data.hpp"
-#include "temporary_folder.hpp"
+#include "tests/runtime/storage/checkpoints/state_scene.hpp"
+#include "tests/runtime/storage/file_size_limit.hpp"
+#include "tests/runtime/storage/stored_data.hpp"
+#include "tests/runtime/storage/temporary_folder.hpp"
 
 using namespace tamp::test;
 

@@ -1,4 +1,4 @@
-#include "runtime/storage/field_columns.hpp"
+#include "runtime/storage/fields/field_columns.hpp"
 
 #include <fmt/core.h>
 

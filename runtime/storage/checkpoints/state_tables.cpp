@@ -1,4 +1,4 @@
-#include "runtime/storage/state_tables.hpp"
+#include "runtime/storage/checkpoints/state_tables.hpp"
 
 #include <algorithm>
 #include <map>

@@ -3,7 +3,7 @@
 #include <functional>
 
 #include "runtime/file_error.hpp"
-#include "runtime/storage/field_file.hpp"
+#include "runtime/storage/fields/field_file.hpp"
 #include "tests/runtime/storage/file_size_limit.hpp"
 #include "tests/runtime/storage/stored_data.hpp"
 #include "tests/runtime/storage/temporary_folder.hpp"

@@ -1,4 +1,4 @@
-#include "runtime/storage/xdmf.hpp"
+#include "runtime/storage/fields/xdmf.hpp"
 
 #include <fmt/core.h>
 

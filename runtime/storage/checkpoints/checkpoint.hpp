@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <span>
@@ -8,13 +9,21 @@
 #include <vector>
 
 #include "runtime/ranks/communicator.hpp"
-#include "runtime/storage/checkpoint_header.hpp"
 #include "runtime/warehouse/warehouse.hpp"
 
 /// A checkpoint is one file of all that a run needs to go on bit for bit, on any number of ranks: the state of every
 /// patch, and bytes of the host's own. All calls are collective, and what fails on one rank throws on all.
 namespace tamp::runtime
 {
+
+/// What a checkpoint is of.
+struct CheckpointHeader {
+  std::int64_t step = 0;
+  /// [s]
+  double time = 0;
+  /// Tells one scene from another; given by the host, who decides what it means when it differs.
+  std::string fingerprint;
+};
 
 /// Writes `step_00001234.h5` into the folder, whole or not at all, and on the disk when this returns; then removes all
 /// but the newest `keep` (1 at least). Those of later steps go too: a run that resumed before them writes them again.

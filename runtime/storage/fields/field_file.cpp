@@ -1,4 +1,4 @@
-#include "runtime/storage/field_file.hpp"
+#include "runtime/storage/fields/field_file.hpp"
 
 #include <fcntl.h>
 #include <fmt/core.h>
@@ -9,11 +9,9 @@
 
 #include "runtime/file_error.hpp"
 #include "runtime/ranks/together.hpp"
+#include "runtime/storage/fields/item_place.hpp"
+#include "runtime/storage/fields/stored_step.hpp"
 #include "runtime/storage/hdf5.hpp"
-#include "runtime/storage/item_place.hpp"
-#include "runtime/storage/reserve_room.hpp"
-#include "runtime/storage/step_writer.hpp"
-#include "runtime/storage/stored_steps.hpp"
 #include "runtime/storage/whole_file.hpp"
 
 namespace tamp::runtime
@@ -62,11 +60,7 @@ FieldFile FieldFile::continued(const std::filesystem::path& folder, std::int64_t
 
 void FieldFile::begin() const
 {
-  const std::string doing = "cannot be created";
-  const hdf5::Quiet quiet;
-  const hdf5::Properties access = hdf5::file_access({}, hdf5_file_);
-  hdf5::File file(hdf5::checked(H5Fcreate(hdf5_file_.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access), hdf5_file_, doing));
-  hdf5::checked(file.close(), hdf5_file_, doing);
+  hdf5::create_file(hdf5_file_);
   write_whole_file(xdmf_file_, xdmf_text({}));
 }
 
@@ -108,22 +102,7 @@ void FieldFile::write_step(std::int64_t step, double time, std::span<const Parti
     const std::int64_t n_bytes = checked_size(particles, nodes);
     if (communicator_.is_first()) reserve_room(hdf5_file_, n_bytes);
   });
-  const hdf5::Quiet quiet;
-  hdf5::File file;
-  together(communicator_, [&] {
-    const hdf5::Properties access = hdf5::file_access(communicator_, hdf5_file_);
-    file = hdf5::File(
-        hdf5::checked(H5Fopen(hdf5_file_.c_str(), H5F_ACC_RDWR, access), hdf5_file_, "cannot be opened for writing"));
-  });
-  XdmfStep written{time, {}, {}};
-  {
-    StepWriter writer(file, hdf5_file_, step, communicator_);
-    writer.write_time(time);
-    for (const ParticleBlock& block : particles) written.particles.push_back(writer.write(block));
-    if (nodes) written.nodes = writer.write(*nodes);
-    writer.finish();
-  }
-  together(communicator_, [&] { hdf5::checked(file.close(), hdf5_file_, fmt::format("cannot write step {}", step)); });
+  XdmfStep written = add_step(hdf5_file_, step, time, particles, nodes, communicator_);
   by_first(communicator_, [&] {
     give_back_room(hdf5_file_, hdf5::used_size(hdf5_file_));
     steps_.push_back(std::move(written));

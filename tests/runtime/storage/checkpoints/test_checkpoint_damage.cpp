@@ -2,11 +2,11 @@
 
 #include <catch2/catch.hpp>
 
-#include "runtime/storage/checkpoint.hpp"
-#include "runtime/storage/sealed_file.hpp"
-#include "state_scene.hpp"
-#include "stored_data.hpp"
-#include "temporary_folder.hpp"
+#include "runtime/storage/checkpoints/checkpoint.hpp"
+#include "runtime/storage/checkpoints/sealed_file.hpp"
+#include "tests/runtime/storage/checkpoints/state_scene.hpp"
+#include "tests/runtime/storage/stored_data.hpp"
+#include "tests/runtime/storage/temporary_folder.hpp"
 
 using namespace tamp::test;
 

@@ -4,7 +4,7 @@
 #include <utility>
 #include <vector>
 
-#include "runtime/storage/field_columns.hpp"
+#include "runtime/storage/fields/field_columns.hpp"
 #include "runtime/storage/hdf5.hpp"
 
 namespace tamp::runtime
@@ -12,9 +12,8 @@ namespace tamp::runtime
 
 /// Where the items that one rank gives stand in a dataset of all ranks.
 struct ItemPlace {
-  /// Of the whole dataset, an item each.
-  std::vector<hsize_t> dimensions;
-  std::vector<hdf5::Slab> slabs;
+  /// Of a dataset of scalars, an item each.
+  hdf5::Share share;
   std::size_t n_own = 0;
   /// This rank's items in the order in which they stand in the file, which is how HDF5 takes those of many slabs.
   std::vector<RowRun> file_order;
@@ -25,6 +24,9 @@ struct ItemPlace {
 /// Throws std::invalid_argument for rows or boxes outside of the whole, or that are not as many as the block says.
 ItemPlace place_of(const ParticleBlock& block);
 ItemPlace place_of(const NodeBlock& block);
+
+/// The share in a dataset of items of so many components.
+hdf5::Share share_of(const ItemPlace& place, std::size_t n_components);
 
 /// `values`, `n_components` for each of this rank's items, in the order of the file.
 template <class T>

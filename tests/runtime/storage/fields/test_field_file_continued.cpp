@@ -4,10 +4,10 @@
 #include <catch2/catch.hpp>
 
 #include "runtime/file_error.hpp"
-#include "runtime/storage/field_file.hpp"
+#include "runtime/storage/fields/field_file.hpp"
+#include "tests/runtime/storage/fields/two_particles.hpp"
 #include "tests/runtime/storage/stored_data.hpp"
 #include "tests/runtime/storage/temporary_folder.hpp"
-#include "tests/runtime/storage/two_particles.hpp"
 
 using namespace tamp::test;
 
