@@ -7,7 +7,6 @@
 
 #include "runtime/execute/bound_graph.hpp"
 #include "runtime/execute/executor.hpp"
-#include "runtime/execute/schedule.hpp"
 #include "runtime/graph/task_graph.hpp"
 #include "runtime/ranks/communicator.hpp"
 #include "runtime/warehouse/warehouse.hpp"

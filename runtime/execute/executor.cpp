@@ -1,10 +1,18 @@
 #include "runtime/execute/executor.hpp"
 
 #include <algorithm>
-#include <utility>
+#include <atomic>
+#include <mutex>
+#include <optional>
+#include <random>
 
-#include "runtime/execute/patience.hpp"
-#include "runtime/execute/ready_pool.hpp"
+#include "runtime/execute/clock.hpp"
+#include "runtime/execute/scheduler/backoff.hpp"
+#include "runtime/execute/scheduler/ready_pool.hpp"
+#include "runtime/execute/scheduler/schedule_state.hpp"
+#include "runtime/execute/scheduler/thread_team.hpp"
+#include "runtime/execute/scheduler/walk.hpp"
+#include "runtime/execute/stall_report.hpp"
 
 namespace tamp::runtime
 {
@@ -15,38 +23,85 @@ namespace
 /// How long messages wait at most while workers are busy with short tasks [s].
 constexpr double time_between_polls = 30e-6;
 
+using Entry = ScheduleState::Entry;
+
 }  // namespace
 
-Executor::Executor(int n_threads, ExecutorOptions options)
+/// The threads, and the run that goes on.
+class Executor::Workers
+{
+ public:
+  Workers(int n_threads, ExecutorOptions options);
+
+  int n_threads() const { return static_cast<int>(workers_.size()); }
+  void shuffle(std::uint64_t seed) { shuffle_.emplace(seed); }
+  Watchdog& watchdog() { return watchdog_; }
+  void run(Schedule& schedule, const Step& step);
+
+ private:
+  struct alignas(64) Worker {
+    /// For the watchdog: the instance that runs, -1 if none, and since which tick.
+    std::atomic<int> running{-1};
+    std::atomic<std::uint64_t> since{0};
+    /// Room for what `Work::poll` brings.
+    std::vector<int> arrived;
+  };
+
+  void work(int worker);
+  void run_shuffled();
+  void run_instance(Entry& entry, int worker);
+  Entry* steal(std::vector<OthersWalk>& others);
+  bool must_poll() const;
+  const std::vector<int>& poll(int worker, std::uint64_t idle_since);
+  void fail(int instance, const std::string& what);
+  bool stop(std::exception_ptr error);
+  std::string report(double idle_time) const;
+
+  ExecutorOptions options_;
+  TickRate rate_;
+  std::vector<Worker> workers_;
+  std::optional<std::mt19937_64> shuffle_;
+
+  // The run that goes on.
+  ScheduleState* schedule_ = nullptr;
+  bool recording_ = true;
+  const Step* step_ = nullptr;
+  bool has_messages_ = false;
+  std::uint64_t poll_interval_ = 0;
+  std::mutex error_mutex_;
+  std::exception_ptr error_;
+  std::atomic<bool> stop_{false};
+  alignas(64) std::atomic<std::uint64_t> last_poll_{0};
+
+  // Last, so that their threads have gone before what they look at goes.
+  alignas(64) ThreadTeam team_;
+  Watchdog watchdog_;
+};
+
+Executor::Workers::Workers(int n_threads, ExecutorOptions options)
     : options_(std::move(options)),
       workers_(static_cast<std::size_t>(n_threads)),
-      crew_(n_threads, options_.oversubscribed, [this](int worker) { work(worker); }),
+      team_(n_threads, options_.oversubscribed, [this](int worker) { work(worker); }),
       watchdog_(
           options_.stall, [this] { return schedule_->progress(); },
           [this](double idle_time) { return report(idle_time); })
 {
 }
 
-std::unique_ptr<Executor> Executor::shuffled(std::uint64_t seed, ExecutorOptions options)
+void Executor::Workers::run(Schedule& schedule, const Step& step)
 {
-  auto executor = std::make_unique<Executor>(1, std::move(options));
-  executor->shuffle_.emplace(seed);
-  return executor;
-}
-
-void Executor::run(Schedule& schedule, const Step& step)
-{
-  schedule_ = &schedule;
+  schedule_ = schedule.state_.get();
+  recording_ = schedule.recording;
   step_ = &step;
-  schedule.begin_step();
-  has_messages_ = schedule.work().has_messages();
+  schedule_->begin_step();
+  has_messages_ = schedule_->work().has_messages();
   if (has_messages_) poll_interval_ = static_cast<std::uint64_t>(time_between_polls / rate_.seconds_per_tick());
   {
     const Watchdog::Watch watch(watchdog_);
     if (shuffle_) {
       run_shuffled();
     } else {
-      crew_.run();
+      team_.run();
     }
   }
   if (stop_) {
@@ -56,7 +111,7 @@ void Executor::run(Schedule& schedule, const Step& step)
 }
 
 /// Runs own instances first, others' when no own one is ready; returns when all of the step is done.
-void Executor::work(int worker)
+void Executor::Workers::work(int worker)
 {
   const bool alone = workers_.size() == 1;
   auto& lists = schedule_->lists();
@@ -67,17 +122,14 @@ void Executor::work(int worker)
   for (std::size_t k = 1; k < lists.size(); ++k) {
     others.emplace_back(*schedule_, lists[(self + k) % lists.size()], options_.window);
   }
-  Patience patience(options_.oversubscribed);
+  Backoff backoff(options_.oversubscribed);
   std::uint64_t idle_since = 0;
   while (!stop_.load(std::memory_order_relaxed)) {
-    Schedule::Entry* entry = own.next();
-    if (entry != nullptr) {
-      patience.restore();
-    } else if (patience.is_tried()) {
-      entry = steal(others);
-    }
+    Entry* entry = own.next();
+    if (entry == nullptr) entry = steal(others);
     if (entry != nullptr) {
       run_instance(*entry, worker);
+      backoff.reset();
       if (has_messages_ && must_poll()) poll(worker, 0);
       idle_since = 0;
       continue;
@@ -87,24 +139,24 @@ void Executor::work(int worker)
       if (idle_since == 0) idle_since = ticks();
       poll(worker, idle_since);
     }
-    patience.wait();
+    backoff.wait();
   }
   workers_[self].running.store(-1, std::memory_order_relaxed);
 }
 
-Schedule::Entry* Executor::steal(std::vector<OthersWalk>& others)
+Entry* Executor::Workers::steal(std::vector<OthersWalk>& others)
 {
   for (OthersWalk& walk : others) {
     if (walk.finished()) continue;
-    if (Schedule::Entry* entry = walk.next()) return entry;
+    if (Entry* entry = walk.next()) return entry;
   }
   return nullptr;
 }
 
-void Executor::run_shuffled()
+void Executor::Workers::run_shuffled()
 {
   ReadyPool pool(*schedule_);
-  Patience patience(options_.oversubscribed);
+  Backoff backoff(options_.oversubscribed);
   std::uint64_t idle_since = 0;
   while (!pool.finished() && !stop_) {
     if (has_messages_ && (pool.empty() || must_poll())) {
@@ -112,19 +164,19 @@ void Executor::run_shuffled()
       for (const int instance : poll(0, idle_since)) pool.complete(instance);
     }
     if (pool.empty()) {
-      patience.wait();
+      backoff.wait();
       continue;
     }
-    Schedule::Entry& entry = pool.draw(*shuffle_);
+    Entry& entry = pool.draw(*shuffle_);
     run_instance(entry, 0);
     pool.complete(entry.instance);
-    patience.restore();
+    backoff.reset();
     idle_since = 0;
   }
   workers_[0].running.store(-1, std::memory_order_relaxed);
 }
 
-void Executor::run_instance(Schedule::Entry& entry, int worker)
+void Executor::Workers::run_instance(Entry& entry, int worker)
 {
   Worker& self = workers_[static_cast<std::size_t>(worker)];
   const std::uint64_t start = ticks();
@@ -137,19 +189,19 @@ void Executor::run_instance(Schedule::Entry& entry, int worker)
   } catch (...) {
     return fail(entry.instance, "unknown exception");
   }
-  if (schedule_->recording) {
+  if (recording_) {
     schedule_->record(entry, {start, ticks(), static_cast<std::uint32_t>(worker)});
   }
   schedule_->complete(entry);
 }
 
-bool Executor::must_poll() const
+bool Executor::Workers::must_poll() const
 {
   return ticks() - last_poll_.load(std::memory_order_relaxed) > poll_interval_;
 }
 
 /// Lets messages come and go; gives the instances of other ranks that are now done in this step.
-const std::vector<int>& Executor::poll(int worker, std::uint64_t idle_since)
+const std::vector<int>& Executor::Workers::poll(int worker, std::uint64_t idle_since)
 {
   const std::uint64_t now = ticks();
   last_poll_.store(now, std::memory_order_relaxed);
@@ -166,14 +218,14 @@ const std::vector<int>& Executor::poll(int worker, std::uint64_t idle_since)
   return arrived;
 }
 
-void Executor::fail(int instance, const std::string& what)
+void Executor::Workers::fail(int instance, const std::string& what)
 {
   const TaskError error(schedule_->work().describe(instance), what, std::current_exception());
   if (stop(std::make_exception_ptr(error))) schedule_->work().fail(error.what());
 }
 
 /// Stops everyone; false if somebody has done so before, whose error is then the one that counts.
-bool Executor::stop(std::exception_ptr error)
+bool Executor::Workers::stop(std::exception_ptr error)
 {
   const std::lock_guard lock(error_mutex_);
   if (error_ != nullptr) return false;
@@ -183,7 +235,7 @@ bool Executor::stop(std::exception_ptr error)
 }
 
 /// For the watchdog, while a run goes on.
-std::string Executor::report(double idle_time) const
+std::string Executor::Workers::report(double idle_time) const
 {
   const std::uint64_t now = ticks();
   std::vector<RunningInstance> running;
@@ -195,6 +247,49 @@ std::string Executor::report(double idle_time) const
     running.push_back({instance, static_cast<int>(w), time});
   }
   return stall_report(*schedule_, running, idle_time);
+}
+
+Schedule::Schedule(Work& work, int n_workers) : state_(std::make_unique<ScheduleState>(work, n_workers)) {}
+
+Schedule::~Schedule() = default;
+
+const std::vector<InstanceRecord>& Schedule::records() const
+{
+  return state_->records();
+}
+
+Executor::Executor(int n_threads, ExecutorOptions options)
+    : workers_(std::make_unique<Workers>(n_threads, std::move(options)))
+{
+}
+
+std::unique_ptr<Executor> Executor::shuffled(std::uint64_t seed, ExecutorOptions options)
+{
+  auto executor = std::make_unique<Executor>(1, std::move(options));
+  executor->workers_->shuffle(seed);
+  return executor;
+}
+
+Executor::~Executor() = default;
+
+int Executor::n_threads() const
+{
+  return workers_->n_threads();
+}
+
+void Executor::run(Schedule& schedule, const Step& step)
+{
+  workers_->run(schedule, step);
+}
+
+Watchdog::Watch Executor::watch(const char* activity)
+{
+  return Watchdog::Watch(workers_->watchdog(), activity);
+}
+
+void Executor::request_report() noexcept
+{
+  workers_->watchdog().request_report();
 }
 
 }  // namespace tamp::runtime

@@ -1,26 +1,48 @@
 #pragma once
 
-#include <atomic>
+#include <cstddef>
 #include <cstdint>
 #include <exception>
-#include <functional>
 #include <memory>
-#include <mutex>
-#include <optional>
-#include <random>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
-#include "runtime/execute/clock.hpp"
-#include "runtime/execute/crew.hpp"
-#include "runtime/execute/schedule.hpp"
-#include "runtime/execute/stall_report.hpp"
-#include "runtime/execute/walk.hpp"
 #include "runtime/execute/watchdog.hpp"
+#include "runtime/execute/work.hpp"
 
+/// The scheduler, as the rest of the program sees it; how it works is in `scheduler/`.
 namespace tamp::runtime
 {
+
+/// When and where an instance ran in the last step, in ticks; of another rank's, when its message came.
+struct InstanceRecord {
+  std::uint64_t start = 0;
+  std::uint64_t end = 0;
+  std::uint32_t worker = 0;
+};
+
+class ScheduleState;
+
+/// Work dealt out to workers, to be run again and again.
+class Schedule
+{
+ public:
+  Schedule(Work& work, int n_workers);
+  ~Schedule();
+  Schedule(const Schedule&) = delete;
+  Schedule& operator=(const Schedule&) = delete;
+
+  /// By instance.
+  const std::vector<InstanceRecord>& records() const;
+  /// Off only to measure what recording costs.
+  bool recording = true;
+
+ private:
+  friend class Executor;
+  std::unique_ptr<ScheduleState> state_;
+};
 
 /// What went wrong in which task; `cause` is the exception that its body threw.
 struct TaskError : std::runtime_error {
@@ -42,7 +64,7 @@ struct ExecutorOptions {
   StallOptions stall = {};
 };
 
-/// Runs schedules on oneTBB threads, see `Crew`.
+/// Runs schedules on oneTBB threads, which stay with it from step to step.
 class Executor
 {
  public:
@@ -52,10 +74,11 @@ class Executor
   /// One thread, which takes any of the instances that are ready, drawn anew in each step: an order that the graph
   /// allows by mistake shows as another result.
   static std::unique_ptr<Executor> shuffled(std::uint64_t seed, ExecutorOptions options = {});
+  ~Executor();
   Executor(const Executor&) = delete;
   Executor& operator=(const Executor&) = delete;
 
-  int n_threads() const { return static_cast<int>(workers_.size()); }
+  int n_threads() const;
 
   /// Runs every instance of the schedule once, each as soon as its predecessors are done, and returns when all are.
   /// An exception of a task stops all workers and is thrown here as a TaskError, one of `Work::poll` as it is; the
@@ -63,48 +86,14 @@ class Executor
   void run(Schedule& schedule, const Step& step);
 
   /// Between runs: has the watchdog see to it that what the host does meanwhile, with other ranks, ends in time.
-  Watchdog::Watch watch(const char* activity) { return Watchdog::Watch(watchdog_, activity); }
+  Watchdog::Watch watch(const char* activity);
 
   /// Has the state of the run printed within a tenth of a second. May be called from a signal handler.
-  void request_report() noexcept { watchdog_.request_report(); }
+  void request_report() noexcept;
 
  private:
-  struct alignas(64) Worker {
-    /// For the watchdog: the instance that runs, -1 if none, and since which tick.
-    std::atomic<int> running{-1};
-    std::atomic<std::uint64_t> since{0};
-    /// Room for what `Work::poll` brings.
-    std::vector<int> arrived;
-  };
-
-  void work(int worker);
-  void run_shuffled();
-  void run_instance(Schedule::Entry& entry, int worker);
-  Schedule::Entry* steal(std::vector<OthersWalk>& others);
-  bool must_poll() const;
-  const std::vector<int>& poll(int worker, std::uint64_t idle_since);
-  void fail(int instance, const std::string& what);
-  bool stop(std::exception_ptr error);
-  std::string report(double idle_time) const;
-
-  ExecutorOptions options_;
-  TickRate rate_;
-  std::vector<Worker> workers_;
-  std::optional<std::mt19937_64> shuffle_;
-
-  // The run that goes on.
-  Schedule* schedule_ = nullptr;
-  const Step* step_ = nullptr;
-  bool has_messages_ = false;
-  std::uint64_t poll_interval_ = 0;
-  std::mutex error_mutex_;
-  std::exception_ptr error_;
-  std::atomic<bool> stop_{false};
-  alignas(64) std::atomic<std::uint64_t> last_poll_{0};
-
-  // Last, so that their threads have gone before what they look at goes.
-  alignas(64) Crew crew_;
-  Watchdog watchdog_;
+  class Workers;
+  std::unique_ptr<Workers> workers_;
 };
 
 }  // namespace tamp::runtime

@@ -23,11 +23,11 @@ struct Blocked {
 class Survey
 {
  public:
-  Survey(const Schedule& schedule, const std::vector<RunningInstance>& running) : schedule_(schedule)
+  Survey(const ScheduleState& schedule, const std::vector<RunningInstance>& running) : schedule_(schedule)
   {
     for (const RunningInstance& r : running) running_.push_back(r.instance);
-    for (const Schedule::List& list : schedule.lists()) {
-      for (const Schedule::Entry& entry : list.entries) add(entry.instance);
+    for (const ScheduleState::List& list : schedule.lists()) {
+      for (const ScheduleState::Entry& entry : list.entries) add(entry.instance);
     }
     std::stable_sort(blocked.begin(), blocked.end(), [](const Blocked& a, const Blocked& b) {
       return a.at_front != b.at_front ? a.at_front : a.instance < b.instance;
@@ -64,7 +64,7 @@ class Survey
     return std::find(running_.begin(), running_.end(), instance) != running_.end();
   }
 
-  const Schedule& schedule_;
+  const ScheduleState& schedule_;
   std::vector<int> running_;
 };
 
@@ -79,7 +79,7 @@ std::string names_of(const Work& work, const std::vector<int>& missing)
 
 }  // namespace
 
-std::string stall_report(const Schedule& schedule, const std::vector<RunningInstance>& running, double idle_time)
+std::string stall_report(const ScheduleState& schedule, const std::vector<RunningInstance>& running, double idle_time)
 {
   const Work& work = schedule.work();
   const Survey survey(schedule, running);

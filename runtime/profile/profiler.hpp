@@ -8,7 +8,7 @@
 
 #include "runtime/execute/bound_graph.hpp"
 #include "runtime/execute/clock.hpp"
-#include "runtime/execute/schedule.hpp"
+#include "runtime/execute/executor.hpp"
 
 namespace tamp::runtime
 {

@@ -1,5 +1,4 @@
 #include "runtime/execute/executor.hpp"
-#include "runtime/execute/schedule.hpp"
 #include "runtime/execute/work.hpp"
 #include "tools/bench/tasks_schedulers.hpp"
 

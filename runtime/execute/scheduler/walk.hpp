@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cstddef>
 
-#include "runtime/execute/schedule.hpp"
+#include "runtime/execute/scheduler/schedule_state.hpp"
 
 namespace tamp::runtime
 {
@@ -12,13 +12,13 @@ namespace tamp::runtime
 ///
 /// To claim an entry is an atomic exchange, which has to wait until the other cores know all that this one has written.
 /// So the owner reserves short instances, several with one exchange, and gives up what is left when it finds nothing to
-/// run. Another worker claims first and then looks at the reservation, the owner the other way around: one of the two
-/// sees the other.
+/// run; docs/benchmarks.md says what that brings. Another worker claims first and then looks at the reservation, the
+/// owner the other way around: one of the two sees the other.
 class OwnWalk
 {
  public:
   /// Looks at no more than `window` entries, from the first that is not done. `alone` is a worker without others.
-  OwnWalk(Schedule& schedule, Schedule::List& list, std::size_t window, bool alone)
+  OwnWalk(ScheduleState& schedule, ScheduleState::List& list, std::size_t window, bool alone)
       : schedule_(schedule), list_(list), window_(window), n_reserved_(alone ? list.entries.size() : 0), alone_(alone)
   {
   }
@@ -26,13 +26,10 @@ class OwnWalk
   bool finished() const { return head_ == list_.entries.size(); }
 
   /// Takes an entry that is ready; null if there is none. An entry passed over is looked at again before each other.
-  Schedule::Entry* next()
+  ScheduleState::Entry* next()
   {
     auto& entries = list_.entries;
-    while (head_ < entries.size() && schedule_.is_done(entries[head_])) {
-      entries[head_].watch.store(entries[head_].first, std::memory_order_relaxed);
-      ++head_;
-    }
+    while (head_ < entries.size() && schedule_.is_done(entries[head_])) ++head_;
     if (head_ == entries.size()) {
       list_.finished.store(schedule_.epoch(), std::memory_order_release);
       return nullptr;
@@ -50,7 +47,7 @@ class OwnWalk
  private:
   bool take(std::size_t k)
   {
-    Schedule::Entry& entry = list_.entries[k];
+    ScheduleState::Entry& entry = list_.entries[k];
     if (schedule_.is_done(entry) || schedule_.is_claimed(entry) || !schedule_.is_ready(entry)) return false;
     if (k >= n_reserved_) reserve(k);
     return k < n_reserved_ ? !schedule_.is_claimed(entry) : schedule_.claim(entry);
@@ -76,8 +73,8 @@ class OwnWalk
     list_.n_reserved.store(0, std::memory_order_release);
   }
 
-  Schedule& schedule_;
-  Schedule::List& list_;
+  ScheduleState& schedule_;
+  ScheduleState::List& list_;
   std::size_t window_;
   std::size_t head_ = 0;
   std::size_t ahead_ = 0;
@@ -90,7 +87,7 @@ class OwnWalk
 class OthersWalk
 {
  public:
-  OthersWalk(Schedule& schedule, Schedule::List& list, std::size_t window)
+  OthersWalk(ScheduleState& schedule, ScheduleState::List& list, std::size_t window)
       : schedule_(schedule), list_(list), window_(window)
   {
   }
@@ -98,7 +95,7 @@ class OthersWalk
   bool finished() const { return list_.finished.load(std::memory_order_acquire) == schedule_.epoch(); }
 
   /// Takes an entry that is ready; null if there is none between the last one taken and the owner's first.
-  Schedule::Entry* next()
+  ScheduleState::Entry* next()
   {
     auto& entries = list_.entries;
     while (head_ < entries.size() && schedule_.is_done(entries[head_])) ++head_;
@@ -115,8 +112,8 @@ class OthersWalk
  private:
   bool take(std::size_t k)
   {
-    Schedule::Entry& entry = list_.entries[k];
-    if (schedule_.is_done(entry) || schedule_.is_claimed(entry) || !schedule_.is_ready_for_others(entry) ||
+    ScheduleState::Entry& entry = list_.entries[k];
+    if (schedule_.is_done(entry) || schedule_.is_claimed(entry) || !schedule_.is_ready(entry) ||
         !schedule_.claim(entry)) {
       return false;
     }
@@ -126,8 +123,8 @@ class OthersWalk
     return false;
   }
 
-  Schedule& schedule_;
-  Schedule::List& list_;
+  ScheduleState& schedule_;
+  ScheduleState::List& list_;
   std::size_t window_;
   std::size_t head_ = 0;
   std::size_t at_ = 0;

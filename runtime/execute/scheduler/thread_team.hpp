@@ -12,17 +12,17 @@
 namespace tamp::runtime
 {
 
-/// oneTBB threads that stay together: they enter one arena when the crew is made and wait there from job to job, as
+/// oneTBB threads that stay together: they enter one arena when the team is made and wait there from job to job, as
 /// waking them anew for every step would cost more than many a task.
-class Crew
+class ThreadTeam
 {
  public:
   /// `n_workers` counts the caller of `run`, who is worker 0. The job is called with the worker's number and must not
   /// throw.
-  Crew(int n_workers, bool cores_are_shared, std::function<void(int)> job);
-  ~Crew();
-  Crew(const Crew&) = delete;
-  Crew& operator=(const Crew&) = delete;
+  ThreadTeam(int n_workers, bool cores_are_shared, std::function<void(int)> job);
+  ~ThreadTeam();
+  ThreadTeam(const ThreadTeam&) = delete;
+  ThreadTeam& operator=(const ThreadTeam&) = delete;
 
   /// Does the job as worker 0, together with the others that come before that is over; returns when all have returned.
   void run();
@@ -43,12 +43,12 @@ class Crew
   std::atomic<std::uint32_t> turn_{1};
   std::atomic<bool> leave_{false};
 
-  /// oneTBB may send a worker late, even after the crew has gone: who comes to a closed door turns back.
-  struct Door {
-    bool closed = false;
-    std::atomic<int> n_inside{0};
+  /// oneTBB may send a thread late, even after the team has gone: it looks here first whether it still has one.
+  struct Membership {
+    bool ended = false;
+    std::atomic<int> n_threads{0};
   };
-  std::shared_ptr<Door> door_ = std::make_shared<Door>();
+  std::shared_ptr<Membership> membership_ = std::make_shared<Membership>();
 };
 
 }  // namespace tamp::runtime

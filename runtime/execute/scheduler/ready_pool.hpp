@@ -3,7 +3,7 @@
 #include <random>
 #include <vector>
 
-#include "runtime/execute/schedule.hpp"
+#include "runtime/execute/scheduler/schedule_state.hpp"
 
 namespace tamp::runtime
 {
@@ -13,21 +13,21 @@ class ReadyPool
 {
  public:
   /// Of a step that has begun. Messages that have come before it count.
-  explicit ReadyPool(Schedule& schedule);
+  explicit ReadyPool(ScheduleState& schedule);
 
   /// Whether all instances of this rank are complete.
   bool finished() const { return n_left_ == 0; }
   bool empty() const { return ready_.empty(); }
-  Schedule::Entry& draw(std::mt19937_64& random);
+  ScheduleState::Entry& draw(std::mt19937_64& random);
   /// Of this rank or of another.
   void complete(int instance);
 
  private:
   /// Null for what another rank runs.
-  std::vector<Schedule::Entry*> entries_;
+  std::vector<ScheduleState::Entry*> entries_;
   std::vector<std::vector<int>> successors_;
   std::vector<int> n_awaited_;
-  std::vector<Schedule::Entry*> ready_;
+  std::vector<ScheduleState::Entry*> ready_;
   int n_left_ = 0;
 };
 

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <bit>
 #include <chrono>
 #include <thread>
 
@@ -14,10 +13,10 @@ namespace tamp::runtime
 /// Waits: it spins, on cores of one's own for a millisecond, on shared ones for some microseconds, as it holds the core
 /// that the awaited thread needs; then it sleeps. It never yields: where other programs keep the cores busy a thread
 /// that has slept is back at once, and one that has yielded only after milliseconds.
-class Patience
+class Backoff
 {
  public:
-  explicit Patience(bool cores_are_shared) : cores_are_shared_(cores_are_shared) {}
+  explicit Backoff(bool cores_are_shared) : cores_are_shared_(cores_are_shared) {}
 
   void wait()
   {
@@ -28,18 +27,15 @@ class Patience
       if (n_waits_ == n_spins) spinning_since_ = now;
       if (now - spinning_since_ < std::chrono::milliseconds(1)) return spin();
     }
-    worn_out_ = true;
+    has_slept_ = true;
     std::this_thread::sleep_for(std::chrono::microseconds(50));
   }
-  /// Whether to look for work elsewhere: not at once and ever less often, as looking at what others are about to do
-  /// slows them down.
-  bool is_tried() const { return n_waits_ >= n_spins || (n_waits_ >= 8 && std::has_single_bit(n_waits_)); }
   /// Whether it has waited long enough to block until it is woken.
-  bool is_worn_out() const { return worn_out_; }
-  void restore()
+  bool should_block() const { return has_slept_; }
+  void reset()
   {
     n_waits_ = 0;
-    worn_out_ = false;
+    has_slept_ = false;
   }
 
  private:
@@ -55,7 +51,7 @@ class Patience
   bool cores_are_shared_;
   std::chrono::steady_clock::time_point spinning_since_;
   unsigned n_waits_ = 0;
-  bool worn_out_ = false;
+  bool has_slept_ = false;
 };
 
 }  // namespace tamp::runtime

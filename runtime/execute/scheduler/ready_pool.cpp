@@ -1,15 +1,15 @@
-#include "runtime/execute/ready_pool.hpp"
+#include "runtime/execute/scheduler/ready_pool.hpp"
 
 #include <utility>
 
 namespace tamp::runtime
 {
 
-ReadyPool::ReadyPool(Schedule& schedule)
+ReadyPool::ReadyPool(ScheduleState& schedule)
     : entries_(static_cast<std::size_t>(schedule.size())), successors_(entries_.size()), n_awaited_(entries_.size())
 {
-  for (Schedule::List& list : schedule.lists()) {
-    for (Schedule::Entry& entry : list.entries) {
+  for (ScheduleState::List& list : schedule.lists()) {
+    for (ScheduleState::Entry& entry : list.entries) {
       const auto i = static_cast<std::size_t>(entry.instance);
       entries_[i] = &entry;
       for (const int p : schedule.work().predecessors(entry.instance)) {
@@ -23,10 +23,10 @@ ReadyPool::ReadyPool(Schedule& schedule)
   }
 }
 
-Schedule::Entry& ReadyPool::draw(std::mt19937_64& random)
+ScheduleState::Entry& ReadyPool::draw(std::mt19937_64& random)
 {
   std::swap(ready_[random() % ready_.size()], ready_.back());
-  Schedule::Entry& entry = *ready_.back();
+  ScheduleState::Entry& entry = *ready_.back();
   ready_.pop_back();
   return entry;
 }
