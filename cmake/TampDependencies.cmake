@@ -32,6 +32,17 @@ set_target_properties(SLEEF::sleef PROPERTIES IMPORTED_LOCATION ${SLEEF_LIBRARY}
                                               INTERFACE_INCLUDE_DIRECTORIES ${SLEEF_INCLUDE_DIR})
 tamp_uses(SLEEF "" "elementary functions with the same bits on every processor")
 
+# Neither has this one.
+find_path(XXHASH_INCLUDE_DIR xxhash.h)
+find_library(XXHASH_LIBRARY xxhash)
+if(NOT XXHASH_INCLUDE_DIR OR NOT XXHASH_LIBRARY)
+  message(FATAL_ERROR "xxHash was not found; install libxxhash-dev")
+endif()
+add_library(xxHash::xxhash UNKNOWN IMPORTED)
+set_target_properties(xxHash::xxhash PROPERTIES IMPORTED_LOCATION ${XXHASH_LIBRARY}
+                                                INTERFACE_INCLUDE_DIRECTORIES ${XXHASH_INCLUDE_DIR})
+tamp_uses(xxHash "" "checksums of files")
+
 find_package(MPI REQUIRED COMPONENTS C)
 tamp_uses(MPI ${MPI_C_VERSION} "messages between ranks (${MPI_C_LIBRARIES})")
 

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <numeric>
 #include <optional>
 #include <utility>
 
@@ -74,7 +73,7 @@ class SimulationOf : public Simulation
     particles.store(engine_->warehouse());
     make_rigid_bodies(particles);
     profiler_.emplace(engine_->schedule(step_graph), engine_->bound(step_graph), n_threads(), n_traced_steps);
-    forecast_bytes_ = sum_over_ranks(engine_->warehouse().forecast_bytes());
+    forecast_bytes_ = communicator_.sum(engine_->warehouse().forecast_bytes());
     lost_.emplace(engine_->layout().size());
     totals_.stable_step = initial_stable_step(particles);
   }
@@ -118,7 +117,7 @@ class SimulationOf : public Simulation
   void record(bool on) override { engine_->schedule(step_graph).recording = on; }
   std::size_t n_particles(int material) const override
   {
-    return sum_over_ranks(engine_->warehouse().n_particles(material));
+    return communicator_.sum(engine_->warehouse().n_particles(material));
   }
   std::vector<runtime::ParticleBlock> particle_columns(const FieldChoice& choice) override
   {
@@ -197,12 +196,6 @@ class SimulationOf : public Simulation
   {
     const std::size_t failures = totals_.updates.failures + step.updates.failures;
     return failures <= static_cast<std::size_t>(scene_.failed_updates_allowed);
-  }
-
-  std::size_t sum_over_ranks(std::size_t own) const
-  {
-    const std::vector<std::size_t> all = communicator_.gather_value(own);
-    return std::accumulate(all.begin(), all.end(), std::size_t{0});
   }
 
   bool used_in_step(const runtime::Label& label) const

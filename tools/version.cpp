@@ -4,6 +4,7 @@
 #include <hdf5.h>
 #include <mpi.h>
 #include <tbb/version.h>
+#include <xxhash.h>
 
 #include <CLI/Version.hpp>
 #include <Eigen/Core>
@@ -52,7 +53,8 @@ std::string version_text()
       "MPI       {}\n"
       "fmt       {}.{}.{}\n"
       "json      {}.{}.{}\n"
-      "CLI11     {}",
+      "CLI11     {}\n"
+      "xxHash    {}.{}.{}",
       version(), TAMP_BUILD_TYPE, TAMP_ARCH,
 #ifdef __clang__
       "clang", __clang_version__,
@@ -61,7 +63,8 @@ std::string version_text()
 #endif
       TBB_runtime_version(), EIGEN_WORLD_VERSION, EIGEN_MAJOR_VERSION, EIGEN_MINOR_VERSION, hdf5_version(),
       mpi_version(), FMT_VERSION / 10000, FMT_VERSION / 100 % 100, FMT_VERSION % 100, NLOHMANN_JSON_VERSION_MAJOR,
-      NLOHMANN_JSON_VERSION_MINOR, NLOHMANN_JSON_VERSION_PATCH, CLI11_VERSION);
+      NLOHMANN_JSON_VERSION_MINOR, NLOHMANN_JSON_VERSION_PATCH, CLI11_VERSION, XXH_versionNumber() / 10000,
+      XXH_versionNumber() / 100 % 100, XXH_versionNumber() % 100);
 }
 
 }  // namespace tamp::tools

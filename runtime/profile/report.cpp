@@ -2,20 +2,8 @@
 
 #include <fmt/format.h>
 
-#include <numeric>
-
 namespace tamp::runtime
 {
-
-namespace
-{
-
-std::size_t sum(const std::vector<std::size_t>& values)
-{
-  return std::accumulate(values.begin(), values.end(), std::size_t{0});
-}
-
-}  // namespace
 
 nlohmann::json to_json(const Profile& profile, const MemoryLedger& ledger, const Communicator& communicator)
 {
@@ -37,9 +25,9 @@ nlohmann::json to_json(const Profile& profile, const MemoryLedger& ledger, const
   }
   nlohmann::json labels = nlohmann::json::object();
   for (const LedgerEntry& entry : ledger.entries()) {
-    labels[entry.name()] = sum(communicator.gather_value(static_cast<std::size_t>(entry.peak())));
+    labels[entry.name()] = communicator.sum(static_cast<std::uint64_t>(entry.peak()));
   }
-  const std::size_t total = sum(communicator.gather_value(static_cast<std::size_t>(ledger.total().peak())));
+  const std::size_t total = communicator.sum(static_cast<std::uint64_t>(ledger.total().peak()));
   return {{"tasks", tasks},
           {"steps", profile.n_steps},
           {"overhead", profile.overhead},

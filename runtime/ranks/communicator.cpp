@@ -160,10 +160,42 @@ std::vector<std::string> Communicator::gather(const std::string& own) const
   return all;
 }
 
-bool Communicator::all(bool own) const
+void Communicator::reduce(void* values, std::size_t n, MPI_Datatype type, MPI_Op operation) const
 {
-  const std::vector<char> said = gather_value(static_cast<char>(own));
-  return std::all_of(said.begin(), said.end(), [](char yes) { return yes != 0; });
+  if (handle_ == nullptr) return;
+  MPI_Request request = MPI_REQUEST_NULL;
+  MPI_Iallreduce(MPI_IN_PLACE, values, static_cast<int>(n), type, operation, *handle_, &request);
+  wait_for(request);
+}
+
+std::uint64_t Communicator::sum(std::uint64_t own) const
+{
+  reduce(&own, 1, MPI_UINT64_T, MPI_SUM);
+  return own;
+}
+
+std::vector<std::uint64_t> Communicator::sum(std::vector<std::uint64_t> own) const
+{
+  reduce(own.data(), own.size(), MPI_UINT64_T, MPI_SUM);
+  return own;
+}
+
+std::uint64_t Communicator::min(std::uint64_t own) const
+{
+  reduce(&own, 1, MPI_UINT64_T, MPI_MIN);
+  return own;
+}
+
+std::uint64_t Communicator::max(std::uint64_t own) const
+{
+  reduce(&own, 1, MPI_UINT64_T, MPI_MAX);
+  return own;
+}
+
+double Communicator::max(double own) const
+{
+  reduce(&own, 1, MPI_DOUBLE, MPI_MAX);
+  return own;
 }
 
 }  // namespace tamp::runtime

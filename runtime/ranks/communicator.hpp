@@ -3,6 +3,7 @@
 #include <mpi.h>
 
 #include <cstddef>
+#include <cstdint>
 #include <memory>
 #include <span>
 #include <string>
@@ -67,11 +68,19 @@ class Communicator
   {
     return gather_value(own).front();
   }
+  // What the ranks give, combined on all of them where the order does not matter: so sums are of whole numbers.
+  std::uint64_t sum(std::uint64_t own) const;
+  /// Element by element.
+  std::vector<std::uint64_t> sum(std::vector<std::uint64_t> own) const;
+  std::uint64_t min(std::uint64_t own) const;
+  std::uint64_t max(std::uint64_t own) const;
+  double max(double own) const;
   /// Whether it is so on all ranks.
-  bool all(bool own) const;
+  bool all(bool own) const { return min(std::uint64_t{own}) == 1; }
 
  private:
   void gather_bytes(const void* own, void* all, std::size_t n) const;
+  void reduce(void* values, std::size_t n, MPI_Datatype type, MPI_Op operation) const;
 
   int rank_ = 0;
   int size_ = 1;

@@ -11,6 +11,7 @@
 #include <stdexcept>
 
 #include "runtime/file_error.hpp"
+#include "runtime/storage/checksum.hpp"
 #include "runtime/storage/whole_file.hpp"
 
 namespace tamp::runtime
@@ -39,11 +40,9 @@ std::optional<double> step_of(const std::string& line, std::size_t n_columns)
   return step;
 }
 
-/// FNV-1a, 64 bits, of a text that goes on.
-std::uint64_t hash_of(const std::string& text, std::uint64_t hash = 0xcbf29ce484222325U)
+std::uint64_t hash_of(const std::string& line, std::uint64_t before = 0)
 {
-  for (const char c : text) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3U;
-  return hash;
+  return checksum(std::as_bytes(std::span(line)), before);
 }
 
 /// Adds the rows up to `last_step` to the header in `kept`, if the file has that header. What follows the last end of a

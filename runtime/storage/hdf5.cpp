@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "runtime/file_error.hpp"
-#include "runtime/ranks/together.hpp"
+#include "runtime/ranks/on_all_ranks.hpp"
 
 namespace tamp::runtime::hdf5
 {
@@ -166,18 +166,18 @@ void Location::write(const std::string& path, const Share& share, ElementType ty
   }
 }
 
-void Location::write_by_first(const std::string& path, const std::vector<hsize_t>& dimensions, ElementType type,
-                              const void* values) const
+void Location::write_from_first(const std::string& path, const std::vector<hsize_t>& dimensions, ElementType type,
+                                const void* values) const
 {
   Share share{dimensions, {}};
   if (file_->communicator.is_first()) share.slabs.push_back({std::vector<hsize_t>(dimensions.size(), 0), dimensions});
   write(path, share, type, values);
 }
 
-void Location::write_by_first(const std::string& path, const std::string& text) const
+void Location::write_from_first(const std::string& path, const std::string& text) const
 {
   const Type type = text_type(text);
-  write_by_first(path, {1}, {type, type}, text.c_str());
+  write_from_first(path, {1}, {type, type}, text.c_str());
 }
 
 void Location::remove(const std::string& path) const
@@ -259,7 +259,7 @@ OpenFile::OpenFile(const fs::path& file, Access access, std::string doing, const
   file_->doing = std::move(doing);
   file_->communicator = communicator;
   file_->transfer = collective_transfer(file, communicator);
-  together(communicator, [&] {
+  on_all_ranks(communicator, [&] {
     const Properties how = file_access(file, communicator);
     const unsigned flags = access == Access::read ? H5F_ACC_RDONLY : H5F_ACC_RDWR;
     file_->id = File(hdf5::checked(H5Fopen(file.c_str(), flags, how), file, "cannot be opened"));
@@ -273,24 +273,25 @@ Location OpenFile::make_loose_group() const
 
 void OpenFile::link(const Location& loose_group, const std::string& path) const
 {
-  together(communicator(), [&] { checked(H5Olink(loose_group.id(), id(), path.c_str(), H5P_DEFAULT, H5P_DEFAULT)); });
+  on_all_ranks(communicator(),
+               [&] { checked(H5Olink(loose_group.id(), id(), path.c_str(), H5P_DEFAULT, H5P_DEFAULT)); });
 }
 
 void OpenFile::agree() const
 {
-  together(communicator(), [&] {
+  on_all_ranks(communicator(), [&] {
     if (!file_->failure.empty()) throw FileError(file_->path.string(), file_->failure);
   });
 }
 
 void OpenFile::flush() const
 {
-  together(communicator(), [&] { checked(H5Fflush(id(), H5F_SCOPE_GLOBAL)); });
+  on_all_ranks(communicator(), [&] { checked(H5Fflush(id(), H5F_SCOPE_GLOBAL)); });
 }
 
 void OpenFile::close() const
 {
-  together(communicator(), [&] { checked(file_->id.close()); });
+  on_all_ranks(communicator(), [&] { checked(file_->id.close()); });
 }
 
 void create_file(const fs::path& file, std::size_t n_front)

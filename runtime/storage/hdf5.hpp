@@ -151,9 +151,9 @@ class Location
   /// is kept until `OpenFile::agree`: the calls that follow are made all the same, as other ranks wait in them.
   void write(const std::string& path, const Share& share, ElementType type, const void* values) const;
   /// The same where the first rank gives all values.
-  void write_by_first(const std::string& path, const std::vector<hsize_t>& dimensions, ElementType type,
-                      const void* values) const;
-  void write_by_first(const std::string& path, const std::string& text) const;
+  void write_from_first(const std::string& path, const std::vector<hsize_t>& dimensions, ElementType type,
+                        const void* values) const;
+  void write_from_first(const std::string& path, const std::string& text) const;
   void remove(const std::string& path) const;
 
   Location group(const std::string& path) const;

@@ -52,7 +52,7 @@ std::filesystem::path name_aside(const std::filesystem::path& file)
   return name;
 }
 
-void put_in_place(const std::filesystem::path& part, const std::filesystem::path& file)
+void publish_file(const std::filesystem::path& part, const std::filesystem::path& file)
 {
   settle(part);
   if (std::rename(part.c_str(), file.c_str()) != 0) throw FileError(file.string(), std::strerror(errno));

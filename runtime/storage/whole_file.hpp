@@ -16,7 +16,7 @@ std::filesystem::path name_aside(const std::filesystem::path& file);
 
 /// Gives a finished file the name under which it is looked for, once it is on the disk and not only on its way there:
 /// whoever finds it finds all of it, even after the power has failed. Throws FileError.
-void put_in_place(const std::filesystem::path& part, const std::filesystem::path& file);
+void publish_file(const std::filesystem::path& part, const std::filesystem::path& file);
 
 /// Lengthens a file by `n_bytes`, with room on the disk behind every byte, so that what is written there next cannot
 /// run out of it: a library that fails in the middle of an update may leave a file that nobody can read. Throws

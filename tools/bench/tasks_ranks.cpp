@@ -27,7 +27,7 @@ double step_ns(RowScheduler& scheduler, int n_steps, const runtime::Communicator
   const auto start = Clock::now();
   scheduler.run(n_steps);
   const double own = std::chrono::duration<double, std::nano>(Clock::now() - start).count() / n_steps;
-  return std::ranges::max(ranks.gather_value(own));
+  return ranks.max(own);
 }
 
 /// The mean over ranks that all run it at the same time.

@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <cstdio>
 
-#include "runtime/ranks/together.hpp"
+#include "runtime/ranks/on_all_ranks.hpp"
 #include "tools/console.hpp"
 #include "tools/errors.hpp"
 #include "tools/scene/parse_json.hpp"
@@ -119,7 +119,7 @@ runtime::FoundCheckpoint checkpoint_to_restart(const std::filesystem::path& run_
     throw InputError({folder.string(), "no whole checkpoint", "expected the folder of a run that has written one"});
   }
   expect_same_scene(*found, scene, run_folder);
-  runtime::by_first(communicator, [&] { set_aside_newer(found->file, found->header.step); });
+  runtime::on_first_rank(communicator, [&] { set_aside_newer(found->file, found->header.step); });
   return *std::move(found);
 }
 

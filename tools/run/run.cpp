@@ -11,7 +11,7 @@
 #include "runtime/data/byte_stream.hpp"
 #include "runtime/file_error.hpp"
 #include "runtime/profile/report.hpp"
-#include "runtime/ranks/together.hpp"
+#include "runtime/ranks/on_all_ranks.hpp"
 #include "runtime/storage/fields/field_file.hpp"
 #include "runtime/storage/whole_file.hpp"
 #include "tasks/simulation.hpp"
@@ -159,7 +159,7 @@ class Runner
   template <class Work>
   void by_first(const Work& work) const
   {
-    runtime::by_first(options_.communicator, work);
+    runtime::on_first_rank(options_.communicator, work);
   }
 
   std::size_t n_particles() const
@@ -322,7 +322,7 @@ class Runner
   }
 
   /// Those of files are the first rank's alone.
-  std::size_t common_warnings() const { return options_.communicator.gather_value(warnings_.size()).front(); }
+  std::size_t common_warnings() const { return options_.communicator.from_first(warnings_.size()); }
 
   /// Keeps what is good, and passes the error on with where in the run it happened.
   [[noreturn]] void fail(const tasks::SimulationError& error)
@@ -388,7 +388,7 @@ void run(const CheckedScene& scene, const RunOptions& options)
 {
   const int ranks_here = usable_cores(options.communicator).ranks_on_machine;
   Forecast expected;
-  runtime::by_first(options.communicator, [&] {
+  runtime::on_first_rank(options.communicator, [&] {
     expected = forecast(scene.scene, options.communicator.size());
     expect_room(scene, expected, options.communicator.size(), ranks_here);
     const double free = disk_room(options.folder);

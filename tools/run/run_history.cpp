@@ -9,7 +9,7 @@
 #include <string>
 
 #include "components/portable_math.hpp"
-#include "runtime/ranks/together.hpp"
+#include "runtime/ranks/on_all_ranks.hpp"
 #include "tasks/set_up/initial_moduli.hpp"
 
 namespace tamp::tools
@@ -86,12 +86,12 @@ RunHistory::RunHistory(tasks::Simulation& simulation)
 
 void RunHistory::begin(const std::filesystem::path& folder)
 {
-  runtime::by_first(simulation_.communicator(), [&] { csv_.emplace(folder / "history.csv", column_names()); });
+  runtime::on_first_rank(simulation_.communicator(), [&] { csv_.emplace(folder / "history.csv", column_names()); });
 }
 
 std::string RunHistory::go_on(const std::filesystem::path& folder, long kept_until, const runtime::CsvExtent& expected)
 {
-  runtime::by_first(simulation_.communicator(), [&] {
+  runtime::on_first_rank(simulation_.communicator(), [&] {
     csv_ = runtime::CsvWriter::continued(folder / "history.csv", column_names(), kept_until, expected);
   });
   return csv_ ? csv_->notice() : "";
@@ -270,7 +270,7 @@ void RunHistory::write_row()
   load_forces_ = simulation_.take_load_forces();
   std::vector<double> row;
   for (const Column& column : columns_) row.push_back(column.value());
-  runtime::by_first(simulation_.communicator(), [&] { csv_->write_row(row); });
+  runtime::on_first_rank(simulation_.communicator(), [&] { csv_->write_row(row); });
 }
 
 }  // namespace tamp::tools

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 #include "tools/version.hpp"
 
@@ -24,8 +23,7 @@ struct OverRanks {
 
 OverRanks over_ranks(const tasks::Simulation& simulation, std::size_t own)
 {
-  const std::vector<std::size_t> all = simulation.communicator().gather_value(own);
-  return {std::accumulate(all.begin(), all.end(), std::size_t{0}), *std::max_element(all.begin(), all.end())};
+  return {simulation.communicator().sum(own), simulation.communicator().max(own)};
 }
 
 std::size_t peak_rss_bytes()

@@ -8,7 +8,7 @@
 #include <stdexcept>
 
 #include "runtime/file_error.hpp"
-#include "runtime/ranks/together.hpp"
+#include "runtime/ranks/on_all_ranks.hpp"
 #include "runtime/storage/checkpoints/checkpoint_file.hpp"
 #include "runtime/storage/checkpoints/sealed_file.hpp"
 #include "runtime/storage/whole_file.hpp"
@@ -77,7 +77,7 @@ FoundCheckpoint looked_at(const fs::path& file, const Communicator& communicator
 {
   check_seal(file, communicator);
   FoundCheckpoint found{file, {}, {}};
-  together(communicator, [&] {
+  on_all_ranks(communicator, [&] {
     const CheckpointReader reader(file);
     found.header = reader.header();
     found.host = reader.host();
@@ -127,7 +127,7 @@ void check_written(const fs::path& file, std::span<const std::byte> host, Wareho
   try {
     const FoundCheckpoint found = looked_at(file, communicator);
     const std::vector<StateTable> tables = state_tables(warehouse, group_names);
-    together(communicator, [&] {
+    on_all_ranks(communicator, [&] {
       expect_tables(file, CheckpointReader(file).tables(), tables);
       // The first rank's bytes are in the file; those of others may differ in the padding between values.
       if (communicator.is_first() && !std::equal(host.begin(), host.end(), found.host.begin(), found.host.end())) {
@@ -149,17 +149,17 @@ void write_checkpoint(const fs::path& folder, const CheckpointHeader& header, st
   const fs::path file = folder / name_of(header.step);
   fs::path part = file;
   part += ".part";
-  by_first(communicator, [&] { prepare(folder); });
+  on_first_rank(communicator, [&] { prepare(folder); });
   try {
     write_checkpoint_file(part, header, host, warehouse, group_names, communicator);
     check_written(part, host, warehouse, group_names, communicator);
-    by_first(communicator, [&] { put_in_place(part, file); });
+    on_first_rank(communicator, [&] { publish_file(part, file); });
   } catch (...) {
     std::error_code is_gone;
     if (communicator.is_first()) fs::remove(part, is_gone);
     throw;
   }
-  by_first(communicator, [&] { remove_outdated(folder, header.step, keep); });
+  on_first_rank(communicator, [&] { remove_outdated(folder, header.step, keep); });
 }
 
 std::optional<FoundCheckpoint> newest_checkpoint(const fs::path& folder, std::vector<std::string>& refused,
@@ -184,7 +184,7 @@ void read_checkpoint(const FoundCheckpoint& found, Warehouse& warehouse, const s
                      const Communicator& communicator)
 {
   const std::vector<StateTable> tables = state_tables(warehouse, group_names);
-  together(communicator, [&] {
+  on_all_ranks(communicator, [&] {
     const CheckpointReader reader(found.file);
     reader.expect(warehouse.layout(), group_names);
     expect_tables(found.file, reader.tables(), tables);

@@ -7,7 +7,7 @@
 #include <sstream>
 
 #include "runtime/file_error.hpp"
-#include "runtime/ranks/together.hpp"
+#include "runtime/ranks/on_all_ranks.hpp"
 #include "runtime/storage/checkpoints/sealed_file.hpp"
 #include "runtime/storage/checksum.hpp"
 #include "runtime/storage/row_share.hpp"
@@ -48,21 +48,19 @@ void write_contents(const hdf5::OpenFile& file, std::span<const StateTable> tabl
 {
   std::string text;
   for (const StateTable& table : tables) text += fmt::format("{} {}\n", table.value_bytes, table.path);
-  file.write_by_first("contents", text);
+  file.write_from_first("contents", text);
 }
 
 void write_entries(const hdf5::OpenFile& file, const std::string& table, std::span<const PatchEntry> entries)
 {
   std::vector<std::uint64_t> numbers;
   for (const PatchEntry& entry : entries) numbers.insert(numbers.end(), {entry.n_values, entry.sum});
-  file.write_by_first("by_patch/" + table, {entries.size(), 2}, hdf5::element_type<std::uint64_t>(), numbers.data());
+  file.write_from_first("by_patch/" + table, {entries.size(), 2}, hdf5::element_type<std::uint64_t>(), numbers.data());
 }
 
 void write_values(const hdf5::OpenFile& file, const StateTable& table, std::span<const PatchEntry> entries)
 {
-  const auto is_own = [&](std::size_t p) {
-    return table.patches[p].field != nullptr && (!table.is_global || file.communicator().is_first());
-  };
+  const auto is_own = [&](std::size_t p) { return table.is_written_by(file.communicator(), p); };
   std::vector<std::uint64_t> n_values;
   std::vector<std::byte> own;
   for (std::size_t p = 0; p < entries.size(); ++p) {
@@ -99,14 +97,14 @@ void write_checkpoint_file(const std::filesystem::path& file, const CheckpointHe
 {
   const std::vector<StateTable> tables = state_tables(warehouse, group_names);
   const std::vector<std::vector<PatchEntry>> entries = patch_entries(tables, communicator);
-  by_first(communicator, [&] {
+  on_first_rank(communicator, [&] {
     hdf5::create_file(file, seal_bytes);
     reserve_room(file, size_of(tables, entries, host.size()));
   });
   const hdf5::OpenFile opened(file, hdf5::OpenFile::Access::write, "cannot be written", communicator);
   write_header(opened, header, warehouse.layout(), group_names);
   write_contents(opened, tables);
-  opened.write_by_first("host", {host.size()}, hdf5::element_type<std::byte>(), host.data());
+  opened.write_from_first("host", {host.size()}, hdf5::element_type<std::byte>(), host.data());
   for (std::size_t t = 0; t < tables.size(); ++t) {
     write_entries(opened, tables[t].path, entries[t]);
     write_values(opened, tables[t], entries[t]);
@@ -114,7 +112,7 @@ void write_checkpoint_file(const std::filesystem::path& file, const CheckpointHe
   opened.agree();
   opened.flush();
   opened.close();
-  by_first(communicator, [&] { give_back_room(file, hdf5::used_size(file)); });
+  on_first_rank(communicator, [&] { give_back_room(file, hdf5::used_size(file)); });
   seal(file, communicator);
 }
 

@@ -17,7 +17,7 @@ namespace tamp::runtime
 {
 
 /// Version of what stands where in a checkpoint.
-inline constexpr std::int64_t checkpoint_format = 3;
+inline constexpr std::int64_t checkpoint_format = 4;
 
 /// Writes the state of all ranks and the host's bytes, the same on all ranks, as a sealed HDF5 file:
 ///

@@ -11,9 +11,8 @@
 #include <string>
 
 #include "runtime/file_error.hpp"
-#include "runtime/ranks/together.hpp"
+#include "runtime/ranks/on_all_ranks.hpp"
 #include "runtime/storage/checksum.hpp"
-#include "runtime/storage/known_by_all.hpp"
 
 namespace tamp::runtime
 {
@@ -81,7 +80,7 @@ Sealed measured(const std::filesystem::path& file, const Communicator& communica
   constexpr std::size_t of_piece = 1 << 22;
   Sealed found;
   std::vector<std::uint64_t> sums;
-  together(communicator, [&] {
+  on_all_ranks(communicator, [&] {
     ByteFile bytes(file, "rb");
     found.n_bytes = bytes.size();
     if (found.n_bytes < seal_bytes) throw FileError(file.string(), fmt::format("is cut off at byte {}", found.n_bytes));
@@ -92,7 +91,7 @@ Sealed measured(const std::filesystem::path& file, const Communicator& communica
       sums[i] = checksum(bytes.read(first, std::min(of_piece, found.n_bytes - first)));
     }
   });
-  sums = known_by_all(std::move(sums), communicator);
+  sums = communicator.sum(std::move(sums));
   found.sum = checksum(std::as_bytes(std::span(sums)));
   return found;
 }
@@ -118,13 +117,13 @@ std::string difference(const std::string& seal, const Sealed& found)
 void seal(const std::filesystem::path& file, const Communicator& communicator)
 {
   const Sealed sealed = measured(file, communicator);
-  by_first(communicator, [&] { ByteFile(file, "r+b").write_first(sealed.text()); });
+  on_first_rank(communicator, [&] { ByteFile(file, "r+b").write_first(sealed.text()); });
 }
 
 void check_seal(const std::filesystem::path& file, const Communicator& communicator)
 {
   const Sealed found = measured(file, communicator);
-  by_first(communicator, [&] {
+  on_first_rank(communicator, [&] {
     const std::vector<std::byte> block = ByteFile(file, "rb").read(0, seal_bytes);
     const std::string text(reinterpret_cast<const char*>(block.data()), block.size());
     if (text != found.text()) throw FileError(file.string(), difference(text, found));

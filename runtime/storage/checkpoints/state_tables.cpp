@@ -4,7 +4,6 @@
 #include <map>
 
 #include "runtime/storage/checksum.hpp"
-#include "runtime/storage/known_by_all.hpp"
 
 namespace tamp::runtime
 {
@@ -95,12 +94,13 @@ std::vector<std::vector<PatchEntry>> patch_entries(std::span<const StateTable> t
 {
   std::vector<std::uint64_t> numbers;
   for (const StateTable& table : tables) {
-    for (const PatchState& state : table.patches) {
-      numbers.push_back(state.field == nullptr ? 0 : state.n_values());
-      numbers.push_back(state.field == nullptr ? 0 : checksum(state.bytes()));
+    for (std::size_t p = 0; p < table.patches.size(); ++p) {
+      const bool is_own = table.is_written_by(communicator, p);
+      numbers.push_back(is_own ? table.patches[p].n_values() : 0);
+      numbers.push_back(is_own ? checksum(table.patches[p].bytes()) : 0);
     }
   }
-  numbers = known_by_all(std::move(numbers), communicator);
+  numbers = communicator.sum(std::move(numbers));
   std::vector<std::vector<PatchEntry>> entries;
   std::size_t at = 0;
   for (const StateTable& table : tables) {

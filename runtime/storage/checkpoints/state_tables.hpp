@@ -33,6 +33,12 @@ struct StateTable {
   bool is_global = false;
   /// By patch.
   std::vector<PatchState> patches;
+
+  /// Whether it is this rank that writes a patch's values: of what all have, the first.
+  bool is_written_by(const Communicator& rank, std::size_t patch) const
+  {
+    return patches[patch].field != nullptr && (!is_global || rank.is_first());
+  }
 };
 
 /// All state that a step leaves to the next, the same tables on all ranks. Reductions are none.

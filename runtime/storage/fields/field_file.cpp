@@ -8,7 +8,7 @@
 #include <cstring>
 
 #include "runtime/file_error.hpp"
-#include "runtime/ranks/together.hpp"
+#include "runtime/ranks/on_all_ranks.hpp"
 #include "runtime/storage/fields/item_place.hpp"
 #include "runtime/storage/fields/stored_step.hpp"
 #include "runtime/storage/hdf5.hpp"
@@ -47,14 +47,14 @@ FieldFile::FieldFile(Unopened, const std::filesystem::path& folder, const Commun
 FieldFile::FieldFile(const std::filesystem::path& folder, const Communicator& communicator)
     : FieldFile(Unopened{}, folder, communicator)
 {
-  by_first(communicator_, [&] { begin(); });
+  on_first_rank(communicator_, [&] { begin(); });
 }
 
 FieldFile FieldFile::continued(const std::filesystem::path& folder, std::int64_t last_step, std::size_t n_expected,
                                const Communicator& communicator)
 {
   FieldFile file(Unopened{}, folder, communicator);
-  by_first(communicator, [&] { file.begin_or_continue(last_step, n_expected); });
+  on_first_rank(communicator, [&] { file.begin_or_continue(last_step, n_expected); });
   return file;
 }
 
@@ -98,12 +98,12 @@ void FieldFile::begin_or_continue(std::int64_t last_step, std::size_t n_expected
 void FieldFile::write_step(std::int64_t step, double time, std::span<const ParticleBlock> particles,
                            const std::optional<NodeBlock>& nodes)
 {
-  together(communicator_, [&] {
+  on_all_ranks(communicator_, [&] {
     const std::int64_t n_bytes = checked_size(particles, nodes);
     if (communicator_.is_first()) reserve_room(hdf5_file_, n_bytes);
   });
   XdmfStep written = add_step(hdf5_file_, step, time, particles, nodes, communicator_);
-  by_first(communicator_, [&] {
+  on_first_rank(communicator_, [&] {
     give_back_room(hdf5_file_, hdf5::used_size(hdf5_file_));
     steps_.push_back(std::move(written));
     write_whole_file(xdmf_file_, xdmf_text(steps_));

@@ -6,7 +6,7 @@
 #include <charconv>
 
 #include "runtime/file_error.hpp"
-#include "runtime/ranks/together.hpp"
+#include "runtime/ranks/on_all_ranks.hpp"
 #include "runtime/storage/fields/item_place.hpp"
 #include "runtime/storage/hdf5.hpp"
 #include "runtime/storage/whole_file.hpp"
@@ -96,7 +96,7 @@ void link_step(const hdf5::OpenFile& file, const hdf5::Location& group, std::int
   file.flush();
   // Flushing has given back the room that was reserved.
   constexpr std::int64_t of_link = 65536;
-  by_first(file.communicator(), [&] { reserve_room(file.file(), of_link); });
+  on_first_rank(file.communicator(), [&] { reserve_room(file.file(), of_link); });
   file.link(group, name_of_step(step));
   file.flush();
 }

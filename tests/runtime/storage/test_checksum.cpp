@@ -20,6 +20,13 @@ std::vector<std::byte> counted(std::size_t n)
 
 }  // namespace
 
+TEST_CASE("a checksum is xxHash's XXH3 of 64 bits")
+{
+  // From xxHash's own tests: of no bytes, with the seeds 0 and 0x9E3779B185EBCA8D.
+  CHECK(checksum({}) == 0x2D06800538D394C2U);
+  CHECK(checksum({}, 0x9E3779B185EBCA8DU) == 0xA8A6B918B2F0364AU);
+}
+
 TEST_CASE("every change of one bit changes the checksum, whatever the length")
 {
   std::size_t n_unnoticed = 0;

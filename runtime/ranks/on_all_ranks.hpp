@@ -12,9 +12,9 @@ namespace tamp::runtime
 ///
 /// If the first rank that failed threw FileError, all throw FileError; otherwise a rank throws what it has itself, and
 /// std::runtime_error where it has nothing.
-void together(const Communicator& communicator, const std::function<void()>& work);
+void on_all_ranks(const Communicator& communicator, const std::function<void()>& work);
 
 /// The same for work of the first rank alone.
-void by_first(const Communicator& communicator, const std::function<void()>& work);
+void on_first_rank(const Communicator& communicator, const std::function<void()>& work);
 
 }  // namespace tamp::runtime

@@ -1,4 +1,4 @@
-#include "runtime/ranks/together.hpp"
+#include "runtime/ranks/on_all_ranks.hpp"
 
 #include <exception>
 #include <string>
@@ -33,13 +33,13 @@ Failure failure_of(const std::function<void()>& work)
 
 }  // namespace
 
-void together(const Communicator& communicator, const std::function<void()>& work)
+void on_all_ranks(const Communicator& communicator, const std::function<void()>& work)
 {
   const Failure failure = failure_of(work);
-  const std::vector<char> failed = communicator.gather_value(static_cast<char>(failure.own != nullptr));
-  std::size_t first = 0;
-  while (first < failed.size() && failed[first] == 0) ++first;
-  if (first == failed.size()) return;
+  const int n_ranks = communicator.size();
+  const int own_place = failure.own != nullptr ? communicator.rank() : n_ranks;
+  const std::size_t first = communicator.min(static_cast<std::uint64_t>(own_place));
+  if (first == static_cast<std::size_t>(n_ranks)) return;
   const std::string file = communicator.gather(failure.file)[first];
   const std::string cause = communicator.gather(failure.cause)[first];
   // Of the kind that the first one threw, so that all ranks go the same way from here.
@@ -48,9 +48,9 @@ void together(const Communicator& communicator, const std::function<void()>& wor
   throw std::runtime_error("rank " + std::to_string(first) + ": " + cause);
 }
 
-void by_first(const Communicator& communicator, const std::function<void()>& work)
+void on_first_rank(const Communicator& communicator, const std::function<void()>& work)
 {
-  together(communicator, [&] {
+  on_all_ranks(communicator, [&] {
     if (communicator.is_first()) work();
   });
 }
