@@ -10,7 +10,8 @@ TEST_CASE("the version names the build, the compiler and every library")
   const Outcome outcome = tamp_with("--version");
 
   CHECK(outcome.exit_code == 0);
-  for (const char* name : {"tamp ", "build", "compiler", "oneTBB", "Eigen", "HDF5", "MPI", "fmt", "json", "CLI11"}) {
+  for (const char* name :
+       {"tamp ", "build", "compiler", "oneTBB", "Eigen", "HDF5", "MPI", "fmt", "json", "CLI11", "xxHash"}) {
     CHECK_THAT(outcome.out, Catch::Contains(name));
   }
 }
