@@ -12,10 +12,10 @@
 #include "components/moduli/unloading_table.hpp"
 #include "tools/bench/bench.hpp"
 #include "tools/bench/plain_moduli.hpp"
-#include "tools/bench/statistics.hpp"
 #include "tools/scene/read_network.hpp"
 #include "tools/scene/read_support_vectors.hpp"
 #include "tools/scene/unloading_curves.hpp"
+#include "tools/statistics.hpp"
 
 namespace tamp::tools::bench
 {

@@ -4,9 +4,9 @@
 
 #include "tasks/simulation.hpp"
 #include "tools/bench/bench.hpp"
-#include "tools/bench/statistics.hpp"
 #include "tools/bench/triad.hpp"
 #include "tools/scene/read_scene.hpp"
+#include "tools/statistics.hpp"
 
 namespace tamp::tools::bench
 {

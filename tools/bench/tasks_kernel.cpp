@@ -8,7 +8,7 @@
 #include <thread>
 #include <vector>
 
-#include "tools/bench/statistics.hpp"
+#include "tools/statistics.hpp"
 
 namespace tamp::tools::bench
 {

@@ -6,8 +6,8 @@
 #include <stdexcept>
 #include <vector>
 
-#include "tools/bench/statistics.hpp"
 #include "tools/bench/tasks_kernel.hpp"
+#include "tools/statistics.hpp"
 
 namespace tamp::tools::bench
 {

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "tools/bench/statistics.hpp"
+#include "tools/statistics.hpp"
 
 namespace tamp::tools::bench
 {

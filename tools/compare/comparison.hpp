@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "tools/statistics.hpp"
+
 namespace tamp::tools::compare
 {
 
@@ -56,13 +58,6 @@ struct Comparison {
   std::vector<std::string> sands;
   std::vector<ModelResult> models;
 };
-
-struct Quartiles {
-  double lower, median, upper;
-};
-
-/// Linear between the values in order. There must be one at least.
-Quartiles quartiles(std::vector<double> values);
 
 /// The cost of a step against that of the first plain table, round by round: noise that lasts for more than a round
 /// divides out. None if there is no table, or no round in which both made steps.

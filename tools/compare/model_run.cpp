@@ -24,11 +24,6 @@ std::vector<std::size_t> sands_of(const tasks::Scene& scene)
   return sands;
 }
 
-double median(const std::vector<double>& values)
-{
-  return values.empty() ? 0 : quartiles(values).median;
-}
-
 }  // namespace
 
 ModelRun::ModelRun(const ModelScene& scene, const Extent& extent, const std::filesystem::path& folder,
@@ -117,7 +112,7 @@ ModelResult ModelRun::result()
   result_.time = simulation_->time();
   result_.median_step_wall = median(step_walls_);
   result_.modulus_evaluations = simulation_->totals().updates.modulus_evaluations;
-  if (!modulus_ns_.empty()) result_.modulus_ns = quartiles(modulus_ns_).median;
+  if (!modulus_ns_.empty()) result_.modulus_ns = median(modulus_ns_);
   result_.ledger_peak_bytes = simulation_->ledger().total().peak();
   result_.digest = simulation_->digest();
   return result_;

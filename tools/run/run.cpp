@@ -27,6 +27,7 @@
 #include "tools/run/signals.hpp"
 #include "tools/scene/compiled_moduli.hpp"
 #include "tools/scene/plausibility.hpp"
+#include "tools/statistics.hpp"
 #include "tools/usable_cores.hpp"
 
 namespace tamp::tools
@@ -340,9 +341,10 @@ class Runner
     history_.measure();
     const runtime::Profile profile = simulation_->profile();
     const nlohmann::json json = to_json(profile, simulation_->ledger(), options_.communicator);
-    const nlohmann::ordered_json told = run_summary(*simulation_, history_,
-                                                    {status, reason, seconds_since(start_), median_step_seconds(),
-                                                     restarted_at_, forecast_, checked_.inputs, warnings_});
+    const nlohmann::ordered_json told =
+        run_summary(*simulation_, history_,
+                    {status, reason, seconds_since(start_), median({step_seconds_.begin(), step_seconds_.end()}),
+                     restarted_at_, forecast_, checked_.inputs, warnings_});
     by_first([&] {
       runtime::write_whole_file(options_.folder / "profile.json", json.dump(1) + "\n");
       runtime::write_whole_file(options_.folder / "trace.json", runtime::trace_to_json(profile).dump() + "\n");
@@ -350,14 +352,6 @@ class Runner
     });
     if (options_.quiet || !is_first()) return;
     print_out("{}\n{}  written to {}\n", runtime::to_text(json, 10), told_in_short(told), options_.folder.string());
-  }
-
-  double median_step_seconds()
-  {
-    if (step_seconds_.empty()) return 0;
-    const auto middle = step_seconds_.begin() + static_cast<std::ptrdiff_t>(step_seconds_.size() / 2);
-    std::nth_element(step_seconds_.begin(), middle, step_seconds_.end());
-    return *middle;
   }
 
   const CheckedScene& checked_;

@@ -30,17 +30,6 @@ Comparison comparison_of(std::vector<ModelResult> models)
 
 }  // namespace
 
-TEST_CASE("quartiles lie between the values in order")
-{
-  const Quartiles q = quartiles({5, 1, 3, 2, 4});
-
-  CHECK(q.lower == 2);
-  CHECK(q.median == 3);
-  CHECK(q.upper == 4);
-  CHECK(quartiles({1, 2}).median == 1.5);
-  CHECK(quartiles({7}).upper == 7);
-}
-
 TEST_CASE("noise that slows a whole round does not change the ratio")
 {
   const Comparison both = comparison_of({model_of("table", {1, 1, 10, 1, 30}), model_of("svr", {4, 4, 40, 4, 120})});
