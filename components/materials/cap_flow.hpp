@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "components/materials/invariants.hpp"
 #include "components/materials/return_point.hpp"
 #include "components/tensors.hpp"
 
@@ -25,7 +26,7 @@ struct DeviatoricTrial {
 template <int Size>
 DeviatoricTrial deviatoric_trial(const Eigen::Matrix<double, Size, 1>& s, const Eigen::Matrix<double, Size, 1>& e)
 {
-  return {0.5 * double_dot(s, s), double_dot(s, e), 0.5 * double_dot(e, e)};
+  return {j2_of(s), double_dot(s, e), j2_of(e)};
 }
 
 /// Where the elastic path from the old state to the trial meets the old surface, and half of the flow from there on, at

@@ -17,11 +17,17 @@ struct Invariants {
   double q() const { return std::sqrt(3 * j2); }
 };
 
+/// J2 = s:s / 2 of a deviator.
+template <int Size>
+double j2_of(const Eigen::Matrix<double, Size, 1>& s)
+{
+  return 0.5 * double_dot(s, s);
+}
+
 template <int Size>
 Invariants invariants(const Eigen::Matrix<double, Size, 1>& stress)
 {
-  const Eigen::Matrix<double, Size, 1> s = deviator(stress);
-  return {-trace(stress) / 3, 0.5 * double_dot(s, s)};
+  return {-trace(stress) / 3, j2_of<Size>(deviator(stress))};
 }
 
 }  // namespace tamp::components
