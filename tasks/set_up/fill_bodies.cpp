@@ -5,9 +5,8 @@
 #include <iterator>
 #include <vector>
 
-#include "components/geometry/fill.hpp"
 #include "tasks/labels.hpp"
-#include "tasks/method.hpp"
+#include "tasks/set_up/sites.hpp"
 
 namespace tamp::tasks
 {
@@ -39,16 +38,10 @@ template <int D>
 BodyParticles<D>::BodyParticles(const Scene& scene, const runtime::PatchLayout& layout)
     : scene_(scene), particles_(static_cast<std::size_t>(layout.size()), std::vector<Particles>(scene.materials.size()))
 {
-  components::CellRange<D> cells;
-  for (std::size_t k = 0; k < D; ++k) {
-    cells.lower[k] = 0;
-    cells.upper[k] = scene.grid.n_cells[k];
-  }
   std::int64_t id = 0;
   for (std::size_t b = 0; b < scene.bodies.size(); ++b) {
     if (scene.bodies[b].initial_stress) settled_.emplace(b, SettledSand<D>(scene, scene.bodies[b]));
-    const auto& solid = std::get<components::Solid<D>>(scene.bodies[b].solid);
-    const auto places = components::fill(solid, lattice_of<D>(scene, scene.bodies[b].material), cells);
+    const auto places = sites_of<D>(scene, scene.bodies[b]);
     centres_.push_back(mean<D>(places));
     for (const Vector<D>& x : places) {
       const int patch = layout.patch_of_cell(cell_of<D>(scene.grid, x));

@@ -8,10 +8,9 @@
 #include <string>
 
 #include "components/errors.hpp"
-#include "components/geometry/fill.hpp"
 #include "components/materials/invariants.hpp"
 #include "components/shapes/interpolators.hpp"
-#include "tasks/method.hpp"
+#include "tasks/set_up/sites.hpp"
 
 namespace tamp::tasks
 {
@@ -98,14 +97,6 @@ std::array<components::LinearForce, std::size_t{D}> body_force(const Scene& scen
     force[k].value -= gradient(axis, axis) * scene.centrifuge->centre()[axis];
   }
   return force;
-}
-
-template <int D>
-std::vector<Vector<D>> sites_of(const Scene& scene, const SceneBody& body)
-{
-  components::CellRange<D> cells{};
-  std::copy_n(scene.grid.n_cells.begin(), D, cells.upper.begin());
-  return components::fill(std::get<components::Solid<D>>(body.solid), lattice_of<D>(scene, body.material), cells);
 }
 
 }  // namespace

@@ -5,7 +5,8 @@
 #include <optional>
 #include <set>
 
-#include "tools/scene/body_sites.hpp"
+#include "tasks/set_up/sites.hpp"
+#include "tools/scene/place_text.hpp"
 
 namespace tamp::tools
 {
@@ -19,7 +20,7 @@ std::optional<Vector<D>> first_within(const tasks::Scene& scene, const tasks::Sc
                                       const tasks::SceneBody& other)
 {
   const auto& solid = std::get<components::Solid<D>>(other.solid);
-  for (const Vector<D>& site : sites<D>(scene, body)) {
+  for (const Vector<D>& site : tasks::sites_of<D>(scene, body)) {
     if (solid.contains(site)) return site;
   }
   return std::nullopt;
@@ -47,7 +48,7 @@ std::set<runtime::Index> nodes_of(const tasks::Scene& scene, const tasks::SceneB
 {
   const double reach = scene.reach_of(body.material);
   std::set<runtime::Index> nodes;
-  for (const Vector<D>& x : sites<D>(scene, body)) {
+  for (const Vector<D>& x : tasks::sites_of<D>(scene, body)) {
     runtime::IndexBox reached{{0, 0, 0}, {1, 1, 1}};
     for (std::size_t k = 0; k < D; ++k) {
       const double place = (x[static_cast<int>(k)] - scene.grid.lower[k]) / scene.grid.cell_size;
@@ -73,7 +74,7 @@ void check_rigid(const tasks::Scene& scene, const tasks::SceneBody& body, const 
   const auto is_off_edges = [&](const Vector<D>& x) {
     return tasks::is_off_edges<D>(scene.grid, scene.reach_of(body.material), touchable, x);
   };
-  const auto places = sites<D>(scene, body);
+  const auto places = tasks::sites_of<D>(scene, body);
   if (!std::all_of(places.begin(), places.end(), is_off_edges)) {
     bodies.add_problem(body.name, "rigid, and less than a cell from the edge of the grid",
                        "expected all nodes that it reaches to lie within the grid, but for \"symmetry\" faces along "

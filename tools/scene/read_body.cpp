@@ -6,10 +6,10 @@
 #include <cmath>
 
 #include "components/errors.hpp"
-#include "tasks/method.hpp"
 #include "tasks/set_up/settled_sand.hpp"
+#include "tasks/set_up/sites.hpp"
 #include "tools/machine_room.hpp"
-#include "tools/scene/body_sites.hpp"
+#include "tools/scene/place_text.hpp"
 #include "tools/scene/read_pressure.hpp"
 #include "tools/scene/read_solid.hpp"
 
@@ -87,7 +87,7 @@ void check_settled(const tasks::Scene& scene, const tasks::SceneBody& body, cons
   }
   try {
     const tasks::SettledSand<D> settled(scene, body);
-    for (const Vector<D>& x : sites<D>(scene, body)) settled.at(x);
+    for (const Vector<D>& x : tasks::sites_of<D>(scene, body)) settled.at(x);
   } catch (const components::BadValue& bad) {
     reader.add_problem("initial_stress", bad.found, "expected " + bad.expected);
   }
@@ -223,7 +223,7 @@ std::optional<tasks::SceneBody> read(const std::string& name, JsonReader& reader
   const auto at = std::find(material_names.begin(), material_names.end(), material) - material_names.begin();
   const int number = static_cast<int>(at);
   if (!has_room_for(*solid, scene, number, reader.document())) return std::nullopt;
-  const std::size_t n_particles = sites(*solid, scene, number).size();
+  const std::size_t n_particles = tasks::sites_of<D>(scene, *solid, number).size();
   if (n_particles == 0) {
     reader.add_problem("geometry", "holds no particle",
                        fmt::format("expected a shape that holds a site of the particle lattice, whose spacing is {} m",
