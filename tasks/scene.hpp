@@ -28,7 +28,7 @@ using Triple = std::array<double, 3>;
 
 /// `symmetry`: the material has its mirror image beyond the face, a smooth wall. `open`: what crosses the face leaves.
 /// `friction`: a wall that may be left, with Coulomb's friction. `no_slip`: a wall to which what touches it sticks.
-enum class Face { symmetry, open, friction, no_slip };
+enum class Face { symmetry, open, friction, no_slip, periodic };
 
 /// How the time step is bounded, see components/loads/time_step.hpp.
 enum class StepRule { published, viscous };

@@ -63,17 +63,18 @@ Returned returned(const DruckerPrager& soil, const Cone& cone, const Invariants&
   return {-cone.tension, held, (tau - held) / G, (-cone.tension - trial.pressure) / K};
 }
 
+constexpr Range angle{.lower = 0, .upper = 90, .holds_upper = false};
 constexpr std::array<Parameter<DruckerPrager>, 6> soil_parameters{{
-    {"bulk_modulus", "Pa", above_zero, &DruckerPrager::bulk_modulus},
-    {"shear_modulus", "Pa", above_zero, &DruckerPrager::shear_modulus},
-    {"friction_angle", "degrees", {.lower = 0, .upper = 90, .holds_upper = false}, &DruckerPrager::friction_angle},
-    {"dilation_angle",
-     "degrees",
-     {.lower = 0, .upper = 90, .holds_upper = false},
-     &DruckerPrager::dilation_angle,
-     true},
-    {"cohesion", "Pa", zero_or_above, &DruckerPrager::cohesion, true},
-    {"tension_cutoff", "Pa", zero_or_above, &DruckerPrager::tension_cutoff, true},
+    {"bulk_modulus", "Pa", above_zero, &DruckerPrager::bulk_modulus, "constant"},
+    {"shear_modulus", "Pa", above_zero, &DruckerPrager::shear_modulus, "constant"},
+    {"friction_angle", "degrees", angle, &DruckerPrager::friction_angle,
+     "Mohr and Coulomb's, in triaxial compression; from 0 to below 90"},
+    {"dilation_angle", "degrees", angle, &DruckerPrager::dilation_angle,
+     "how much it widens as it is sheared; at most the friction angle", true},
+    {"cohesion", "Pa", zero_or_above, &DruckerPrager::cohesion,
+     "Mohr and Coulomb's, in triaxial compression; above 0 where there is no friction", true},
+    {"tension_cutoff", "Pa", zero_or_above, &DruckerPrager::tension_cutoff,
+     "mean tension that it bears at most; without it that of the cone's apex, cohesion / tan(friction angle)", true},
 }};
 
 constexpr std::array<StateColumn<DruckerPrager>, 2> soil_columns{{

@@ -23,8 +23,8 @@ struct Hypoelastic {
 
 constexpr std::array<Parameter<Hypoelastic>, 2> Hypoelastic::parameters()
 {
-  return {{{"bulk_modulus", "Pa", above_zero, &Hypoelastic::bulk_modulus},
-           {"shear_modulus", "Pa", above_zero, &Hypoelastic::shear_modulus}}};
+  return {{{"bulk_modulus", "Pa", above_zero, &Hypoelastic::bulk_modulus, "constant"},
+           {"shear_modulus", "Pa", above_zero, &Hypoelastic::shear_modulus, "constant"}}};
 }
 
 /// stress += (K - 2G/3) tr(de) 1 + 2G de for each particle.

@@ -29,8 +29,8 @@ struct NeoHookean {
 
 constexpr std::array<Parameter<NeoHookean>, 2> NeoHookean::parameters()
 {
-  return {{{"bulk_modulus", "Pa", above_zero, &NeoHookean::bulk_modulus},
-           {"shear_modulus", "Pa", above_zero, &NeoHookean::shear_modulus}}};
+  return {{{"bulk_modulus", "Pa", above_zero, &NeoHookean::bulk_modulus, "at small strain"},
+           {"shear_modulus", "Pa", above_zero, &NeoHookean::shear_modulus, "at small strain"}}};
 }
 
 /// Cauchy stress sigma = K/2 (J - 1/J) 1 + G J^(-5/3) dev b of each particle, from its deformation gradient, whose

@@ -15,6 +15,8 @@ struct Parameter {
   std::string_view unit;
   Range range;
   double Model::*value;
+  /// Half a line for people, in Markdown.
+  std::string_view meaning;
   /// Whether it may be left out; a default-constructed model then gives its value.
   bool optional = false;
 };

@@ -34,13 +34,16 @@ struct CapState {
 };
 
 struct TabularCapParameters {
+  static constexpr double usual_tolerance = 1e-5;
+  static constexpr int usual_max_substeps = 100;
+
   double poisson_ratio;
   ElasticUpdate elastic_update;
   Modulus modulus;
   PiecewiseLinear crush_curve;  ///< X(plastic volumetric strain); in state form, that of consistent_crush_curve
   YieldSurface yield;
-  double tolerance = 1e-5;  ///< of the stress in one step, relative: sets the number of substeps
-  int max_substeps = 100;
+  double tolerance = usual_tolerance;  ///< of the stress in one step, relative: sets the number of substeps
+  int max_substeps = usual_max_substeps;
 };
 
 class TabularCap

@@ -18,6 +18,7 @@ int run_program(int argc, char** argv, const runtime::Communicator& ranks)
   app.option_defaults()->always_capture_default();
   add_run_command(app);
   add_check_command(app);
+  add_schema_command(app);
   add_graph_command(app);
   add_profile_command(app);
   add_drive_command(app);

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
+#include <stdexcept>
 
 #include "runtime/graph/near_name.hpp"
 #include "tools/scene/parse_json.hpp"
@@ -29,12 +30,28 @@ std::string joined(const std::vector<std::string>& words)
   return fmt::format("{}", fmt::join(words, ", "));
 }
 
-std::string number_words(Range range, const std::string& unit)
+std::string expected_number(const Number& number, const std::string& unit)
 {
   std::string words = "expected a number";
-  if (!range.words().empty()) words += " " + range.words();
+  if (!number.range.words().empty()) words += " " + number.range.words();
   if (!unit.empty()) words += " [" + unit + "]";
+  if (!number.word.empty()) words += ", or " + number.word;
   return words;
+}
+
+bool is_number(const Json& value)
+{
+  return value.is_number();
+}
+
+bool is_whole_number(const Json& value)
+{
+  return value.is_number_integer();
+}
+
+bool is_text(const Json& value)
+{
+  return value.is_string();
 }
 
 bool is_plain_name(const std::string& name)
@@ -51,13 +68,34 @@ std::string did_you_mean(const std::string& name, const std::vector<std::string>
 
 }  // namespace
 
-JsonReader::JsonReader(Document& document, JsonPointer pointer) : document_(&document), pointer_(std::move(pointer)) {}
-
-JsonReader JsonReader::nothing(Document& document)
+JsonReader::JsonReader(Document& document, const ObjectKeys& keys, JsonPointer pointer)
+    : document_(&document), pointer_(std::move(pointer)), object_(&keys)
 {
-  JsonReader reader(document);
-  reader.exists_ = false;
-  return reader;
+}
+
+std::vector<const std::vector<Key>*> JsonReader::declared() const
+{
+  if (type_ == nullptr) return {&object_->keys};
+  return {&object_->keys, &type_->keys};
+}
+
+const Key& JsonReader::declared(const std::string& key) const
+{
+  for (const std::vector<Key>* keys : declared()) {
+    const auto at = std::find_if(keys->begin(), keys->end(), [&](const Key& k) { return k.name == key; });
+    if (at != keys->end()) return *at;
+  }
+  throw std::logic_error(fmt::format("{}: a key that is not declared", (pointer_ / key).to_string()));
+}
+
+bool JsonReader::is_in_scene(int only_in) const
+{
+  return only_in == 0 || only_in == document_->dimension;
+}
+
+std::size_t JsonReader::count(Length length) const
+{
+  return static_cast<std::size_t>(document_->dimension == 3 ? length.in_space : length.in_plane);
 }
 
 void JsonReader::add_problem(const std::string& key, const std::string& found, const std::string& expected) const
@@ -72,13 +110,12 @@ bool JsonReader::has(const std::string& key) const
   return here.contains(key) && !here.at(key).is_null();
 }
 
-const Json* JsonReader::find(const std::string& key)
+const Json* JsonReader::find(const std::string& key) const
 {
-  known_.push_back(key);
   return has(key) ? &document_->root.at(pointer_).at(key) : nullptr;
 }
 
-const Json* JsonReader::require(const std::string& key, const std::string& expected)
+const Json* JsonReader::require(const std::string& key, const std::string& expected) const
 {
   const Json* value = find(key);
   if (value == nullptr) add_problem(key, "missing", expected);
@@ -90,34 +127,43 @@ void JsonReader::write(const std::string& key, Json value)
   if (exists_) document_->root.at(pointer_)[key] = std::move(value);
 }
 
-double JsonReader::number(const std::string& key, Range range, const std::string& unit)
+void JsonReader::write_default(const std::string& key, std::size_t n_entries)
 {
-  const std::string expected = number_words(range, unit);
+  const Json& value = declared(key).default_value.value;
+  if (has(key) || value.is_null()) return;
+  write(key, n_entries == 0 ? value : Json(std::vector<Json>(n_entries, value)));
+}
+
+double JsonReader::number(const std::string& key)
+{
+  const auto& number = declared_as<Number>(key);
+  const std::string expected = expected_number(number, declared(key).unit);
+  write_default(key);
   const Json* value = require(key, expected);
-  if (value == nullptr) return std::max(1.0, std::isfinite(range.lower) ? range.lower : 1.0);
-  if (value->is_number() && range.contains(value->get<double>())) return value->get<double>();
+  if (value == nullptr) return std::max(1.0, std::isfinite(number.range.lower) ? number.range.lower : 1.0);
+  if (value->is_number() && number.range.contains(value->get<double>())) return value->get<double>();
   add_problem(key, shown(*value), expected);
   return 1;
 }
 
-double JsonReader::number(const std::string& key, Range range, double default_value)
+double JsonReader::number(const std::string& key, double default_value)
 {
   if (!has(key)) write(key, default_value);
-  return number(key, range);
+  return number(key);
 }
 
-std::optional<double> JsonReader::optional_number(const std::string& key, Range range)
+std::optional<double> JsonReader::optional_number(const std::string& key)
 {
-  if (find(key) == nullptr) {
-    write(key, nullptr);
-    return std::nullopt;
-  }
-  return number(key, range);
+  if (has(key)) return number(key);
+  write(key, nullptr);
+  return std::nullopt;
 }
 
-int JsonReader::integer(const std::string& key, int least, int most)
+int JsonReader::whole_number(const std::string& key)
 {
+  const auto [least, most] = declared_as<WholeNumber>(key);
   const std::string expected = fmt::format("expected a whole number from {} to {}", least, most);
+  write_default(key);
   const Json* value = require(key, expected);
   if (value == nullptr) return least;
   if (value->is_number_integer()) {
@@ -128,51 +174,60 @@ int JsonReader::integer(const std::string& key, int least, int most)
   return least;
 }
 
-int JsonReader::integer(const std::string& key, int least, int most, int default_value)
-{
-  if (!has(key)) write(key, default_value);
-  return integer(key, least, most);
-}
-
 template <class T>
 std::vector<T> JsonReader::list(const std::string& key, std::size_t n, const std::string& expected,
-                                bool (*fits)(const Json&), bool compulsory)
+                                bool (*fits)(const Json&))
 {
-  const Json* value = compulsory ? require(key, expected) : find(key);
+  write_default(key, n);
+  const Json* value = require(key, expected);
   if (value == nullptr) return {};
-  if (!value->is_array() || value->size() != n || !std::all_of(value->begin(), value->end(), fits)) {
-    add_problem(key, shown(*value), expected);
-    return {};
+  if (value->is_array() && value->size() == n && std::all_of(value->begin(), value->end(), fits)) {
+    return value->get<std::vector<T>>();
   }
-  return value->get<std::vector<T>>();
+  add_problem(key, shown(*value), expected);
+  return {};
 }
 
-std::vector<double> JsonReader::numbers(const std::string& key, std::size_t n, Range range)
+std::vector<double> JsonReader::numbers(const std::string& key)
 {
-  std::string expected = fmt::format("expected {} numbers", n);
+  const auto& [length, range] = declared_as<Numbers>(key);
+  std::string expected = fmt::format("expected {} numbers", count(length));
   if (!range.words().empty()) expected += ", each " + range.words();
-  std::vector<double> values = list<double>(
-      key, n, expected, [](const Json& v) { return v.is_number(); }, true);
-  if (values.empty()) return std::vector<double>(n, 1);
-  if (!std::all_of(values.begin(), values.end(), [&](double x) { return range.contains(x); })) {
+  std::vector<double> values = list<double>(key, count(length), expected, is_number);
+  if (values.empty()) return std::vector<double>(count(length), 1);
+  if (!std::all_of(values.begin(), values.end(), [&r = range](double x) { return r.contains(x); })) {
     add_problem(key, shown(*find(key)), expected);
   }
   return values;
 }
 
-std::vector<double> JsonReader::numbers(const std::string& key, std::size_t n, Range range, double default_value)
+std::optional<std::vector<double>> JsonReader::optional_numbers(const std::string& key)
 {
-  if (!has(key)) write(key, std::vector<double>(n, default_value));
-  return numbers(key, n, range);
+  if (!has(key)) return std::nullopt;
+  return numbers(key);
 }
 
-std::vector<std::vector<double>> JsonReader::rows(const std::string& key, std::size_t n)
+std::vector<int> JsonReader::whole_numbers(const std::string& key)
 {
+  const auto& allowed = declared_as<WholeNumbers>(key);
+  const std::size_t n = count(allowed.length);
+  const std::string expected = fmt::format("expected {} whole numbers from {} to {}", n, allowed.least, allowed.most);
+  const auto values = list<std::int64_t>(key, n, expected, is_whole_number);
+  const auto fits = [&](std::int64_t i) { return i >= allowed.least && i <= allowed.most; };
+  if (values.empty() || !std::all_of(values.begin(), values.end(), fits)) {
+    if (!values.empty()) add_problem(key, shown(*find(key)), expected);
+    return std::vector<int>(n, allowed.least);
+  }
+  return {values.begin(), values.end()};
+}
+
+std::vector<std::vector<double>> JsonReader::rows(const std::string& key)
+{
+  const std::size_t n = count(declared_as<Rows>(key).length);
   const std::string expected = fmt::format("expected a list of lists of {} numbers", n);
   const Json* value = require(key, expected);
   const auto is_row = [n](const Json& row) {
-    return row.is_array() && row.size() == n &&
-           std::all_of(row.begin(), row.end(), [](const Json& v) { return v.is_number(); });
+    return row.is_array() && row.size() == n && std::all_of(row.begin(), row.end(), is_number);
   };
   if (value == nullptr) return {};
   if (value->is_array() && std::all_of(value->begin(), value->end(), is_row)) {
@@ -182,74 +237,104 @@ std::vector<std::vector<double>> JsonReader::rows(const std::string& key, std::s
   return {};
 }
 
-std::vector<int> JsonReader::integers(const std::string& key, std::size_t n, int least, int default_value)
+bool JsonReader::flag(const std::string& key)
 {
-  if (!has(key)) write(key, std::vector<int>(n, default_value));
-  constexpr int most = 1'000'000;
-  const std::string expected = fmt::format("expected {} whole numbers from {} to {}", n, least, most);
-  const auto is_integer = [](const Json& v) { return v.is_number_integer(); };
-  const std::vector<std::int64_t> values = list<std::int64_t>(key, n, expected, is_integer, true);
-  const auto fits = [&](std::int64_t i) { return i >= least && i <= most; };
-  if (values.empty() || !std::all_of(values.begin(), values.end(), fits)) {
-    if (!values.empty()) add_problem(key, shown(*find(key)), expected);
-    return std::vector<int>(n, least);
-  }
-  return {values.begin(), values.end()};
+  write_default(key);
+  const bool default_value = declared(key).default_value.value.get<bool>();
+  const Json* value = find(key);
+  if (value == nullptr) return default_value;
+  if (value->is_boolean()) return value->get<bool>();
+  add_problem(key, shown(*value), "expected true or false");
+  return default_value;
 }
 
 std::string JsonReader::text(const std::string& key, const std::string& default_value)
 {
+  if (!has(key)) write(key, default_value);
   const Json* value = find(key);
-  if (value == nullptr) {
-    write(key, default_value);
-    return default_value;
-  }
-  if (value->is_string()) return value->get<std::string>();
+  if (value == nullptr || value->is_string()) return value == nullptr ? default_value : value->get<std::string>();
   add_problem(key, shown(*value), "expected a text");
   return default_value;
 }
 
-bool JsonReader::is_object(const std::string& key)
+bool JsonReader::has_word(const std::string& key) const
+{
+  const Json* value = find(key);
+  return value != nullptr && *value == declared_as<Number>(key).word;
+}
+
+bool JsonReader::is_object(const std::string& key) const
 {
   const Json* value = find(key);
   return value != nullptr && value->is_object();
 }
 
-bool JsonReader::is_text(const std::string& key, const std::string& word)
+std::string JsonReader::one_of(const std::string& key, const std::vector<std::string>& words) const
 {
-  const Json* value = find(key);
-  return value != nullptr && *value == word;
-}
-
-bool JsonReader::flag(const std::string& key, bool default_value)
-{
-  if (!has(key)) write(key, default_value);
-  const std::string expected = "expected true or false";
-  const Json* value = require(key, expected);
-  if (value == nullptr) return default_value;
-  if (value->is_boolean()) return value->get<bool>();
-  add_problem(key, shown(*value), expected);
-  return default_value;
-}
-
-std::string JsonReader::choice(const std::string& key, const std::vector<std::string>& choices, bool has_default)
-{
-  const std::string expected = (choices.size() == 1 ? "expected " : "expected one of ") + joined(choices);
-  if (has_default && !has(key)) write(key, choices.front());
+  const std::string expected = (words.size() == 1 ? "expected " : "expected one of ") + joined(words);
   const Json* value = require(key, expected);
   if (value == nullptr) return {};
   if (value->is_string()) {
-    const auto name = value->get<std::string>();
-    if (std::find(choices.begin(), choices.end(), name) != choices.end()) return name;
-    add_problem(key, shown(*value), expected + did_you_mean(name, choices));
+    const auto word = value->get<std::string>();
+    if (std::find(words.begin(), words.end(), word) != words.end()) return word;
+    add_problem(key, shown(*value), expected + did_you_mean(word, words));
   } else {
     add_problem(key, shown(*value), expected);
   }
   return {};
 }
 
+std::string JsonReader::word(const std::string& key)
+{
+  write_default(key);
+  return one_of(key, declared_as<Choice>(key).words);
+}
+
+int JsonReader::value_of_word(const std::string& key)
+{
+  const auto& choice = declared_as<Choice>(key);
+  const auto at = std::find(choice.words.begin(), choice.words.end(), word(key));
+  return at == choice.words.end() ? choice.values.front()
+                                  : choice.values.at(static_cast<std::size_t>(at - choice.words.begin()));
+}
+
+std::string JsonReader::type()
+{
+  std::vector<std::string> words;
+  for (const TypeKeys& type : object_->types) {
+    if (is_in_scene(type.only_in)) words.push_back(type.word);
+  }
+  const std::string word = one_of("type", words);
+  for (const TypeKeys& type : object_->types) {
+    if (type.word == word) type_ = &type;
+  }
+  return word;
+}
+
+std::string JsonReader::name(const std::string& key, const std::vector<std::string>& names)
+{
+  write_default(key);
+  std::vector<std::string> words = declared_as<Name>(key).words;
+  words.insert(words.end(), names.begin(), names.end());
+  return one_of(key, words);
+}
+
+std::vector<std::string> JsonReader::names(const std::string& key, const std::vector<std::string>& names)
+{
+  const std::size_t n = count(declared_as<Names>(key).length);
+  const std::string expected = fmt::format("expected {} of {}", n, joined(names));
+  const auto found = list<std::string>(key, n, expected, is_text);
+  for (const std::string& name : found) {
+    if (std::find(names.begin(), names.end(), name) != names.end()) continue;
+    add_problem(key, fmt::format("\"{}\"", name), expected + did_you_mean(name, names));
+    return {};
+  }
+  return found;
+}
+
 std::filesystem::path JsonReader::existing_file(const std::string& key)
 {
+  declared_as<File>(key);
   const std::string expected = "expected the path of a file";
   const Json* value = require(key, expected);
   if (value == nullptr) return {};
@@ -272,8 +357,9 @@ std::filesystem::path JsonReader::existing_file(const std::string& key)
   return file;
 }
 
-void JsonReader::allow_file(const std::string& key)
+void JsonReader::pass_over_file(const std::string& key)
 {
+  declared_as<File>(key);
   const Json* value = find(key);
   if (value == nullptr || !value->is_string()) return;
   const std::filesystem::path file = path(key, value->get<std::string>());
@@ -291,58 +377,60 @@ void JsonReader::write_path(const std::string& key, const std::filesystem::path&
   write(key, utf8(std::filesystem::absolute(path).lexically_normal().string()));
 }
 
+JsonReader JsonReader::at(const std::string& key, const ObjectKeys& keys) const
+{
+  JsonReader reader(*document_, keys, pointer_ / key);
+  const Json* value = require(key, "expected an object");
+  reader.exists_ = value != nullptr && value->is_object();
+  if (value != nullptr && !reader.exists_) add_problem(key, shown(*value), "expected an object");
+  return reader;
+}
+
 JsonReader JsonReader::object(const std::string& key)
 {
-  const Json* value = require(key, "expected an object");
-  if (value == nullptr) return nothing(*document_);
-  if (value->is_object()) return JsonReader(*document_, pointer_ / key);
-  add_problem(key, shown(*value), "expected an object");
-  return nothing(*document_);
+  write_default(key);
+  const Value& value = declared(key).value;
+  if (const auto* choice = std::get_if<Choice>(&value)) return at(key, choice->instead());
+  if (const auto* members = std::get_if<Members>(&value)) return at(key, members->keys());
+  return at(key, std::get<Object>(value).keys());
 }
 
 std::optional<JsonReader> JsonReader::optional_object(const std::string& key)
 {
-  if (find(key) != nullptr) return object(key);
+  if (has(key)) return object(key);
   write(key, nullptr);
   return std::nullopt;
 }
 
-JsonReader JsonReader::object_or_empty(const std::string& key)
-{
-  if (!has(key)) write(key, Json::object());
-  return object(key);
-}
-
 std::vector<std::pair<std::string, JsonReader>> JsonReader::members(const std::string& key)
 {
-  JsonReader holder = object(key);
+  const ObjectKeys& keys = declared_as<Members>(key).keys();
+  JsonReader holder = at(key, keys);
   std::vector<std::pair<std::string, JsonReader>> readers;
   if (!holder.exists_) return readers;
-  const std::vector<std::string> all = names(key);
+  const std::vector<std::string> all = members_of(key);
   if (all.empty()) add_problem(key, "an empty object", "expected at least one entry");
   for (const std::string& name : all) {
     if (!is_plain_name(name)) {
       document_->add_problem(holder.pointer_ / name, "a name with other characters",
                              "expected letters, digits, - and _ only: names become columns and groups of files");
     }
-    readers.emplace_back(name, holder.object(name));
+    readers.emplace_back(name, holder.at(name, keys));
   }
   return readers;
 }
 
-std::vector<std::string> JsonReader::names(const std::string& key) const
+std::vector<std::string> JsonReader::members_of(const std::string& key) const
 {
   std::vector<std::string> all;
-  if (!has(key)) return all;
-  const Json& value = document_->root.at(pointer_).at(key);
-  if (!value.is_object()) return all;
-  for (const auto& [name, entry] : value.items()) all.push_back(name);
+  if (!is_object(key)) return all;
+  for (const auto& [name, entry] : document_->root.at(pointer_).at(key).items()) all.push_back(name);
   return all;
 }
 
-std::vector<JsonReader> JsonReader::items(const std::string& key)
+std::vector<JsonReader> JsonReader::objects(const std::string& key)
 {
-  if (!has(key)) write(key, Json::array());
+  write_default(key);
   const Json* value = find(key);
   std::vector<JsonReader> readers;
   if (value == nullptr) return readers;
@@ -353,7 +441,7 @@ std::vector<JsonReader> JsonReader::items(const std::string& key)
   for (std::size_t i = 0; i < value->size(); ++i) {
     const JsonPointer item = pointer_ / key / i;
     if (value->at(i).is_object()) {
-      readers.emplace_back(*document_, item);
+      readers.emplace_back(*document_, declared_as<Objects>(key).keys(), item);
     } else {
       document_->add_problem(item, shown(value->at(i)), "expected an object");
     }
@@ -361,49 +449,42 @@ std::vector<JsonReader> JsonReader::items(const std::string& key)
   return readers;
 }
 
-std::vector<std::string> JsonReader::choices(const std::string& key, std::size_t n,
-                                             const std::vector<std::string>& choices)
+std::vector<std::string> JsonReader::some_of(const std::string& key, const std::vector<std::string>& names)
 {
-  const std::string expected = fmt::format("expected {} of {}", n, joined(choices));
-  const auto is_text = [](const Json& v) { return v.is_string(); };
-  const std::vector<std::string> names = list<std::string>(key, n, expected, is_text, true);
-  for (const std::string& name : names) {
-    if (std::find(choices.begin(), choices.end(), name) != choices.end()) continue;
-    add_problem(key, fmt::format("\"{}\"", name), expected + did_you_mean(name, choices));
-    return {};
-  }
-  return names;
-}
-
-std::vector<std::string> JsonReader::some_of(const std::string& key, const std::vector<std::string>& choices)
-{
-  if (!has(key)) write(key, choices);
-  const std::string expected = "expected a list of some of " + joined(choices);
+  declared_as<SomeNames>(key);
+  if (!has(key)) write(key, names);
+  const std::string expected = "expected a list of some of " + joined(names);
   const Json* value = find(key);
   if (value == nullptr) return {};
-  if (!value->is_array() || !std::all_of(value->begin(), value->end(), [](const Json& v) { return v.is_string(); })) {
+  if (!value->is_array() || !std::all_of(value->begin(), value->end(), is_text)) {
     add_problem(key, shown(*value), expected);
     return {};
   }
-  const auto names = value->get<std::vector<std::string>>();
-  for (auto name = names.begin(); name != names.end(); ++name) {
-    if (std::find(choices.begin(), choices.end(), *name) == choices.end()) {
-      add_problem(key, fmt::format("\"{}\"", *name), expected + did_you_mean(*name, choices));
-    } else if (std::find(names.begin(), name, *name) != name) {
+  const auto found = value->get<std::vector<std::string>>();
+  for (auto name = found.begin(); name != found.end(); ++name) {
+    if (std::find(names.begin(), names.end(), *name) == names.end()) {
+      add_problem(key, fmt::format("\"{}\"", *name), expected + did_you_mean(*name, names));
+    } else if (std::find(found.begin(), name, *name) != name) {
       add_problem(key, fmt::format("\"{}\" twice", *name), expected);
     }
   }
-  return names;
+  return found;
 }
 
 void JsonReader::finish() const
 {
   if (!exists_) return;
+  std::vector<std::string> names;
+  for (const std::vector<Key>* keys : declared()) {
+    for (const Key& key : *keys) {
+      if (is_in_scene(key.only_in)) names.push_back(key.name);
+    }
+  }
+  if (!object_->types.empty()) names.emplace_back("type");
+  std::sort(names.begin(), names.end());
   for (const auto& [key, value] : document_->root.at(pointer_).items()) {
-    if (std::find(known_.begin(), known_.end(), key) != known_.end()) continue;
-    std::vector<std::string> names = known_;
-    std::sort(names.begin(), names.end());
-    names.erase(std::unique(names.begin(), names.end()), names.end());
+    if (std::find(names.begin(), names.end(), key) != names.end()) continue;
+    if (object_->may_be_a_file && key == "$schema") continue;
     const std::string near = did_you_mean(key, names);
     add_problem(key, "unknown key", near.empty() ? "expected one of " + joined(names) : near.substr(2));
   }

@@ -1,80 +1,80 @@
 #pragma once
 
 #include <filesystem>
-#include <limits>
 #include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
-#include "components/range.hpp"
-#include "tools/scene/document.hpp"
+#include "tools/scene/keys.hpp"
 
 namespace tamp::tools
 {
 
-using components::above_zero;
-using components::any_number;
-using components::Range;
-using components::zero_or_above;
-
-/// Reads the keys of one object of a document. Each function that reads a key notes that the key is known, writes a
-/// default back where there is one, and adds what is wrong to the document's problems; it then returns something
-/// harmless, so that the rest is checked too. A key whose value is null counts as left out.
-/// Functions without a default make the key compulsory. `unit` is said in messages only, such as "kg/m^3".
+/// Reads an object of a document by its keys (keys.hpp), which say what each may hold. Each function that reads a key
+/// writes its default back where it has one, and adds what is wrong to the document's problems; it then returns
+/// something harmless, so that the rest is checked too. A key whose value is null counts as left out. A key that has no
+/// default has to be there when it is read. To read a key that is not declared, or as what it is not, is an error of
+/// the program.
 class JsonReader
 {
  public:
-  explicit JsonReader(Document& document, JsonPointer pointer = JsonPointer());
+  JsonReader(Document& document, const ObjectKeys& keys, JsonPointer pointer = JsonPointer());
 
   bool has(const std::string& key) const;
-  /// The key has a meaning, even where it is not read.
-  void allow(const std::string& key) { known_.push_back(key); }
 
-  double number(const std::string& key, Range range, const std::string& unit = "");
-  double number(const std::string& key, Range range, double default_value);
-  std::optional<double> optional_number(const std::string& key, Range range);
-  int integer(const std::string& key, int least, int most);
-  int integer(const std::string& key, int least, int most, int default_value);
-  /// A list of just `n` numbers, such as one for each axis.
-  std::vector<double> numbers(const std::string& key, std::size_t n, Range range);
-  std::vector<double> numbers(const std::string& key, std::size_t n, Range range, double default_value);
-  /// A list of lists of `n` numbers.
-  std::vector<std::vector<double>> rows(const std::string& key, std::size_t n);
-  std::vector<int> integers(const std::string& key, std::size_t n, int least, int default_value);
-  bool flag(const std::string& key, bool default_value);
-  /// Whether an object stands there, which `object` then reads.
-  bool is_object(const std::string& key);
-  /// Whether this word stands there instead of what the key usually has.
-  bool is_text(const std::string& key, const std::string& word);
+  double number(const std::string& key);
+  /// With a default that only the reader knows.
+  double number(const std::string& key, double default_value);
+  std::optional<double> optional_number(const std::string& key);
+  int whole_number(const std::string& key);
+  /// A list of numbers, such as one for each axis.
+  std::vector<double> numbers(const std::string& key);
+  std::optional<std::vector<double>> optional_numbers(const std::string& key);
+  std::vector<int> whole_numbers(const std::string& key);
+  /// A list of lists of numbers.
+  std::vector<std::vector<double>> rows(const std::string& key);
+  bool flag(const std::string& key);
   std::string text(const std::string& key, const std::string& default_value);
-  /// One of `choices`, or empty if it is none; the first is the default where `has_default`.
-  std::string choice(const std::string& key, const std::vector<std::string>& choices, bool has_default = false);
+  /// Whether the word stands there that a number may have instead.
+  bool has_word(const std::string& key) const;
+  /// Whether an object stands there, which `object` then reads.
+  bool is_object(const std::string& key) const;
+  /// One of the words of a choice, or empty if it is none.
+  std::string word(const std::string& key);
+  /// What the word stands for; what the first one does if it is none.
+  template <class Enum>
+  Enum choice(const std::string& key)
+  {
+    return static_cast<Enum>(value_of_word(key));
+  }
+  /// The word at "type", whose keys are keys from now on; empty if it is none.
+  std::string type();
+  /// One of `names`, or of the words that may stand there instead; empty if it is none.
+  std::string name(const std::string& key, const std::vector<std::string>& names);
+  /// A list of some of `names`; empty if it is none.
+  std::vector<std::string> names(const std::string& key, const std::vector<std::string>& names);
   /// The path of a file that exists, made absolute in the document too.
   std::filesystem::path existing_file(const std::string& key);
-  /// The key has a meaning, and its path is made absolute in the document, but its file is not needed.
-  void allow_file(const std::string& key);
+  /// Makes the path of a file that is not needed absolute in the document.
+  void pass_over_file(const std::string& key);
 
   /// The object at a key. Without it a reader that finds nothing and complains of nothing.
   JsonReader object(const std::string& key);
   std::optional<JsonReader> optional_object(const std::string& key);
-  /// As `object`, but an empty one where the key is left out.
-  JsonReader object_or_empty(const std::string& key);
   /// The keys of an object that is there; nothing is noted.
-  std::vector<std::string> names(const std::string& key) const;
+  std::vector<std::string> members_of(const std::string& key) const;
   /// The members of an object whose keys are names that the user chose.
   std::vector<std::pair<std::string, JsonReader>> members(const std::string& key);
-  /// The objects of a list; none where the key is left out.
-  std::vector<JsonReader> items(const std::string& key);
-  /// A list of `n` of the choices; empty if it is none.
-  std::vector<std::string> choices(const std::string& key, std::size_t n, const std::vector<std::string>& choices);
-  /// A list of any of the choices, each once; by default all.
-  std::vector<std::string> some_of(const std::string& key, const std::vector<std::string>& choices);
+  /// A list of any of `names`, each once; by default all.
+  std::vector<std::string> some_of(const std::string& key, const std::vector<std::string>& names);
+  /// The objects of a list.
+  std::vector<JsonReader> objects(const std::string& key);
 
   /// The key's value has a meaning, but a wrong one.
   void add_problem(const std::string& key, const std::string& found, const std::string& expected) const;
 
-  /// To be called when all keys have been read: the others are unknown, and are problems.
+  /// To be called at the end: keys that are not declared for such a scene are problems.
   void finish() const;
 
   Document& document() const { return *document_; }
@@ -82,23 +82,37 @@ class JsonReader
   std::string place(const std::string& key) const { return document_->place(pointer_ / key); }
 
  private:
-  const Json* find(const std::string& key);
+  std::vector<const std::vector<Key>*> declared() const;
+  const Key& declared(const std::string& key) const;
+  template <class Kind>
+  const Kind& declared_as(const std::string& key) const
+  {
+    return std::get<Kind>(declared(key).value);
+  }
+  bool is_in_scene(int only_in) const;
+  std::size_t count(Length length) const;
+
+  const Json* find(const std::string& key) const;
   /// As `find`, but the key must be there.
-  const Json* require(const std::string& key, const std::string& expected);
+  const Json* require(const std::string& key, const std::string& expected) const;
   void write(const std::string& key, Json value);
+  void write_default(const std::string& key, std::size_t n_entries = 0);
+  std::string one_of(const std::string& key, const std::vector<std::string>& words) const;
+  int value_of_word(const std::string& key);
   template <class T>
-  std::vector<T> list(const std::string& key, std::size_t n, const std::string& expected, bool (*fits)(const Json&),
-                      bool compulsory);
-  static JsonReader nothing(Document& document);
+  std::vector<T> list(const std::string& key, std::size_t n, const std::string& expected, bool (*fits)(const Json&));
+  JsonReader at(const std::string& key, const ObjectKeys& keys) const;
   /// A path that stands at a key, seen from the current folder.
   std::filesystem::path path(const std::string& key, const std::string& text) const;
   void write_path(const std::string& key, const std::filesystem::path& path);
 
   Document* document_;
   JsonPointer pointer_;
+  const ObjectKeys* object_;
+  /// Those of the type, when it is known.
+  const TypeKeys* type_ = nullptr;
   /// False where a problem with this whole object has been noted already.
   bool exists_ = true;
-  std::vector<std::string> known_;
 };
 
 }  // namespace tamp::tools

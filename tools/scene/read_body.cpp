@@ -22,7 +22,7 @@ namespace
 template <int D>
 Vector<D> point(JsonReader& reader, const std::string& key)
 {
-  const std::vector<double> numbers = reader.numbers(key, D, any_number);
+  const std::vector<double> numbers = reader.numbers(key);
   return Eigen::Map<const Vector<D>>(numbers.data());
 }
 
@@ -44,8 +44,6 @@ bool within_grid(const components::Solid<D>& solid, const runtime::Grid& grid)
 template <int D>
 std::optional<tasks::BodyAxis> read_axis(JsonReader& reader)
 {
-  reader.allow("nose");
-  reader.allow("tail");
   if (!reader.has("nose") && !reader.has("tail")) return std::nullopt;
   const std::size_t n_before = reader.document().problems.size();
   const Vector<D> nose = point<D>(reader, "nose"), tail = point<D>(reader, "tail");
@@ -122,7 +120,7 @@ template <int D>
 std::vector<components::PrescribedMotion::Point> read_points(JsonReader& reader, const std::string& key)
 {
   std::vector<components::PrescribedMotion::Point> points;
-  for (const std::vector<double>& row : reader.rows(key, D + 1)) {
+  for (const std::vector<double>& row : reader.rows(key)) {
     points.push_back({row[0], tasks::in_space<D>(Eigen::Map<const Vector<D>>(row.data() + 1))});
   }
   return points;
@@ -134,7 +132,6 @@ std::optional<components::PrescribedMotion> read_motion(JsonReader& reader)
 {
   const std::size_t n_before = reader.document().problems.size();
   const std::vector<std::string> keys{"velocity", "velocities", "displacements"};
-  for (const std::string& key : keys) reader.allow(key);
   const auto key = std::find_if(keys.begin(), keys.end(), [&](const std::string& k) { return reader.has(k); });
   const auto n_given = std::count_if(keys.begin(), keys.end(), [&](const std::string& k) { return reader.has(k); });
   if (n_given != 1) {
@@ -165,11 +162,10 @@ std::optional<tasks::BodyDrive> read_drive(JsonReader& body, bool rigid)
   auto reader = body.optional_object("driven");
   if (!reader) return std::nullopt;
   auto motion = read_motion<D>(*reader);
-  const bool turns = reader->choice("rotation", {"held", "free"}, true) == "free";
+  const bool turns = reader->choice<bool>("rotation");
   reader->finish();
   if (!rigid) body.add_problem("driven", "a body that is not rigid", "expected a rigid one");
   for (const std::string key : {"velocity", "angular_velocity"}) {
-    body.allow(key);
     const bool is_allowed = turns && key == "angular_velocity";
     if (body.has(key) && !is_allowed) {
       body.add_problem(key, "a driven body's", "expected the motion under the key driven alone");
@@ -197,17 +193,15 @@ template <int D>
 std::optional<tasks::SceneBody> read(const std::string& name, JsonReader& reader, const tasks::Scene& scene,
                                      const std::vector<std::string>& material_names, bool grid_is_good)
 {
-  const std::string material = reader.choice("material", material_names);
-  const bool rigid = reader.flag("rigid", false);
+  const std::string material = reader.name("material", material_names);
+  const bool rigid = reader.flag("rigid");
   auto drive = read_drive<D>(reader, rigid);
   const bool may_move = !reader.has("driven"), may_turn = may_move || (drive && drive->turns);
-  const std::vector<double> velocity =
-      may_move ? reader.numbers("velocity", D, any_number, 0) : std::vector<double>(D, 0.0);
-  const std::vector<double> spin =
-      may_turn ? reader.numbers("angular_velocity", D == 3 ? 3 : 1, any_number, 0) : std::vector<double>{0};
+  const std::vector<double> velocity = may_move ? reader.numbers("velocity") : std::vector<double>(D, 0.0);
+  const std::vector<double> spin = may_turn ? reader.numbers("angular_velocity") : std::vector<double>{0};
   const auto axis = read_axis<D>(reader);
   const auto solid = read_solid<D>(reader, "geometry");
-  const bool initial_stress = reader.flag("initial_stress", false);
+  const bool initial_stress = reader.flag("initial_stress");
   auto pressure = read_pressure<D>(reader);
   reader.finish();
   check_may_go_around(scene, rigid, axis.has_value(), reader);

@@ -40,9 +40,8 @@ components::PiecewiseLinear curve_of_strain(Table& table, StrainMeasure measure)
 std::optional<components::YieldSurface> read_yield(JsonReader& material)
 {
   JsonReader reader = material.object("yield");
-  const Range inside{.lower = 0, .upper = 1, .holds_lower = false, .holds_upper = false};
   const std::size_t before = reader.document().problems.size();
-  const double ellipticity = reader.number("cap_ellipticity", inside);
+  const double ellipticity = reader.number("cap_ellipticity");
   const bool ellipticity_is_good = reader.document().problems.size() == before && reader.has("cap_ellipticity");
   auto yield = from_table(reader, "file", {"pressure[Pa]", "sqrt_J2[Pa]"}, [&](Table& t) {
     return components::YieldSurface(t.columns[0], t.columns[1], ellipticity_is_good ? ellipticity : 0.5);
@@ -71,8 +70,6 @@ std::optional<CrushCurve> read_crush_curve(JsonReader& reader, components::Elast
                                            const std::optional<components::Modulus>& modulus)
 {
   const bool state_form = update == components::ElasticUpdate::state;
-  reader.allow("hydrostat");
-  reader.allow("crush_curve");
   std::optional<components::PiecewiseLinear> hydrostat;
   if (state_form || reader.has("hydrostat")) {
     hydrostat = from_table(reader, "hydrostat", {"total_volumetric[-]", "pressure[Pa]"},
@@ -95,14 +92,11 @@ std::optional<tasks::MaterialModel> read_tabular_cap(JsonReader& reader)
 {
   std::vector<Problem>& problems = reader.document().problems;
   const std::size_t n_before = problems.size();
-  const Range poisson{.lower = -1, .upper = 0.5, .holds_lower = false, .holds_upper = false};
-  const double poisson_ratio = reader.number("poisson_ratio", poisson);
-  const std::string form = reader.choice("elastic_update", {"state", "rate"}, true);
-  const auto update = form == "rate" ? components::ElasticUpdate::rate : components::ElasticUpdate::state;
-  const double tolerance = reader.number("tolerance", {.lower = 0, .upper = 1, .holds_lower = false}, 1e-5);
-  const int max_substeps = reader.integer("max_substeps", 1, 1'000'000, 100);
-  const bool engineering = reader.choice("strain_measure", {"logarithmic", "engineering"}, true) == "engineering";
-  const auto measure = engineering ? StrainMeasure::engineering : StrainMeasure::logarithmic;
+  const double poisson_ratio = reader.number("poisson_ratio");
+  const auto update = reader.choice<components::ElasticUpdate>("elastic_update");
+  const double tolerance = reader.number("tolerance");
+  const int max_substeps = reader.whole_number("max_substeps");
+  const auto measure = reader.choice<StrainMeasure>("strain_measure");
   const auto modulus = read_modulus(reader, measure);
   const auto yield = read_yield(reader);
   const auto crush = read_crush_curve(reader, update, measure, modulus);
@@ -129,12 +123,10 @@ std::optional<tasks::MaterialModel> read_model(JsonReader& reader)
   for (const components::Parameter<Model>& parameter : Model::parameters()) {
     double& value = model.*parameter.value;
     const std::string key(parameter.key);
-    if (!parameter.optional) {
-      value = reader.number(key, parameter.range, std::string(parameter.unit));
-    } else if (std::isfinite(value)) {
-      value = reader.number(key, parameter.range, value);
+    if (parameter.optional && !std::isfinite(value)) {
+      value = reader.optional_number(key).value_or(value);
     } else {
-      value = reader.optional_number(key, parameter.range).value_or(value);
+      value = reader.number(key);
     }
   }
   if (reader.document().problems.size() > n_problems) return std::nullopt;
@@ -155,38 +147,26 @@ std::optional<tasks::MaterialModel> read_model<components::TabularCap>(JsonReade
   return read_tabular_cap(reader);
 }
 
-/// A type of material in scenes, and what reads it.
-struct MaterialType {
-  std::string name;
-  std::optional<tasks::MaterialModel> (*read)(JsonReader& reader);
-};
-
+/// Reads the model among those of a variant whose type it is.
 template <class... Model>
-std::vector<MaterialType> types_of(const std::variant<Model...>*)
+std::optional<tasks::MaterialModel> read_model(const std::string& type, JsonReader& reader,
+                                               const std::variant<Model...>*)
 {
-  return {{std::string(Model::type), read_model<Model>}...};
-}
-
-const std::vector<MaterialType>& material_types()
-{
-  static const auto types = types_of(static_cast<const tasks::MaterialModel*>(nullptr));
-  return types;
+  std::optional<tasks::MaterialModel> model;
+  ((type == Model::type ? void(model = read_model<Model>(reader)) : void()), ...);
+  return model;
 }
 
 }  // namespace
 
 std::optional<tasks::SceneMaterial> read_material(const std::string& name, JsonReader reader)
 {
-  const std::vector<MaterialType>& types = material_types();
-  std::vector<std::string> names;
-  for (const MaterialType& known : types) names.push_back(known.name);
-  const auto named = std::find(names.begin(), names.end(), reader.choice("type", names));
-  if (named == names.end()) return std::nullopt;
-  const double density = reader.number("density", above_zero, "kg/m^3");
-  const auto model = types[static_cast<std::size_t>(named - names.begin())].read(reader);
-  reader.allow("particles_per_axis");
+  const std::string type = reader.type();
+  if (type.empty()) return std::nullopt;
+  const double density = reader.number("density");
+  const auto model = read_model(type, reader, static_cast<const tasks::MaterialModel*>(nullptr));
   std::optional<int> particles_per_axis;
-  if (reader.has("particles_per_axis")) particles_per_axis = reader.integer("particles_per_axis", 1, 16);
+  if (reader.has("particles_per_axis")) particles_per_axis = reader.whole_number("particles_per_axis");
   reader.finish();
   if (!model) return std::nullopt;
   return tasks::SceneMaterial{name, density, *model, particles_per_axis};
@@ -197,7 +177,7 @@ tasks::SceneMaterial read_material_file(const std::filesystem::path& file, const
   Document document(file);
   for (const std::string& assignment : assignments) document.set(assignment);
   document.merge_file_named_at(JsonPointer());
-  auto material = read_material(file.stem().string(), JsonReader(document));
+  auto material = read_material(file.stem().string(), JsonReader(document, material_keys()));
   if (!document.problems.empty()) throw InputError(std::move(document.problems));
   return std::move(*material);
 }

@@ -70,27 +70,18 @@ class ModulusReader
  private:
   void read_keys()
   {
-    const std::vector<std::string> types{"table", "svr", "mlp"};
-    type_ = reader_.choice("type", types);
-    for (const std::string& type : types) {
+    type_ = reader_.word("type");
+    for (const std::string type : {"table", "svr", "mlp"}) {
       if (type == type_) {
         file_ = reader_.existing_file(type);
       } else {
-        reader_.allow_file(type);
+        reader_.pass_over_file(type);
       }
     }
-    const Range inside{.lower = 0, .upper = 1, .holds_lower = false, .holds_upper = false};
-    tolerance_ = reader_.optional_number("compile", inside);
-    scaling_ = optional_numbers("scaling", 6);
-    range_ = optional_numbers("range", 4);
+    tolerance_ = reader_.optional_number("compile");
+    scaling_ = reader_.optional_numbers("scaling");
+    range_ = reader_.optional_numbers("range");
     reader_.finish();
-  }
-
-  std::optional<std::vector<double>> optional_numbers(const std::string& key, std::size_t n)
-  {
-    reader_.allow(key);
-    if (!reader_.has(key)) return std::nullopt;
-    return reader_.numbers(key, n, any_number);
   }
 
   Modulus model() const

@@ -6,7 +6,8 @@
 #include <vector>
 
 #include "components/errors.hpp"
-#include "tools/scene/body_sites.hpp"
+#include "tasks/set_up/sites.hpp"
+#include "tools/scene/place_text.hpp"
 
 namespace tamp::tools
 {
@@ -18,8 +19,6 @@ namespace
 std::optional<components::PressureCurve> read_curve(JsonReader& reader)
 {
   const std::size_t n_before = reader.document().problems.size();
-  reader.allow("value");
-  reader.allow("values");
   if (reader.has("value") == reader.has("values")) {
     reader.add_problem("value", reader.has("value") ? "beside values" : "neither value nor values",
                        "expected one of value and values");
@@ -27,9 +26,9 @@ std::optional<components::PressureCurve> read_curve(JsonReader& reader)
   }
   std::vector<components::PressureCurve::Point> points;
   if (reader.has("value")) {
-    points.push_back({0, reader.number("value", zero_or_above, "Pa")});
+    points.push_back({0, reader.number("value")});
   } else {
-    for (const std::vector<double>& row : reader.rows("values", 2)) points.push_back({row[0], row[1]});
+    for (const std::vector<double>& row : reader.rows("values")) points.push_back({row[0], row[1]});
   }
   if (reader.document().problems.size() > n_before) return std::nullopt;
   try {
@@ -48,8 +47,8 @@ std::optional<components::PressedBox<3>> read_box(JsonReader& pressure)
   auto reader = pressure.optional_object("within");
   if (!reader) return components::PressedBox<3>{};
   const std::size_t n_before = reader->document().problems.size();
-  const std::vector<double> lower = reader->numbers("lower", D, any_number);
-  const std::vector<double> upper = reader->numbers("upper", D, any_number);
+  const std::vector<double> lower = reader->numbers("lower");
+  const std::vector<double> upper = reader->numbers("upper");
   reader->finish();
   if (reader->document().problems.size() > n_before) return std::nullopt;
   components::PressedBox<3> box;
@@ -85,7 +84,7 @@ bool holds_surface(const components::PressedBox<D>& box, const tasks::Scene& sce
     if (face < box.lower[axis] - slack || face > box.upper[axis] + slack) return false;
     return box.part_of(site, size, size)(axis, side) > 0;
   };
-  for (const Vector<D>& site : sites<D>(scene, body)) {
+  for (const Vector<D>& site : tasks::sites_of<D>(scene, body)) {
     for (int axis = 0; axis < D; ++axis) {
       if (is_pressed(site, axis, 0) || is_pressed(site, axis, 1)) return true;
     }

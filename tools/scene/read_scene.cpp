@@ -24,7 +24,7 @@ namespace
 class SceneReader
 {
  public:
-  explicit SceneReader(Document& document) : document_(document), root_(document) {}
+  explicit SceneReader(Document& document) : document_(document), root_(document, scene_keys()) {}
 
   tasks::Scene read()
   {
@@ -33,23 +33,20 @@ class SceneReader
     const std::size_t n_before = document_.problems.size();
     read_dimension();
     const bool dimension_is_good = document_.problems.size() == n_before;
-    const bool smooth = root_.choice("interpolator", {"gimp", "quadratic_spline"}, true) == "quadratic_spline";
-    scene_.interpolator = smooth ? tasks::Interpolator::quadratic_spline : tasks::Interpolator::gimp;
+    scene_.interpolator = root_.choice<tasks::Interpolator>("interpolator");
     read_grid();
     const bool grid_is_good = document_.problems.size() == n_before;
     read_faces(grid_is_good);
     read_time();
-    const bool affine = root_.choice("transfer", {"flip", "affine"}, true) == "affine";
-    scene_.transfer = affine ? tasks::Transfer::affine : tasks::Transfer::flip;
+    scene_.transfer = root_.choice<tasks::Transfer>("transfer");
     read_particles_per_cell();
     read_loads();
     read_materials();
     read_bodies(dimension_is_good, grid_is_good);
     read_contacts();
-    scene_.failed_updates_allowed = root_.integer("failed_updates_allowed", 0, 1'000'000'000, 0);
+    scene_.failed_updates_allowed = root_.whole_number("failed_updates_allowed");
     read_output();
     read_limits();
-    root_.allow("inputs");
     root_.finish();
     return std::move(scene_);
   }
@@ -64,17 +61,17 @@ class SceneReader
     return t;
   }
 
-  void read_dimension() { scene_.grid.dimension = root_.integer("dimension", 2, 3); }
+  void read_dimension() { document_.dimension = scene_.grid.dimension = root_.whole_number("dimension"); }
 
   void read_grid()
   {
     JsonReader reader = root_.object("grid");
     runtime::Grid& grid = scene_.grid;
     const std::size_t n_before = document_.problems.size();
-    grid.lower = triple(reader.numbers("lower", dimension(), any_number, 0));
-    const std::vector<double> upper = reader.numbers("upper", dimension(), any_number);
-    grid.cell_size = reader.number("cell_size", above_zero, "m");
-    const std::vector<int> patches = reader.integers("patches", dimension(), 1, 1);
+    grid.lower = triple(reader.numbers("lower"));
+    const std::vector<double> upper = reader.numbers("upper");
+    grid.cell_size = reader.number("cell_size");
+    const std::vector<int> patches = reader.whole_numbers("patches");
     reader.finish();
     if (document_.problems.size() > n_before) return;
 
@@ -123,20 +120,17 @@ class SceneReader
 
   void read_faces(bool grid_is_good)
   {
-    JsonReader reader = root_.object_or_empty("boundaries");
+    JsonReader reader = root_.object("boundaries");
     for (std::size_t axis = 0; axis < dimension(); ++axis) {
       for (std::size_t side = 0; side < 2; ++side) {
         const std::string key{"xyz"[axis], "-+"[side]};
         if (reader.is_object(key)) {
           JsonReader wall = reader.object(key);
           scene_.faces[axis][side] = tasks::Face::friction;
-          scene_.wall_friction[axis][side] = wall.number("friction", zero_or_above);
+          scene_.wall_friction[axis][side] = wall.number("friction");
           wall.finish();
         } else {
-          const std::string kind = reader.choice(key, {"symmetry", "open", "no_slip", "periodic"}, true);
-          scene_.faces[axis][side] = kind == "open"      ? tasks::Face::open
-                                     : kind == "no_slip" ? tasks::Face::no_slip
-                                                         : tasks::Face::symmetry;
+          scene_.faces[axis][side] = reader.choice<tasks::Face>(key);
         }
       }
       read_periodic(reader, axis, grid_is_good);
@@ -147,7 +141,8 @@ class SceneReader
   void read_periodic(JsonReader& reader, std::size_t axis, bool grid_is_good)
   {
     const std::array<std::string, 2> keys{std::string{"xyz"[axis], '-'}, std::string{"xyz"[axis], '+'}};
-    const bool lower = reader.is_text(keys[0], "periodic"), upper = reader.is_text(keys[1], "periodic");
+    const bool lower = scene_.faces[axis][0] == tasks::Face::periodic;
+    const bool upper = scene_.faces[axis][1] == tasks::Face::periodic;
     if (lower != upper) {
       reader.add_problem(lower ? keys[1] : keys[0], "a face that is not periodic, opposite to one that is",
                          "expected both faces of an axis periodic, or neither");
@@ -165,13 +160,11 @@ class SceneReader
   {
     JsonReader reader = root_.object("time");
     tasks::SceneTime& time = scene_.time;
-    time.end = reader.number("end", above_zero, "s");
-    const bool published = reader.choice("rule", {"viscous", "published"}, true) == "published";
-    time.rule = published ? tasks::StepRule::published : tasks::StepRule::viscous;
-    time.multiplier = reader.number("multiplier", {.lower = 0, .upper = 1, .holds_lower = false}, 0.8);
-    time.minimum_step = reader.number("minimum_step", above_zero, 1e-12);
-    const auto maximum = reader.optional_number("maximum_step", above_zero);
-    if (maximum) time.maximum_step = *maximum;
+    time.end = reader.number("end");
+    time.rule = reader.choice<tasks::StepRule>("rule");
+    time.multiplier = reader.number("multiplier");
+    time.minimum_step = reader.number("minimum_step");
+    time.maximum_step = reader.optional_number("maximum_step").value_or(time.maximum_step);
     if (time.maximum_step < time.minimum_step) {
       reader.add_problem("maximum_step", fmt::format("{}", time.maximum_step),
                          fmt::format("expected no less than the minimum step, {}", time.minimum_step));
@@ -181,29 +174,24 @@ class SceneReader
 
   void read_particles_per_cell()
   {
-    const std::vector<int> n = root_.integers("particles_per_cell", dimension(), 1, 2);
+    const std::vector<int> n = root_.whole_numbers("particles_per_cell");
     scene_.particles_per_axis = n[0];
     if (std::any_of(n.begin(), n.end(), [&](int i) { return i != n[0]; })) {
       root_.add_problem("particles_per_cell", "unequal numbers", "expected the same number along every axis");
     }
-    if (n[0] <= 16) return;
-    root_.add_problem("particles_per_cell", fmt::format("{}", n[0]), "expected at most 16 along an axis");
-    // The rest of the scene is still checked, with what it can be filled with.
-    scene_.particles_per_axis = 16;
   }
 
   void read_loads()
   {
-    scene_.gravity = triple(root_.numbers("gravity", dimension(), any_number, 0));
+    scene_.gravity = triple(root_.numbers("gravity"));
     read_centrifuge();
     read_artificial_viscosity();
-    scene_.local_damping = root_.number("local_damping", {.lower = 0, .upper = 1, .holds_upper = false}, 0);
+    scene_.local_damping = root_.number("local_damping");
   }
 
   void read_centrifuge()
   {
     if (dimension() != 3) {
-      root_.allow("centrifuge");
       if (root_.has("centrifuge")) root_.add_problem("centrifuge", "a plane scene", "expected one of dimension 3");
       return;
     }
@@ -220,10 +208,10 @@ class SceneReader
       root_.add_problem("centrifuge", "a wall with friction", "expected other boundaries where the grid turns");
     }
     const std::size_t n_before = document_.problems.size();
-    const double speed = reader->number("angular_speed", zero_or_above, "rad/s");
-    const tasks::Triple axis = triple(reader->numbers("axis", 3, any_number));
-    const tasks::Triple centre = triple(reader->numbers("centre", 3, any_number));
-    const double acceleration = reader->number("angular_acceleration", any_number, 0);
+    const double speed = reader->number("angular_speed");
+    const tasks::Triple axis = triple(reader->numbers("axis"));
+    const tasks::Triple centre = triple(reader->numbers("centre"));
+    const double acceleration = reader->number("angular_acceleration");
     reader->finish();
     if (document_.problems.size() > n_before) return;
     try {
@@ -237,11 +225,8 @@ class SceneReader
   {
     auto reader = root_.optional_object("artificial_viscosity");
     if (!reader) return;
-    components::ArtificialViscosity viscosity;
-    viscosity.linear = reader->number("linear", zero_or_above, viscosity.linear);
-    viscosity.quadratic = reader->number("quadratic", zero_or_above, viscosity.quadratic);
+    scene_.artificial_viscosity = {.linear = reader->number("linear"), .quadratic = reader->number("quadratic")};
     reader->finish();
-    scene_.artificial_viscosity = viscosity;
   }
 
   /// Do the entries of an object fit into the fields of a step? Each material has its own there, and each body its
@@ -249,8 +234,7 @@ class SceneReader
   bool has_room_for(const std::string& key)
   {
     constexpr std::size_t most = tasks::ParticleReport::max_entries;
-    root_.allow(key);
-    const std::size_t n = root_.names(key).size();
+    const std::size_t n = root_.members_of(key).size();
     if (n > most) root_.add_problem(key, fmt::format("{} entries", n), fmt::format("expected at most {}", most));
     return n <= most;
   }
@@ -258,7 +242,7 @@ class SceneReader
   void read_materials()
   {
     if (!has_room_for("materials")) return;
-    for (const std::string& name : root_.names("materials")) {
+    for (const std::string& name : root_.members_of("materials")) {
       if (name == flatter || name == regression) {
         document_.add_problem(root_.pointer("materials") / name, "a word of the contact key normal",
                               "expected another name");
@@ -296,9 +280,9 @@ class SceneReader
 
   void read_contacts()
   {
-    for (JsonReader& reader : root_.items("contact")) {
-      const std::vector<std::string> names = reader.choices("materials", 2, material_names_);
-      const double friction = reader.number("friction", zero_or_above);
+    for (JsonReader& reader : root_.objects("contact")) {
+      const std::vector<std::string> names = reader.names("materials", material_names_);
+      const double friction = reader.number("friction");
       const std::string normal = read_normal(reader, names);
       reader.finish();
       if (names.empty()) continue;
@@ -321,9 +305,7 @@ class SceneReader
   /// The word for the flatter surface or for regression, or one of the two materials.
   std::string read_normal(JsonReader& reader, const std::vector<std::string>& materials) const
   {
-    std::vector<std::string> choices{flatter, regression};
-    choices.insert(choices.end(), materials.begin(), materials.end());
-    const std::string normal = reader.choice("normal", choices, true);
+    const std::string normal = reader.name("normal", materials);
     if (normal == regression && scene_.is_periodic()) {
       reader.add_problem("normal", "regression, whose planes have one place each, between periodic boundaries",
                          "expected another normal");
@@ -333,10 +315,10 @@ class SceneReader
 
   void read_output()
   {
-    JsonReader reader = root_.object_or_empty("output");
-    scene_.output.fields_interval = read_interval(reader, "fields_interval", 50, 1e5);
-    scene_.output.history_interval = read_interval(reader, "history_interval", 1000, 1e7);
-    scene_.output.near_nose = reader.number("near_nose", above_zero, scene_.output.near_nose);
+    JsonReader reader = root_.object("output");
+    scene_.output.fields_interval = read_interval(reader, "fields_interval", usual_field_outputs, 1e5);
+    scene_.output.history_interval = read_interval(reader, "history_interval", usual_history_rows, 1e7);
+    scene_.output.near_nose = reader.number("near_nose");
     read_fields(reader);
     reader.finish();
   }
@@ -344,7 +326,6 @@ class SceneReader
   /// Of all materials and of the nodes.
   void read_fields(JsonReader& reader)
   {
-    reader.allow("fields");
     // Nobody knows what the fields of a bad material are.
     if (scene_.materials.size() != material_names_.size()) return;
     std::vector<std::string> known;
@@ -362,7 +343,7 @@ class SceneReader
   double read_interval(JsonReader& reader, const std::string& key, double n, double most)
   {
     const double end = scene_.time.end;
-    const double interval = reader.number(key, above_zero, end / n);
+    const double interval = reader.number(key, end / n);
     if (end / interval > most) {
       reader.add_problem(key, fmt::format("{:.3g} outputs until the end, {} s", end / interval, end),
                          fmt::format("expected at most {:.3g}", most));
@@ -372,18 +353,11 @@ class SceneReader
 
   void read_limits()
   {
-    JsonReader reader = root_.object_or_empty("limits");
-    const std::string energy_error = "energy_error";
-    if (reader.is_text(energy_error, "off")) {
-      scene_.limits.energy_error = std::numeric_limits<double>::infinity();
-    } else {
-      scene_.limits.energy_error = reader.number(energy_error, above_zero, scene_.limits.energy_error);
-    }
+    JsonReader reader = root_.object("limits");
+    scene_.limits.energy_error =
+        reader.has_word("energy_error") ? std::numeric_limits<double>::infinity() : reader.number("energy_error");
     reader.finish();
   }
-
-  static constexpr const char* flatter = "flatter";
-  static constexpr const char* regression = "regression";
 
   Document& document_;
   JsonReader root_;

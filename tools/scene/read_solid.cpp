@@ -43,9 +43,9 @@ template <int D>
 std::optional<Solid<D>> read_at(Document& document, const JsonPointer& pointer);
 
 template <int D>
-Vector<D> vector(JsonReader& reader, const std::string& key, Range range = any_number)
+Vector<D> vector(JsonReader& reader, const std::string& key)
 {
-  const std::vector<double> numbers = reader.numbers(key, D, range);
+  const std::vector<double> numbers = reader.numbers(key);
   return Eigen::Map<const Vector<D>>(numbers.data());
 }
 
@@ -64,37 +64,36 @@ Make<D> read_box(JsonReader& reader)
 template <int D>
 Make<D> read_ball(JsonReader& reader)
 {
-  const components::Ball<D> ball{vector<D>(reader, "centre"), reader.number("radius", above_zero, "m")};
+  const components::Ball<D> ball{vector<D>(reader, "centre"), reader.number("radius")};
   return [=] { return Solid<D>(ball); };
 }
 
 template <int D>
 Make<D> read_rotated_box(JsonReader& reader)
 {
-  const Vector<D> centre = vector<D>(reader, "centre"), sides = vector<D>(reader, "sides", above_zero);
-  const double angle = radians(reader.number("angle", any_number, "degrees"));
+  const Vector<D> centre = vector<D>(reader, "centre"), sides = vector<D>(reader, "sides");
+  const double angle = radians(reader.number("angle"));
   return [=] { return Solid<D>(components::RotatedBox<D>{centre, sides, components::plane_rotation<D>(angle)}); };
 }
 
 Make<3> read_cylinder(JsonReader& reader)
 {
   const Vector<3> first = vector<3>(reader, "first_end"), second = vector<3>(reader, "second_end");
-  const double radius = reader.number("radius", above_zero, "m");
+  const double radius = reader.number("radius");
   return [=] { return Solid<3>(components::Cylinder{first, second, radius}); };
 }
 
 Make<3> read_cone(JsonReader& reader)
 {
   const Vector<3> first = vector<3>(reader, "first_end"), second = vector<3>(reader, "second_end");
-  const double first_radius = reader.number("first_radius", zero_or_above, "m");
-  const double second_radius = reader.number("second_radius", zero_or_above, "m");
+  const double first_radius = reader.number("first_radius");
+  const double second_radius = reader.number("second_radius");
   return [=] { return Solid<3>(components::Cone{first, second, first_radius, second_radius}); };
 }
 
 Make<3> read_ogive(JsonReader& reader)
 {
-  const components::Ogive ogive{vector<3>(reader, "tip"), vector<3>(reader, "base"),
-                                reader.number("radius", above_zero, "m")};
+  const components::Ogive ogive{vector<3>(reader, "tip"), vector<3>(reader, "base"), reader.number("radius")};
   return [=] { return Solid<3>(ogive); };
 }
 
@@ -102,15 +101,15 @@ Make<3> read_revolved(JsonReader& reader)
 {
   const Vector<3> start = vector<3>(reader, "start"), axis = vector<3>(reader, "axis");
   std::vector<components::ProfilePoint> profile;
-  for (const std::vector<double>& row : reader.rows("profile", 2)) profile.push_back({row[0], row[1]});
-  const std::optional<double> tip_radius = reader.optional_number("tip_radius", above_zero);
+  for (const std::vector<double>& row : reader.rows("profile")) profile.push_back({row[0], row[1]});
+  const std::optional<double> tip_radius = reader.optional_number("tip_radius");
   return [=] { return Solid<3>(components::Revolved(start, axis, profile, tip_radius)); };
 }
 
 std::vector<Vector<2>> corners(JsonReader& reader)
 {
   std::vector<Vector<2>> corners;
-  for (const std::vector<double>& row : reader.rows("corners", 2)) corners.emplace_back(row[0], row[1]);
+  for (const std::vector<double>& row : reader.rows("corners")) corners.emplace_back(row[0], row[1]);
   return corners;
 }
 
@@ -121,7 +120,7 @@ Make<2> read_polygon(JsonReader& reader)
 
 Make<3> read_extruded_polygon(JsonReader& reader)
 {
-  const double lower = reader.number("lower", any_number, "m"), upper = reader.number("upper", any_number, "m");
+  const double lower = reader.number("lower"), upper = reader.number("upper");
   return [corners = corners(reader), lower, upper] {
     return Solid<3>(components::ExtrudedPolygon{components::Polygon(corners), lower, upper});
   };
@@ -130,7 +129,7 @@ Make<3> read_extruded_polygon(JsonReader& reader)
 Make<3> read_mesh(JsonReader& reader)
 {
   const std::filesystem::path file = reader.existing_file("stl");
-  const double scale = reader.number("scale", above_zero, 1.0);
+  const double scale = reader.number("scale");
   return [=] {
     std::istringstream stl(read_input_file(file));
     try {
@@ -146,7 +145,7 @@ template <int D>
 std::vector<Solid<D>> parts(JsonReader& reader)
 {
   std::vector<Solid<D>> parts;
-  const std::size_t n = reader.items("of").size();
+  const std::size_t n = reader.objects("of").size();
   for (std::size_t i = 0; i < n; ++i) {
     const auto part = read_at<D>(reader.document(), reader.pointer("of") / i);
     if (part) parts.push_back(*part);
@@ -190,13 +189,10 @@ template <int D>
 Make<D> read_transform(JsonReader& reader)
 {
   const auto solid = read_solid<D>(reader, "of");
-  const std::vector<double> numbers = reader.numbers("translation", D, any_number, 0);
-  const Vector<D> translation = Eigen::Map<const Vector<D>>(numbers.data());
+  const Vector<D> translation = vector<D>(reader, "translation");
   std::function<Matrix<D>()> rotation = [] { return Matrix<D>(Matrix<D>::Identity()); };
   if (auto given = reader.optional_object("rotation")) {
-    rotation = [about = rotation_about<D>(*given), angle = radians(given->number("angle", any_number, "degrees"))] {
-      return about(angle);
-    };
+    rotation = [about = rotation_about<D>(*given), angle = radians(given->number("angle"))] { return about(angle); };
     given->finish();
   }
   return [=] { return Solid<D>(components::Transformed<D>{*solid, rotation(), translation}); };
@@ -206,7 +202,7 @@ template <int D>
 Make<D> read_ring(JsonReader& reader)
 {
   const auto solid = read_solid<D>(reader, "of");
-  const int count = reader.integer("count", 1, 1000);
+  const int count = reader.whole_number("count");
   return [=, about = rotation_about<D>(reader)] {
     components::Union<D> ring;
     for (int i = 0; i < count; ++i) {
@@ -265,14 +261,11 @@ std::optional<Solid<D>> read_at(Document& document, const JsonPointer& pointer)
   }
   const std::size_t n_before = document.problems.size();
   document.merge_file_named_at(pointer);
-  JsonReader reader(document, pointer);
-  const std::vector<Kind<D>> all = kinds<D>();
-  std::vector<std::string> types;
-  std::transform(all.begin(), all.end(), std::back_inserter(types), [](const Kind<D>& kind) { return kind.type; });
-  reader.allow("title");
-  const std::string type = reader.choice("type", types);
+  JsonReader reader(document, solid_keys(), pointer);
+  const std::string type = reader.type();
   if (type.empty()) return std::nullopt;
 
+  const std::vector<Kind<D>> all = kinds<D>();
   const Kind<D>& kind = *std::find_if(all.begin(), all.end(), [&](const Kind<D>& k) { return k.type == type; });
   const Make<D> make = kind.read(reader);
   reader.finish();

@@ -20,20 +20,35 @@ const Json& unwrapped(const Json& value)
 
 constexpr std::size_t most_vectors = 20'000;
 
+const ObjectKeys& fit_keys()
+{
+  static const ObjectKeys keys{"",
+                               {{"X_conversion_factor", Numbers{just(2), above_zero}, "", compulsory, ""},
+                                {"X_scale", Numbers{just(2), above_zero}, "", compulsory, ""},
+                                {"X_min", Numbers{just(2)}, "", compulsory, ""},
+                                {"X_max", Numbers{just(2)}, "", compulsory, ""},
+                                {"y_conversion_factor", Number{above_zero}, "", compulsory, ""},
+                                {"y_scale", Number{above_zero}, "", compulsory, ""},
+                                {"y_min", Number{}, "", compulsory, ""},
+                                {"gamma", Number{above_zero}, "", compulsory, ""},
+                                {"intercept", Number{}, "", compulsory, ""}}};
+  return keys;
+}
+
 class SupportVectorReader
 {
  public:
-  explicit SupportVectorReader(const std::filesystem::path& file) : document_(file), reader_(document_) {}
+  explicit SupportVectorReader(const std::filesystem::path& file) : document_(file), reader_(document_, fit_keys()) {}
 
   SupportVectorFit read()
   {
     SupportVectorFit fit{};
     read_inputs(fit);
-    fit.pressure_unit = number("y_conversion_factor", above_zero);
-    fit.pressure_scale = number("y_scale", above_zero);
-    fit.pressure_lower = number("y_min", any_number);
-    fit.gamma = number("gamma", above_zero);
-    fit.intercept = number("intercept", any_number);
+    fit.pressure_unit = number("y_conversion_factor");
+    fit.pressure_scale = number("y_scale");
+    fit.pressure_lower = number("y_min");
+    fit.gamma = number("gamma");
+    fit.intercept = number("intercept");
     fit.vectors = read_vectors();
     fit.coefficients = read_coefficients(fit.vectors.size());
     if (!document_.problems.empty()) throw InputError(std::move(document_.problems));
@@ -41,13 +56,13 @@ class SupportVectorReader
   }
 
  private:
-  double number(const std::string& key, Range range)
+  double number(const std::string& key)
   {
     if (reader_.has(key)) document_.root[key] = Json(unwrapped(document_.root[key]));
-    return reader_.number(key, range);
+    return reader_.number(key);
   }
 
-  std::vector<double> pair(const std::string& key, Range range)
+  std::vector<double> pair(const std::string& key)
   {
     if (reader_.has(key)) {
       Json value = unwrapped(document_.root[key]);
@@ -56,14 +71,14 @@ class SupportVectorReader
       }
       document_.root[key] = std::move(value);
     }
-    return reader_.numbers(key, 2, range);
+    return reader_.numbers(key);
   }
 
   void read_inputs(SupportVectorFit& fit)
   {
-    const std::vector<double> unit = pair("X_conversion_factor", above_zero), scale = pair("X_scale", above_zero);
+    const std::vector<double> unit = pair("X_conversion_factor"), scale = pair("X_scale");
     const std::size_t n_before = document_.problems.size();
-    const std::vector<double> lower = pair("X_min", any_number), upper = pair("X_max", any_number);
+    const std::vector<double> lower = pair("X_min"), upper = pair("X_max");
     const bool bounds_are_good = document_.problems.size() == n_before;
     if (bounds_are_good && !(lower[0] < upper[0] && lower[1] < upper[1])) {
       reader_.add_problem("X_max", fmt::format("[{}, {}]", upper[0], upper[1]),

@@ -116,7 +116,7 @@ TEST_CASE("a number out of range is told with its range")
   CHECK(problems_with({"/time/maximum_step=1e-13"}) ==
         "--set#/time/maximum_step: 1e-13; expected no less than the minimum step, 1e-12");
   CHECK(problems_with({"/particles_per_cell=[0,0]"}) ==
-        "--set#/particles_per_cell: [0,0]; expected 2 whole numbers from 1 to 1000000");
+        "--set#/particles_per_cell: [0,0]; expected 2 whole numbers from 1 to 16");
   CHECK(problems_with({"/particles_per_cell=[2,3]"}) ==
         "--set#/particles_per_cell: unequal numbers; expected the same number along every axis");
 }
@@ -480,7 +480,7 @@ TEST_CASE("soil whose numbers do not go together is refused, with the one that d
   CHECK(problems(friction + ", \"cohesion\": 1e4, \"tension_cutoff\": 2e4") ==
         "--set#/materials/steel/tension_cutoff: 20000; expected at most 17320.5 Pa, where the cone ends");
   CHECK(problems(friction + ", \"cohesion\": \"much\"") ==
-        "--set#/materials/steel/cohesion: \"much\"; expected a number of 0 or above");
+        "--set#/materials/steel/cohesion: \"much\"; expected a number of 0 or above [Pa]");
 }
 
 TEST_CASE("a name that is none of the choices is told with the choices")

@@ -1,0 +1,28 @@
+#include <fmt/core.h>
+#include <fmt/ranges.h>
+
+#include <memory>
+#include <string>
+
+#include "tools/commands/commands.hpp"
+#include "tools/console.hpp"
+#include "tools/scene/print_json.hpp"
+#include "tools/scene/schema.hpp"
+
+namespace tamp::tools
+{
+
+CLI::App* add_schema_command(CLI::App& app)
+{
+  CLI::App* command = app.add_subcommand("schema", "Print the JSON schema of scenes, for editors and validators");
+  const auto format = std::make_shared<std::string>("json");
+  command->add_option("--format", *format, "json, or markdown: the keys as the tables of docs/scene.md")
+      ->check(CLI::IsMember({"json", "markdown"}));
+  command->callback([format] {
+    print_out("{}",
+              *format == "json" ? printed(scene_schema()) + "\n" : fmt::format("{}", fmt::join(key_tables(), "\n")));
+  });
+  return command;
+}
+
+}  // namespace tamp::tools

@@ -1,0 +1,168 @@
+#pragma once
+
+#include <string>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "components/range.hpp"
+#include "tools/scene/document.hpp"
+
+/// What the keys of scenes are called, may hold and mean: said here once, for the readers, the JSON schema and the
+/// tables of docs/scene.md.
+namespace tamp::tools
+{
+
+using components::above_zero;
+using components::any_number;
+using components::Range;
+using components::zero_or_above;
+
+struct ObjectKeys;
+/// Keys may be those of an object that holds others of its own kind, so that they are asked for when they are needed.
+using KeysOf = const ObjectKeys& (*)();
+
+/// Entries of a list, in scenes of two and of three dimensions.
+struct Length {
+  int in_plane;
+  int in_space;
+};
+inline constexpr Length per_axis{2, 3}, per_rotation{1, 3}, time_and_axes{3, 4};
+constexpr Length just(int n)
+{
+  return {n, n};
+}
+
+struct Text {
+};
+struct Flag {
+};
+struct File {
+};
+/// Of a material: one that the user chose; a reader knows which there are.
+struct Name {
+  /// May stand there instead; the names may not be one of them.
+  std::vector<std::string> words{};
+};
+struct Names {
+  Length length;
+};
+/// A list of any of the names that a reader knows, each once.
+struct SomeNames {
+};
+/// What is not read.
+struct Anything {
+};
+struct Number {
+  Range range = any_number;
+  /// May stand there instead.
+  std::string word{};
+};
+struct Numbers {
+  Length length;
+  Range range = any_number;
+};
+struct WholeNumber {
+  int least, most;
+};
+struct WholeNumbers {
+  Length length;
+  int least, most;
+};
+/// A list of lists of numbers.
+struct Rows {
+  Length length;
+};
+struct Choice {
+  std::vector<std::string> words;
+  /// What each word stands for in code: values of an enumeration; none where the word itself is used.
+  std::vector<int> values{};
+  /// Of an object that may stand there instead of a word.
+  KeysOf instead = nullptr;
+};
+struct Object {
+  KeysOf keys;
+};
+/// An object whose members, under names that the user chose, have these keys.
+struct Members {
+  KeysOf keys;
+};
+/// A list of objects.
+struct Objects {
+  KeysOf keys;
+};
+using Value = std::variant<Text, Flag, File, Name, Names, SomeNames, Anything, Number, Numbers, WholeNumber,
+                           WholeNumbers, Rows, Choice, Object, Members, Objects>;
+
+/// What holds where a key is left out.
+struct Default {
+  /// Null where there is none, or none that is known without the rest of the scene; for lists each entry.
+  Json value = nullptr;
+  /// For people, where the value does not tell.
+  std::string words{};
+  bool compulsory = false;
+};
+inline const Default compulsory{nullptr, "*compulsory*", true}, none{nullptr, "none"};
+
+struct Key {
+  std::string name;
+  Value value;
+  /// SI, such as "kg/m^3".
+  std::string unit;
+  Default default_value;
+  /// In Markdown, half a line for people. Keys that follow each other and mean the same share a row of a table.
+  std::string meaning;
+  /// The dimension of the scenes that have the key; 0: all.
+  int only_in = 0;
+};
+
+/// One word of the key "type", and the keys that go with it.
+struct TypeKeys {
+  std::string word;
+  std::vector<Key> keys;
+  std::string meaning{};
+  int only_in = 0;
+};
+
+struct ObjectKeys {
+  /// Of an object that the documentation shows in a table of its own, and the schema in a definition; the keys of
+  /// others stand with those around them.
+  std::string name;
+  std::vector<Key> keys;
+  /// Where there are any, the compulsory key "type" names one of them.
+  std::vector<TypeKeys> types{};
+  /// Whether it may stand in a file of its own. It may then name another one under the key "file", over whose object
+  /// its other keys are merged (RFC 7386), and for editors a schema under "$schema", which is passed over.
+  bool may_be_a_file = false;
+};
+
+/// A key whose words stand for values of an enumeration.
+template <class Enum>
+Key choice(std::string name, Enum default_value, const std::vector<std::pair<std::string, Enum>>& words,
+           std::string meaning, KeysOf instead = nullptr)
+{
+  Choice choice{.words = {}, .instead = instead};
+  Default left_out;
+  for (const auto& [word, value] : words) {
+    choice.words.push_back(word);
+    choice.values.push_back(static_cast<int>(value));
+    if (value == default_value) left_out.value = word;
+  }
+  return {std::move(name), std::move(choice), "", std::move(left_out), std::move(meaning)};
+}
+
+/// Of a run, where its scene does not say how often.
+inline constexpr int usual_field_outputs = 50, usual_history_rows = 1000;
+/// Words of the contact key "normal", beside the names of materials.
+inline constexpr char flatter[] = "flatter", regression[] = "regression";
+
+const ObjectKeys& scene_keys();
+const ObjectKeys& centrifuge_keys();
+const ObjectKeys& contact_keys();
+const ObjectKeys& body_keys();
+const ObjectKeys& drive_keys();
+const ObjectKeys& pressure_keys();
+const ObjectKeys& solid_keys();
+const ObjectKeys& material_keys();
+
+}  // namespace tamp::tools

@@ -1,0 +1,131 @@
+#include <cmath>
+
+#include "components/materials/material_model.hpp"
+#include "tools/scene/keys.hpp"
+#include "tools/scene/strain_measure.hpp"
+
+namespace tamp::tools
+{
+
+namespace
+{
+
+constexpr Range within_one{.lower = 0, .upper = 1, .holds_lower = false, .holds_upper = false};
+
+const ObjectKeys& modulus_keys()
+{
+  const std::string file =
+      "the model's file: unloading curves with the columns `plastic_volumetric[-]`, `elastic_volumetric[-]`, "
+      "`pressure[Pa]` or a published tabular JSON; a published SVR JSON; a Keras HDF5 file";
+  const std::string numbers =
+      "of an mlp: `[mean_e, sd_e, mean_p, sd_p, mean_K, sd_K]`, `[e_lower, e_upper, p_lower, p_upper]` for elastic (e) "
+      "and plastic (p) strain";
+  const Default of_type{nullptr, "that of the type is compulsory"}, in_file{nullptr, "those in the file"};
+  static const ObjectKeys keys{
+      "",
+      {{"type", Choice{{"table", "svr", "mlp"}}, "", compulsory,
+        "`\"table\"`: measured unloading curves; `\"svr\"`: support-vector regression of the pressure; `\"mlp\"`: a "
+        "network for the bulk modulus; see [moduli.md](moduli.md)"},
+       {"table", File{}, "", of_type, file},
+       {"svr", File{}, "", of_type, file},
+       {"mlp", File{}, "", of_type, file},
+       {"compile",
+        Number{within_one},
+        "",
+        {nullptr, "off"},
+        "tolerance to which the model is turned into one bicubic surface when it is read"},
+       {"scaling", Numbers{just(6)}, "", in_file, numbers},
+       {"range", Numbers{just(4)}, "", in_file, numbers}}};
+  return keys;
+}
+
+const ObjectKeys& yield_keys()
+{
+  static const ObjectKeys keys{
+      "",
+      {{"file", File{}, "", compulsory, "table `pressure[Pa]`, `sqrt_J2[Pa]`; its first row is the tension vertex"},
+       {"cap_ellipticity", Number{within_one}, "", compulsory,
+        "where the cap starts, between the tension vertex (0) and the crush pressure (1)"}}};
+  return keys;
+}
+
+/// A model that consists of numbers says itself what they are.
+template <class Model>
+std::vector<Key> keys_of()
+{
+  std::vector<Key> keys;
+  const Model model{};
+  for (const components::Parameter<Model>& parameter : Model::parameters()) {
+    const double value = model.*parameter.value;
+    const Default left_out = std::isfinite(value) ? Default{value} : none;
+    keys.push_back({std::string(parameter.key), Number{parameter.range}, std::string(parameter.unit),
+                    parameter.optional ? left_out : compulsory, std::string(parameter.meaning)});
+  }
+  return keys;
+}
+
+template <>
+std::vector<Key> keys_of<components::TabularCap>()
+{
+  using components::ElasticUpdate, components::TabularCapParameters;
+  constexpr int most_substeps = 1'000'000;
+  return {{"poisson_ratio", Number{{.lower = -1, .upper = 0.5, .holds_lower = false, .holds_upper = false}}, "",
+           compulsory, "gives the shear modulus from the bulk modulus"},
+          choice<ElasticUpdate>("elastic_update", ElasticUpdate::state,
+                                {{"state", ElasticUpdate::state}, {"rate", ElasticUpdate::rate}},
+                                "`\"state\"`: pressure is a function of elastic and plastic strain; `\"rate\"`: the "
+                                "pressure's rate is the bulk modulus times the elastic strain rate, as published"),
+          {"modulus", Object{modulus_keys}, "", compulsory, ""},
+          choice<StrainMeasure>(
+              "strain_measure", StrainMeasure::logarithmic,
+              {{"logarithmic", StrainMeasure::logarithmic}, {"engineering", StrainMeasure::engineering}},
+              "how the measured volumetric strains are read: `\"logarithmic\"` takes the numbers as -ln(V/V0), as the "
+              "published tables do; `\"engineering\"` as 1 - V/V0"),
+          {"hydrostat",
+           File{},
+           "",
+           {nullptr, "compulsory in state form"},
+           "table `total_volumetric[-]`, `pressure[Pa]` of hydrostatic loading, from which the crush curve then "
+           "follows"},
+          {"crush_curve",
+           File{},
+           "",
+           {nullptr, "compulsory in rate form"},
+           "table `plastic_volumetric[-]`, `pressure[Pa]`: hydrostatic strength"},
+          {"yield", Object{yield_keys}, "", compulsory, ""},
+          {"tolerance",
+           Number{{.lower = 0, .upper = 1, .holds_lower = false}},
+           "",
+           {TabularCapParameters::usual_tolerance},
+           "relative error of the stress in one step, above which a step is cut into substeps"},
+          {"max_substeps",
+           WholeNumber{1, most_substeps},
+           "",
+           {TabularCapParameters::usual_max_substeps},
+           "substeps that one step may be cut into"}};
+}
+
+template <class... Model>
+std::vector<TypeKeys> types_of(const std::variant<Model...>*)
+{
+  return {{std::string(Model::type), keys_of<Model>()}...};
+}
+
+}  // namespace
+
+const ObjectKeys& material_keys()
+{
+  static const ObjectKeys keys{
+      .name = "material",
+      .keys = {{"density", Number{above_zero}, "kg/m^3", compulsory, "of the unstrained material"},
+               {"particles_per_axis",
+                WholeNumber{1, 16},
+                "",
+                {nullptr, "the scene's"},
+                "the number of its particles along each axis of a cell"}},
+      .types = types_of(static_cast<const components::MaterialModel*>(nullptr)),
+      .may_be_a_file = true};
+  return keys;
+}
+
+}  // namespace tamp::tools
