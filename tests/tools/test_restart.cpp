@@ -305,7 +305,8 @@ TEST_CASE("a run does not go on with data that have changed, and names the file;
   CHECK(other.exit_code == 2);
   CHECK_THAT(other.err, Catch::Contains("a checkpoint of another scene, which differs at /grid/patches"));
   bool told = false;
-  for (const auto& input : summary_of(run)["inputs"]) told |= input["file"].get<std::string>().ends_with("yield.csv");
+  const auto summary = summary_of(run);
+  for (const auto& input : summary["inputs"]) told |= input["file"].get<std::string>().ends_with("yield.csv");
   CHECK(told);
 }
 
