@@ -90,6 +90,8 @@ inline const runtime::ReductionLabel<HostRequests, "host requests"> host_request
 /// What a step adds to the energies, and how long the next may be.
 inline const runtime::ReductionLabel<StepTotals, "step totals"> step_totals;
 inline const runtime::ReductionLabel<GridTotals, "grid totals"> grid_totals;
+/// Of body forces in the step; where a scene has some.
+inline const runtime::ReductionLabel<LoadWork, "body force work"> body_force_work;
 inline const runtime::ReductionLabel<ContactImpulses, "contact impulses"> contact_impulses;
 inline const runtime::ReductionLabel<LoadTotals, "load totals"> load_totals;
 inline const runtime::ReductionLabel<RigidCouplings, "rigid couplings"> rigid_couplings;

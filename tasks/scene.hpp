@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <functional>
 #include <limits>
 #include <optional>
 #include <string>
@@ -15,6 +14,7 @@
 #include "components/loads/pressure_load.hpp"
 #include "components/loads/rotating_frame.hpp"
 #include "components/materials/material_model.hpp"
+#include "components/problems/body_functions.hpp"
 #include "components/rigid/prescribed_motion.hpp"
 #include "components/shapes/interpolator.hpp"
 #include "runtime/grid/patch_layout.hpp"
@@ -107,8 +107,8 @@ struct SceneBody {
   bool initial_stress = false;
   /// Only on a body that is not rigid.
   std::optional<BodyPressure> pressure{};
-  /// For scenes made in code: velocity [m/s] where a particle starts [m]; `velocity` then only bounds the first step.
-  std::function<Triple(const Triple&)> velocity_field{};
+  /// Of its problem, if it has one: they say more of its start than the above, and what acts on it.
+  components::BodyFunctions functions{};
 };
 
 /// Between two different materials; pairs that are not listed slide freely.
@@ -186,6 +186,10 @@ struct Scene {
   bool is_periodic() const
   {
     return std::find(grid.periodic.begin(), grid.periodic.end(), true) != grid.periodic.end();
+  }
+  bool has_body_force() const
+  {
+    return std::any_of(bodies.begin(), bodies.end(), [](const SceneBody& body) { return body.functions.body_force; });
   }
   bool has_nose() const
   {

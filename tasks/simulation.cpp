@@ -18,6 +18,7 @@
 #include "tasks/labels.hpp"
 #include "tasks/report/field_columns.hpp"
 #include "tasks/report/state_digest.hpp"
+#include "tasks/set_up/deformed_start.hpp"
 #include "tasks/set_up/fill_bodies.hpp"
 #include "tasks/set_up/initial_moduli.hpp"
 #include "tasks/set_up/settled_sand.hpp"
@@ -44,6 +45,7 @@ components::TangentModuli greatest_initial_moduli(const Scene& scene, const Scen
 {
   const SceneMaterial& material = scene.materials[static_cast<std::size_t>(body.material)];
   components::TangentModuli moduli = initial_moduli(material);
+  if (body.functions.deformation_gradient) moduli = greatest_deformed_moduli<D>(scene, body);
   if (body.initial_stress) {
     const double ratio = moduli.shear_modulus / moduli.bulk_modulus;
     moduli.bulk_modulus = SettledSand<D>(scene, body).greatest_bulk_modulus();
@@ -76,6 +78,7 @@ class SimulationOf : public Simulation
     forecast_bytes_ = communicator_.sum(engine_->warehouse().forecast_bytes());
     lost_.emplace(engine_->layout().size());
     totals_.stable_step = initial_stable_step(particles);
+    totals_.elastic = particles.stored_energy();
   }
 
   void advance(double end) override
@@ -292,6 +295,7 @@ class SimulationOf : public Simulation
     grid_totals_.combine(of_nodes);
     totals_.contact += of_nodes.taken_by_walls;
     totals_.viscous += of_nodes.taken_by_damping;
+    if (scene_.has_body_force()) totals_.driving += engine_->warehouse().result(body_force_work).value;
     contact_.combine(engine_->warehouse().result(contact_impulses));
     if (method_.pressed_groups.empty()) return;
     const LoadTotals& loads = engine_->warehouse().result(load_totals);

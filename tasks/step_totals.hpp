@@ -39,7 +39,8 @@ struct StepTotals {
   double plastic = 0;
   double viscous = 0;  ///< by artificial viscosity and local damping
   double contact = 0;
-  /// Work of what drives bodies, in this step [J]; what the simulation sums has that of pressure loads too.
+  /// Work of what drives bodies and of body forces, in this step [J]; what the simulation sums has that of pressure
+  /// loads too.
   double driving = 0;
   /// Stress updates of all materials.
   components::UpdateCounts updates;
@@ -64,10 +65,17 @@ struct StepTotals {
   }
 };
 
+/// What a load does in one step [J].
+struct LoadWork {
+  double value = 0;
+
+  void combine(const LoadWork& other) { value += other.value; }
+};
+
 /// Sums over the nodes of one step.
 struct GridTotals {
-  /// What all particles take from the nodes [N s]: gravity, pressure loads and the walls; forces within and between
-  /// bodies cancel.
+  /// What all particles take from the nodes [N s]: gravity, loads and the walls; forces within and between bodies
+  /// cancel.
   std::array<double, 3> impulse{0, 0, 0};
   /// The energy that walls take by friction and by stopping what runs into them [J].
   double taken_by_walls = 0;

@@ -45,6 +45,7 @@ std::vector<runtime::TaskDeclaration> time_step(const Method<D>& method,
   if (!method.pressed_groups.empty()) {
     for (runtime::TaskDeclaration& phase : press(method)) step.push_back(std::move(phase));
   }
+  if (method.scene.has_body_force()) step.push_back(body_force(method));
   if (!method.deformable_groups.empty()) step.push_back(accelerate_nodes(method));
   if (!method.rigid_bodies.empty()) step.push_back(accelerate_rigid_bodies(method));
   for (const RigidBody& body : method.rigid_bodies) step.push_back(rigid_nodes_before_contact(method, body.group));
@@ -61,6 +62,7 @@ std::vector<runtime::TaskDeclaration> time_step(const Method<D>& method,
   if (!method.rigid_bodies.empty()) step.push_back(move_rigid_bodies(method));
   for (const RigidBody& body : method.rigid_bodies) step.push_back(move_rigid_particles(method, body.group));
   if (!method.deformable_groups.empty()) step.push_back(grid_to_particles(method));
+  if (method.scene.has_body_force()) step.push_back(work_of_body_force(method));
   for (const int material : method.deformable_groups) step.push_back(update_stress(method, material));
   step.push_back(runtime::migration(particle::position<D>, step_totals, std::move(accepted),
                                     method.scene.is_periodic() ? &particle::laps : nullptr));
@@ -78,6 +80,7 @@ runtime::HostData host_data(const Method<D>& method)
   if (!method.pressed_groups.empty()) data.results.push_back(&load_totals);
   if (method.scene.is_periodic()) data.state.push_back(&particle::laps);
   if (method.transfer == Transfer::affine) data.state.push_back(&particle::velocity_gradient<D>);
+  if (method.scene.has_body_force()) data.results.push_back(&body_force_work);
   return data;
 }
 

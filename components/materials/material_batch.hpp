@@ -16,7 +16,8 @@
 ///    or a `read_model` of its own in tools/scene/read_material.cpp;
 ///  - `initial_moduli()`, K and G without strain;
 ///  - `update(model, batch, counts)`, which answers a batch of particles;
-///  - with a state, `state_name`, and `columns()` and `extremes()`, what output shows of it, see state_columns.hpp.
+///  - with a state, `state_name`, and `columns()` and `extremes()`, what output shows of it, see state_columns.hpp;
+///  - where the stress follows from the deformation gradient alone, `stored_energy<D>(deformation_gradient)`.
 ///
 /// A model stands in the list of material_model.hpp; the tasks and tools loop over that.
 namespace tamp::components
@@ -28,6 +29,13 @@ struct NoState {
 
 template <class Model>
 inline constexpr bool has_state = !std::is_same_v<typename Model::State, NoState>;
+
+/// Models whose stress follows from the deformation gradient alone: their bodies may start deformed.
+template <class Model>
+concept Hyperelastic = requires(const Model& model, const Matrix<3>& f)
+{
+  model.template stored_energy<3>(f);
+};
 
 /// Elastic moduli [Pa].
 struct TangentModuli {

@@ -64,6 +64,15 @@ BatchFailure update(const NeoHookean& solid, const MaterialBatch<D, NoState>& ba
 }
 
 template <int D>
+double NeoHookean::stored_energy(const Matrix<D>& deformation_gradient) const
+{
+  const double J = deformation_gradient.determinant();
+  const double square = trace(left_cauchy_green<D>(deformation_gradient));
+  return 0.5 * bulk_modulus * (0.5 * (J * J - 1) - portable::log(J)) +
+         0.5 * shear_modulus * (portable::pow(J, -2.0 / 3.0) * square - 3);
+}
+
+template <int D>
 TangentModuli tangent_moduli(const NeoHookean& solid, const Matrix<D>& deformation_gradient)
 {
   const double J = deformation_gradient.determinant();
@@ -73,6 +82,8 @@ TangentModuli tangent_moduli(const NeoHookean& solid, const Matrix<D>& deformati
   return {0.5 * solid.bulk_modulus * (J + 1 / J), 0.75 * solid.shear_modulus * portable::pow(J, -5.0 / 3.0) * stretch};
 }
 
+template double NeoHookean::stored_energy<2>(const Matrix<2>&) const;
+template double NeoHookean::stored_energy<3>(const Matrix<3>&) const;
 template BatchFailure update<2>(const NeoHookean&, const MaterialBatch<2, NoState>&, UpdateCounts&);
 template BatchFailure update<3>(const NeoHookean&, const MaterialBatch<3, NoState>&, UpdateCounts&);
 template TangentModuli tangent_moduli<2>(const NeoHookean&, const Matrix<2>&);

@@ -25,6 +25,9 @@ struct NeoHookean {
   double shear_modulus;
 
   TangentModuli initial_moduli() const { return {bulk_modulus, shear_modulus}; }
+  /// W [J per m^3 of the undeformed material].
+  template <int D>
+  double stored_energy(const Matrix<D>& deformation_gradient) const;
 };
 
 constexpr std::array<Parameter<NeoHookean>, 2> NeoHookean::parameters()

@@ -37,6 +37,12 @@ class InterpolationBy final : public Interpolation<D>
     components::add_gradient_momentum(shape_, block, position, mass, velocity_gradient, sums);
   }
 
+  void add_forces(const GridBlock<D>& block, std::span<const Vector<D>> position, std::span<const Vector<D>> force,
+                  NodeSums<D>* sums) const override
+  {
+    components::add_forces(shape_, block, position, force, sums);
+  }
+
   void grid_to_particles(const GridBlock<D>& block, std::span<const Vector<D>> position, const NodeMotion<D>* nodes,
                          std::span<ParticleMotion<D>> motion) const override
   {

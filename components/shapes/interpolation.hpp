@@ -33,6 +33,8 @@ class Interpolation
   virtual void add_gradient_momentum(const GridBlock<D>& block, std::span<const Vector<D>> position,
                                      std::span<const double> mass, std::span<const Matrix<D>> velocity_gradient,
                                      NodeSums<D>* sums) const = 0;
+  virtual void add_forces(const GridBlock<D>& block, std::span<const Vector<D>> position,
+                          std::span<const Vector<D>> force, NodeSums<D>* sums) const = 0;
   virtual void grid_to_particles(const GridBlock<D>& block, std::span<const Vector<D>> position,
                                  const NodeMotion<D>* nodes, std::span<ParticleMotion<D>> motion) const = 0;
   virtual void own_stiffness(const GridBlock<D>& block, std::span<const Vector<D>> position,

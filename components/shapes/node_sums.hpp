@@ -35,9 +35,9 @@ struct NodeSums : NodeValues<D, D == 2 ? 8 : 12, 1, 1 + D, 1 + 2 * D> {
   /// sum m_p v_p S_ip [kg m/s]
   Vector<D> momentum() const { return this->vector(1); }
   void add_momentum(const Vector<D>& momentum) { this->set_vector(1, this->vector(1) + momentum); }
-  /// -sum V_p (sigma_p - q_p I) . grad S_ip, and what pressure loads add to it [N]
+  /// -sum V_p (sigma_p - q_p I) . grad S_ip [N], and what loads on the particles add to it.
   Vector<D> internal_force() const { return this->vector(1 + D); }
-  void add_force(const Vector<D>& force) { this->set_vector(1 + D, this->vector(1 + D) + force); }
+  void add_force(const Vector<D>& force) { this->set_vector(1 + D, internal_force() + force); }
   /// sum V_p grad S_ip [m^(D-1)]: points out of the material at its surface, vanishes within.
   Vector<D> surface_gradient() const { return this->vector(1 + 2 * D); }
   void set_surface_gradient(const Vector<D>& gradient) { this->set_vector(1 + 2 * D, gradient); }

@@ -102,6 +102,22 @@ void add_pressure(const Interpolator& interpolator, const GridBlock<D>& block, s
   }
 }
 
+/// Adds to the forces on nodes the particles' shares of forces on them, S_ip f_p [N].
+template <class Interpolator, int D = Interpolator::dimension>
+void add_forces(const Interpolator& interpolator, const GridBlock<D>& block, std::span<const Vector<D>> position,
+                std::span<const Vector<D>> force, NodeSums<D>* sums)
+{
+  for (std::size_t p = 0; p < position.size(); ++p) {
+    const auto stencil = interpolator.at(block, position[p]);
+    for_each_row<D>(block, stencil, [&](const StencilRow<D>& row) {
+      const Vector<D> by_weight = row.across * force[p];
+      for (std::size_t i = 0; i < Interpolator::support; ++i) {
+        sums[row.first + static_cast<std::ptrdiff_t>(i)].add_force(stencil.weight[0][i] * by_weight);
+      }
+    });
+  }
+}
+
 /// What the grid gives back to one particle.
 template <int D>
 struct ParticleMotion {

@@ -17,6 +17,14 @@ runtime::TaskDeclaration particles_to_grid(const Method<D>& method);
 template <int D>
 std::vector<runtime::TaskDeclaration> press(const Method<D>& method);
 
+/// Body forces of the scene's problems add to the forces on nodes.
+template <int D>
+runtime::TaskDeclaration body_force(const Method<D>& method);
+
+/// What they have done in the step, once particles have moved.
+template <int D>
+runtime::TaskDeclaration work_of_body_force(const Method<D>& method);
+
 /// Nodes of deformable materials are accelerated by their forces, gravity and what the turning of the frame adds.
 template <int D>
 runtime::TaskDeclaration accelerate_nodes(const Method<D>& method);

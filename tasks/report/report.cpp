@@ -42,22 +42,43 @@ Vector<D> travelled_to(const runtime::Grid& grid, const Vector<D>& position, con
   return x;
 }
 
+/// Where particle p is, or would be.
+template <int D, class Data>
+Vector<D> way_of(const TaskContext& at, const Data& data, std::size_t p)
+{
+  const Vector<D>& position = data[particle::position<D>.previous()][p];
+  if constexpr (Data::has(particle::laps)) {
+    return travelled_to<D>(at.layout.grid(), position, data[particle::laps.previous()][p]);
+  } else {
+    return position;
+  }
+}
+
+template <int D, class Data>
+void report_errors(const Method<D>& method, const TaskContext& at, const Data& data)
+{
+  const auto body = data[particle::body.previous()];
+  const auto mass = data[particle::mass.previous()];
+  const auto reference = data[particle::reference_position<D>.previous()];
+  ParticleReport& report = data[particle_report];
+  for (std::size_t p = 0; p < mass.size(); ++p) {
+    const auto b = static_cast<std::size_t>(body[p]);
+    const auto& exact = method.scene.bodies[b].functions.exact_displacement;
+    if (!exact) continue;
+    const Vector<D> expected = exact(in_space<D>(reference[p]), at.step.time).template head<D>();
+    report.displacement_errors[b].add(mass[p], (way_of<D>(at, data, p) - reference[p] - expected).norm());
+  }
+}
+
 template <int D, class Data>
 void report_motion(const Method<D>& method, const TaskContext& at, const Data& data)
 {
   const auto body = data[particle::body.previous()];
   const auto mass = data[particle::mass.previous()];
-  const auto position = data[particle::position<D>.previous()];
   const auto reference = data[particle::reference_position<D>.previous()];
   const auto velocity = data[particle::velocity<D>.previous()];
   ParticleReport& report = data[particle_report];
-  const auto place = [&](std::size_t p) -> Vector<D> {
-    if constexpr (Data::has(particle::laps)) {
-      return travelled_to<D>(at.layout.grid(), position[p], data[particle::laps.previous()][p]);
-    } else {
-      return position[p];
-    }
-  };
+  const auto place = [&](std::size_t p) { return way_of<D>(at, data, p); };
   for (std::size_t p = 0; p < mass.size(); ++p) {
     report.gravity_work += mass[p] * work_function<D>(method, place(p));
   }
@@ -109,6 +130,7 @@ runtime::TaskDeclaration report_of(const Method<D>& method, int group, const Mod
                   .reduces(particle_report);
   const auto body = [&method, &model](const TaskContext& at, auto data) {
     report_motion(method, at, data);
+    report_errors(method, at, data);
     add_peaks<D>(model, data, data[particle_report].materials[static_cast<std::size_t>(at.group)],
                  [](std::size_t) { return true; });
   };
@@ -186,11 +208,33 @@ void MaterialPeaks::combine(const MaterialPeaks& other)
   for (std::size_t k = 0; k < extremes_.size(); ++k) extremes_[k] = std::max(extremes_[k], other.extremes_[k]);
 }
 
+void DisplacementError::add(double particle_mass, double error)
+{
+  mass += particle_mass;
+  mass_times_square += particle_mass * error * error;
+  greatest = std::max(greatest, error);
+}
+
+void DisplacementError::combine(const DisplacementError& other)
+{
+  mass += other.mass;
+  mass_times_square += other.mass_times_square;
+  greatest = std::max(greatest, other.greatest);
+}
+
+double DisplacementError::rms() const
+{
+  return std::sqrt(mass_times_square / mass);
+}
+
 void ParticleReport::combine(const ParticleReport& other)
 {
   kinetic += other.kinetic;
   gravity_work += other.gravity_work;
-  for (std::size_t k = 0; k < max_entries; ++k) bodies[k].combine(other.bodies[k]);
+  for (std::size_t k = 0; k < max_entries; ++k) {
+    bodies[k].combine(other.bodies[k]);
+    displacement_errors[k].combine(other.displacement_errors[k]);
+  }
   tasks::combine(materials, other.materials);
 }
 

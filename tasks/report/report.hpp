@@ -45,6 +45,19 @@ class MaterialPeaks
 
 using PeaksOfMaterials = std::array<MaterialPeaks, runtime::PerGroup<int>::max_groups>;
 
+/// How far the particles of a body are from where its exact solution has them.
+struct DisplacementError {
+  double mass = 0;
+  double mass_times_square = 0;  ///< sum m e^2 [kg m^2]
+  double greatest = 0;           ///< m
+
+  void add(double particle_mass, double error);
+  void combine(const DisplacementError& other);
+
+  /// Root of the mean square, by mass [m].
+  double rms() const;
+};
+
 /// The state of all particles in a few numbers.
 struct ParticleReport {
   static constexpr std::size_t max_entries = runtime::PerGroup<int>::max_groups;
@@ -54,6 +67,8 @@ struct ParticleReport {
   /// centrifuge. One that speeds up has no such function: its work is left out, and an energy balance does not close.
   double gravity_work = 0;
   std::array<BodySums, max_entries> bodies;
+  /// Of bodies that have an exact solution.
+  std::array<DisplacementError, max_entries> displacement_errors;
   PeaksOfMaterials materials;
 
   Eigen::Vector3d momentum() const;

@@ -6,7 +6,9 @@
 #include <vector>
 
 #include "tasks/labels.hpp"
-#include "tasks/set_up/sites.hpp"
+#include "tasks/method.hpp"
+#include "tasks/set_up/body_sites.hpp"
+#include "tasks/set_up/deformed_start.hpp"
 
 namespace tamp::tasks
 {
@@ -22,6 +24,13 @@ runtime::Index cell_of(const runtime::Grid& grid, const Vector<D>& x)
     cell[k] = static_cast<int>(std::floor((x[static_cast<int>(k)] - grid.lower[k]) / grid.cell_size));
   }
   return cell;
+}
+
+/// Where a particle starts that belongs to X.
+template <int D>
+Vector<D> initial_position(const components::BodyFunctions& functions, const Vector<D>& X)
+{
+  return functions.displacement ? Vector<D>(X + functions.displacement(in_space<D>(X)).template head<D>()) : X;
 }
 
 template <int D>
@@ -41,15 +50,18 @@ BodyParticles<D>::BodyParticles(const Scene& scene, const runtime::PatchLayout& 
   std::int64_t id = 0;
   for (std::size_t b = 0; b < scene.bodies.size(); ++b) {
     if (scene.bodies[b].initial_stress) settled_.emplace(b, SettledSand<D>(scene, scene.bodies[b]));
-    const auto places = sites_of<D>(scene, scene.bodies[b]);
-    centres_.push_back(mean<D>(places));
-    for (const Vector<D>& x : places) {
+    std::vector<Vector<D>> places;
+    for (const components::Site<D>& site : particle_sites<D>(scene, scene.bodies[b])) {
+      const Vector<D> x = initial_position<D>(scene.bodies[b].functions, site.place);
+      places.push_back(x);
       const int patch = layout.patch_of_cell(cell_of<D>(scene.grid, x));
       auto& particles = particles_[static_cast<std::size_t>(patch)][static_cast<std::size_t>(scene.bodies[b].material)];
       particles.id.push_back(id++);
       particles.body.push_back(static_cast<std::int64_t>(b));
+      particles.site.push_back(site);
       particles.position.push_back(x);
     }
+    centres_.push_back(mean<D>(places));
   }
 }
 
@@ -75,13 +87,12 @@ Vector<D> BodyParticles<D>::rigid_velocity(int body, const Vector<D>& x) const
 }
 
 template <int D>
-Vector<D> BodyParticles<D>::initial_velocity(int body, const Vector<D>& x) const
+Vector<D> BodyParticles<D>::initial_velocity(const Particles& particles, std::size_t p) const
 {
-  const SceneBody& given = scene_.bodies[static_cast<std::size_t>(body)];
-  if (!given.velocity_field) return rigid_velocity(body, x);
-  Triple at{0, 0, 0};
-  std::copy(x.begin(), x.end(), at.begin());
-  return vector_of<D>(given.velocity_field(at));
+  const auto body = static_cast<std::size_t>(particles.body[p]);
+  const components::BodyFunctions& functions = scene_.bodies[body].functions;
+  if (!functions.velocity) return rigid_velocity(static_cast<int>(body), particles.position[p]);
+  return functions.velocity(in_space<D>(particles.site[p].place)).template head<D>();
 }
 
 template <int D>
@@ -93,10 +104,27 @@ Eigen::AlignedBox<double, D> BodyParticles<D>::velocities(int body) const
     const Particles& own = materials[material];
     for (std::size_t p = 0; p < own.id.size(); ++p) {
       if (own.body[p] != body) continue;
-      span.extend(rigid_velocity(body, own.position[p]));
+      span.extend(initial_velocity(own, p));
     }
   }
   return span;
+}
+
+template <int D>
+double BodyParticles<D>::stored_energy() const
+{
+  double energy = 0;
+  for (const auto& materials : particles_) {
+    for (std::size_t m = 0; m < materials.size(); ++m) {
+      const Particles& own = materials[m];
+      for (std::size_t p = 0; p < own.id.size(); ++p) {
+        const SceneBody& body = scene_.bodies[static_cast<std::size_t>(own.body[p])];
+        if (!body.functions.deformation_gradient) continue;
+        energy += own.site[p].volume * deformed_start<D>(scene_, body, own.site[p].place).stored_energy;
+      }
+    }
+  }
+  return energy;
 }
 
 template <int D>
@@ -130,23 +158,30 @@ void BodyParticles<D>::store(const Particles& particles, int patch, int material
   const std::size_t n = particles.id.size();
   warehouse.set_n_particles(patch, material, n);
   const auto state = [&](const auto& label) { return warehouse.state(label, patch, material); };
-  const double volume = lattice_of<D>(scene_, material).particle_volume();
   const double density = scene_.materials[static_cast<std::size_t>(material)].density;
   for (std::size_t p = 0; p < n; ++p) {
     const auto number = static_cast<std::size_t>(particles.body[p]);
+    const SceneBody& body = scene_.bodies[number];
+    const components::Site<D>& site = particles.site[p];
     state(particle::id)[p] = particles.id[p];
     state(particle::body)[p] = particles.body[p];
     state(particle::position<D>)[p] = particles.position[p];
-    state(particle::reference_position<D>)[p] = particles.position[p];
-    state(particle::velocity<D>)[p] = initial_velocity(static_cast<int>(number), particles.position[p]);
+    state(particle::reference_position<D>)[p] = site.place;
+    state(particle::velocity<D>)[p] = initial_velocity(particles, p);
     if (scene_.transfer == Transfer::affine) {
-      const Eigen::Vector3d spin(scene_.bodies[number].angular_velocity.data());
+      const Eigen::Vector3d spin(body.angular_velocity.data());
       state(particle::velocity_gradient<D>)[p] = cross_matrix(spin).template topLeftCorner<D, D>();
     }
     state(particle::deformation_gradient<D>)[p] = Matrix<D>::Identity();
-    state(particle::volume)[p] = volume;
-    state(particle::mass)[p] = density * volume;
-    if (!scene_.bodies[number].initial_stress) continue;
+    state(particle::volume)[p] = site.volume;
+    state(particle::mass)[p] = density * site.volume;
+    if (body.functions.deformation_gradient) {
+      const DeformedStart<D> start = deformed_start<D>(scene_, body, site.place);
+      state(particle::deformation_gradient<D>)[p] = start.deformation_gradient;
+      state(particle::volume)[p] = start.deformation_gradient.determinant() * site.volume;
+      state(particle::stress<D>)[p] = start.stress;
+    }
+    if (!body.initial_stress) continue;
     const auto settled = settled_.at(number).at(particles.position[p]);
     state(particle::stress<D>)[p] = settled.stress;
     state(particle::state<components::TabularCap>)[p] = settled.state;

@@ -9,13 +9,15 @@
 #include "components/tensors.hpp"
 #include "runtime/warehouse/warehouse.hpp"
 #include "tasks/scene.hpp"
+#include "tasks/set_up/body_sites.hpp"
 #include "tasks/set_up/settled_sand.hpp"
 
 namespace tamp::tasks
 {
 
-/// The particles of a scene's bodies as they are at its start, at rest in themselves, without stress or settled, and
-/// moving with their body. Ids count bodies and cells, and so do not depend on the cut into patches.
+/// The particles of a scene's bodies as they are at its start: at rest in themselves, without stress or settled, and
+/// moving with their body, unless the body's functions say otherwise. Ids count bodies and cells, and so do not depend
+/// on the cut into patches.
 template <int D>
 class BodyParticles
 {
@@ -25,8 +27,10 @@ class BodyParticles
 
   /// How many there are on each patch.
   std::vector<double> per_patch() const;
-  /// Spans the velocities of a body's particles [m/s], but for a velocity field.
+  /// Spans the velocities of a body's particles [m/s].
   Eigen::AlignedBox<double, D> velocities(int body) const;
+  /// Of all particles that start deformed [J].
+  double stored_energy() const;
   /// Mass, centre and inertia of a rigid body. Throws BadValue for one that has fewer than two particles.
   components::MassProperties mass_properties(int body) const;
   /// Puts them into the patches that are the warehouse's own.
@@ -37,12 +41,14 @@ class BodyParticles
   struct Particles {
     std::vector<std::int64_t> id;
     std::vector<std::int64_t> body;
+    /// Undeformed, and where they are.
+    std::vector<components::Site<D>> site;
     std::vector<Vector<D>> position;
   };
 
   /// From the scene's velocity and angular velocity alone.
   Vector<D> rigid_velocity(int body, const Vector<D>& x) const;
-  Vector<D> initial_velocity(int body, const Vector<D>& x) const;
+  Vector<D> initial_velocity(const Particles& particles, std::size_t p) const;
   void store(const Particles& particles, int patch, int material, runtime::Warehouse& warehouse) const;
 
   const Scene& scene_;

@@ -10,7 +10,7 @@
 #include "components/errors.hpp"
 #include "components/materials/invariants.hpp"
 #include "components/shapes/interpolators.hpp"
-#include "tasks/set_up/sites.hpp"
+#include "tasks/set_up/body_sites.hpp"
 
 namespace tamp::tasks
 {

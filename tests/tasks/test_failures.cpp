@@ -55,7 +55,7 @@ TEST_CASE("a particle that inverts ends the run at the last good state")
   // Steps far beyond what is stable, as the published rule allows them.
   scene.time.rule = StepRule::published;
   scene.time.multiplier = 3;
-  scene.bodies[0].velocity_field = [](const Triple& x) { return Triple{x[0] < 0.6 ? 1.0 : -1.0, 0, 0}; };
+  scene.bodies[0].functions.velocity = [](const Vector<3>& x) { return Vector<3>(x[0] < 0.6 ? 1.0 : -1.0, 0, 0); };
   const auto simulation = Simulation::make(scene, n_threads);
 
   const SimulationError error = failure_of(*simulation, 100);
@@ -73,8 +73,8 @@ TEST_CASE("a velocity that is not a number ends the run before it spreads")
 {
   const int n_threads = GENERATE(1, 2);
   Scene scene = block();
-  scene.bodies[0].velocity_field = [](const Triple& x) {
-    return Triple{x[0] < 0.43 && x[1] < 0.43 ? std::nan("") : 0.0, 0, 0};
+  scene.bodies[0].functions.velocity = [](const Vector<3>& x) {
+    return Vector<3>(x[0] < 0.43 && x[1] < 0.43 ? std::nan("") : 0.0, 0, 0);
   };
   const auto simulation = Simulation::make(scene, n_threads);
 
@@ -119,7 +119,7 @@ TEST_CASE("a run goes on from the last good state after an error")
   Scene scene = block();
   scene.time.rule = StepRule::published;
   scene.time.multiplier = 3;
-  scene.bodies[0].velocity_field = [](const Triple& x) { return Triple{x[0] < 0.6 ? 1.0 : -1.0, 0, 0}; };
+  scene.bodies[0].functions.velocity = [](const Vector<3>& x) { return Vector<3>(x[0] < 0.6 ? 1.0 : -1.0, 0, 0); };
   // On one thread, as of two patches that fail either may be the first.
   const auto simulation = Simulation::make(scene, 1);
   const std::string first = failure_of(*simulation, 100).what();
@@ -143,8 +143,8 @@ Scene torn_sand()
   scene.materials.push_back({"sand", 1600, sand});
   scene.time.rule = StepRule::published;
   scene.time.multiplier = 1;
-  add_box(scene, 0, {0.3, 0.4, 0}, {0.9, 0.8, 0}).velocity_field = [c](const Triple& x) {
-    return Triple{x[0] < 0.6 ? -0.5 * c : 0.5 * c, 0, 0};
+  add_box(scene, 0, {0.3, 0.4, 0}, {0.9, 0.8, 0}).functions.velocity = [c](const Vector<3>& x) {
+    return Vector<3>(x[0] < 0.6 ? -0.5 * c : 0.5 * c, 0, 0);
   };
   return scene;
 }

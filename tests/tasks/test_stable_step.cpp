@@ -40,10 +40,10 @@ Scene free_body(const FreeBody& body, bool viscous)
   } else {
     add_box(scene, material, {lower, lower, lower}, {upper, upper, upper});
   }
-  scene.bodies[0].velocity_field = [v = drift(body.dimension)](const Triple& x) {
-    return Triple{v[0] + 4e-4 * std::sin(531 * x[0] + 317 * x[1] + 211 * x[2]),
-                  v[1] + 4e-4 * std::sin(419 * x[0] + 557 * x[1] + 283 * x[2]),
-                  v[2] + 4e-4 * std::sin(367 * x[0] + 239 * x[1] + 601 * x[2])};
+  scene.bodies[0].functions.velocity = [v = drift(body.dimension)](const Vector<3>& x) {
+    return Vector<3>(v[0] + 4e-4 * std::sin(531 * x[0] + 317 * x[1] + 211 * x[2]),
+                     v[1] + 4e-4 * std::sin(419 * x[0] + 557 * x[1] + 283 * x[2]),
+                     v[2] + 4e-4 * std::sin(367 * x[0] + 239 * x[1] + 601 * x[2]));
   };
   return scene;
 }

@@ -3,6 +3,7 @@
 #include <numbers>
 #include <utility>
 
+#include "components/problems/vibrating_bar.hpp"
 #include "tests/tasks/scenes.hpp"
 
 using namespace tamp;
@@ -31,6 +32,13 @@ Scene bar(int n_cells, bool held)
   return scene;
 }
 
+/// The bar starts with v = speed sin(k x).
+void start_in_mode(Scene& scene, double speed, double k)
+{
+  const components::VibratingBar problem{speed, k};
+  scene.bodies[0].functions = problem.functions({2, density, scene.materials[0].model});
+}
+
 /// Amplitude of sin(k x) in the velocities, x where each particle started.
 double mode(const std::vector<Particle>& start, const std::vector<Particle>& now, double k)
 {
@@ -52,7 +60,7 @@ struct Vibration {
 /// Lets a bar swing in the mode sin(k x) from a small velocity, and looks at its first two and last two periods.
 Vibration swing(Scene scene, double k, int n_periods)
 {
-  scene.bodies[0].velocity_field = [k](const Triple& x) { return Triple{1e-3 * std::sin(k * x[0]), 0, 0}; };
+  start_in_mode(scene, 1e-3, k);
   const auto simulation = Simulation::make(scene, 1);
   const auto start = particles_of(*simulation);
   const double period = 2 * pi / (k * wave_speed), end = n_periods * period;
@@ -118,7 +126,7 @@ double growth_of_highest_mode(double courant, int particles_per_axis, int n_step
   scene.time.multiplier = 1;
   scene.time.maximum_step = courant * scene.grid.cell_size / wave_speed;
   const double k = pi * (n_cells - 1) / length;
-  scene.bodies[0].velocity_field = [k](const Triple& x) { return Triple{1e-9 * std::sin(k * x[0]), 0, 0}; };
+  start_in_mode(scene, 1e-9, k);
   const auto simulation = Simulation::make(scene, 1);
   const double energy = simulation->report().kinetic;
   for (int i = 0; i < n_steps; ++i) simulation->advance(1e30);

@@ -211,6 +211,23 @@ TEST_CASE("bodies that go around a periodic domain go on with the bits of a stra
   CHECK(last_value(history, "disk.depth[m]") > 2.4);
 }
 
+TEST_CASE("a body that functions start and drive goes on with the bits of a straight run", "[mpiexec]")
+{
+  const TemporaryFolder folder;
+  const std::string block = TAMP_SOURCE_DIR "/inputs/verification/axis_aligned/quick.json ";
+  const auto run = [&](const std::string& name) { return " --quiet --out " + (folder.path() / name).string(); };
+  const std::string restart = " --quiet --restart " + (folder.path() / "parted").string();
+
+  REQUIRE(tamp_with("run " + block + "--steps 60" + run("straight")).exit_code == 0);
+  REQUIRE(tamp_with("run " + block + "--steps 35 --checkpoint-steps 30" + run("parted")).exit_code == 0);
+  REQUIRE(tamp_on_ranks(2, "run " + block + "--steps 60" + restart).exit_code == 0);
+
+  const auto parted = summary_of(folder.path() / "parted"), straight = summary_of(folder.path() / "straight");
+  CHECK(parted["restarted_at_step"] == 30);
+  CHECK(parted["state_digest"] == straight["state_digest"]);
+  CHECK(read_text(folder.path() / "parted/history.csv") == read_text(folder.path() / "straight/history.csv"));
+}
+
 TEST_CASE("a damaged checkpoint is refused with its reason, and the one before is used")
 {
   const TemporaryFolder folder;

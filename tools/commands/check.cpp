@@ -4,7 +4,7 @@
 #include <memory>
 #include <variant>
 
-#include "components/portable_math.hpp"
+#include "tasks/set_up/body_sites.hpp"
 #include "tools/commands/commands.hpp"
 #include "tools/console.hpp"
 #include "tools/run/forecast.hpp"
@@ -35,8 +35,7 @@ void print_volumes(const tasks::Scene& scene, const tasks::SceneBody& body)
 {
   const double density = scene.materials[static_cast<std::size_t>(body.material)].density;
   const components::Volume solid = solid_volume(body);
-  const double spacing = scene.grid.cell_size / scene.particles_per_axis_of(body.material);
-  const double filled = static_cast<double>(body.n_particles) * portable::pow(spacing, scene.grid.dimension);
+  const double filled = tasks::particle_volume(scene, body);
   const std::string known =
       solid.is_exact() ? "exact" : fmt::format("within {:.2g} %", 100 * solid.error / solid.value);
   print_err("        solid      {:.6g} m3, {:.6g} kg ({})\n", solid.value, density * solid.value, known);

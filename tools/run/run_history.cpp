@@ -31,7 +31,8 @@ std::vector<std::size_t> moving_bodies(const tasks::Scene& scene)
   for (std::size_t b = 0; b < scene.bodies.size(); ++b) {
     const tasks::SceneBody& body = scene.bodies[b];
     const bool turns = Eigen::Vector3d(body.angular_velocity.data()).norm() > 0;
-    if (velocity_of(body).norm() > 0 || turns || body.rigid || body.pressure) moving.push_back(b);
+    if (velocity_of(body).norm() > 0 || turns || body.rigid || body.pressure || body.functions.velocity)
+      moving.push_back(b);
   }
   return moving;
 }
@@ -79,6 +80,7 @@ RunHistory::RunHistory(tasks::Simulation& simulation)
     : simulation_(simulation),
       tracked_(moving_bodies(simulation.scene())),
       initial_(simulation.report()),
+      initial_energy_(initial_.kinetic + simulation.totals().elastic),
       report_(initial_)
 {
   add_columns();
@@ -121,6 +123,9 @@ void RunHistory::add_columns()
               {"total[J]", [this] { return energies_.total; }}};
   add_vector("momentum", "N s", [this] { return report_.momentum(); });
   for (const std::size_t b : tracked_) add_body_columns(b);
+  for (std::size_t b = 0; b < scene.bodies.size(); ++b) {
+    if (scene.bodies[b].functions.exact_displacement) add_error_columns(b);
+  }
   for (std::size_t m = 0; m < scene.materials.size(); ++m) add_peak_columns(m, "", report_.materials);
   for (std::size_t m = 0; scene.has_nose() && m < scene.materials.size(); ++m) {
     add_peak_columns(m, ".near_nose", near_noses_.materials);
@@ -168,6 +173,15 @@ void RunHistory::add_body_columns(std::size_t body)
   });
 }
 
+void RunHistory::add_error_columns(std::size_t body)
+{
+  const std::string name = simulation_.scene().bodies[body].name + ".displacement_error";
+  const tasks::DisplacementError& error = report_.displacement_errors[body];
+  const double unknown = std::numeric_limits<double>::quiet_NaN();
+  columns_.push_back({name + "[m]", [=, &error] { return error.mass > 0 ? error.rms() : unknown; }});
+  columns_.push_back({name + "_max[m]", [=, &error] { return error.mass > 0 ? error.greatest : unknown; }});
+}
+
 void RunHistory::add_peak_columns(std::size_t material, const std::string& where, const tasks::PeaksOfMaterials& peaks)
 {
   const tasks::SceneMaterial& given = simulation_.scene().materials[material];
@@ -205,8 +219,8 @@ void RunHistory::measure()
   e.total = e.kinetic + e.elastic + e.plastic + e.viscous + e.contact - e.external;
   const double largest =
       std::max({e.kinetic, std::abs(e.elastic), e.plastic, e.viscous, e.contact, std::abs(e.external)});
-  const double energy_scale = initial_.kinetic > 0 ? initial_.kinetic : largest;
-  energy_error_ = energy_scale > 0 ? std::abs(e.total - initial_.kinetic) / energy_scale : 0;
+  const double energy_scale = initial_energy_ > 0 ? initial_energy_ : largest;
+  energy_error_ = energy_scale > 0 ? std::abs(e.total - initial_energy_) / energy_scale : 0;
   given_from_outside_ = std::max(given_from_outside_, std::abs(e.external));
 
   double momentum_scale = 0;
@@ -223,8 +237,8 @@ std::string RunHistory::energy_problem(double limit) const
   const auto& frame = simulation_.scene().centrifuge;
   const bool is_balanced = lost_.count == 0 && !(frame && frame->is_unsteady());
   if (!std::isfinite(limit) || !is_balanced) return "";
-  const double given = initial_.kinetic + given_from_outside_;
-  const double error = std::abs(energies_.total - initial_.kinetic);
+  const double given = initial_energy_ + given_from_outside_;
+  const double error = std::abs(energies_.total - initial_energy_);
   if (error <= limit * given || error <= negligible_energy()) return "";
   return fmt::format(
       "the energy is wrong by {:.3g} J, {:.3g} times the {:.3g} J that the run has been given, more than "

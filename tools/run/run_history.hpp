@@ -46,11 +46,11 @@ class RunHistory
   /// The same, and writes it as a row.
   void write_row();
 
-  /// The error of the total energy, of the initial kinetic energy (of the largest energy if that is nothing), and that
+  /// The error of the total energy, of the initial energy (of the largest energy if that is nothing), and that
   /// of the momentum that the grid has given to the particles, of the bodies' initial momenta.
   double energy_error() const { return energy_error_; }
   /// Says so if energy has come or gone by more than `limit` times what the run has been given so far: its initial
-  /// kinetic energy and the work of gravity; empty otherwise. Of the last measured state. Where particles have left, or
+  /// energy and the work from outside; empty otherwise. Of the last measured state. Where particles have left, or
   /// a centrifuge speeds up, the balance is not known, and nothing is said.
   std::string energy_problem(double limit) const;
   /// The largest work of gravity so far, without its sign [J]; a run that goes on has that of the run before.
@@ -82,6 +82,7 @@ class RunHistory
   void add_vector(const std::string& name, const std::string& unit, const Value& value);
   void add_columns();
   void add_body_columns(std::size_t body);
+  void add_error_columns(std::size_t body);
   void add_peak_columns(std::size_t material, const std::string& where, const tasks::PeaksOfMaterials& peaks);
   std::vector<std::string> column_names() const;
   /// That of all mass at a millionth of the fastest wave's speed, as what is at rest has no other energy to compare
@@ -91,6 +92,8 @@ class RunHistory
   tasks::Simulation& simulation_;
   std::vector<std::size_t> tracked_;
   tasks::ParticleReport initial_;
+  /// In motion, and stored by an initial deformation [J].
+  double initial_energy_;
   tasks::ParticleReport report_;
   tasks::NoseReport near_noses_;
   tasks::LostParticles lost_;

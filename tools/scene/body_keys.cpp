@@ -1,7 +1,47 @@
+#include "components/problems/problem.hpp"
 #include "tools/scene/keys.hpp"
 
 namespace tamp::tools
 {
+
+namespace
+{
+
+template <class P>
+Key key_of(const components::ProblemParameter<P>& parameter)
+{
+  static const P usual{};
+  const auto left_out = [&](const auto& value) { return parameter.optional ? Default{value} : compulsory; };
+  return std::visit(
+      [&]<class T>(T P::*member) -> Key {
+        const std::string name(parameter.key), unit(parameter.unit);
+        if constexpr (std::is_same_v<T, double>) {
+          return {name, Number{parameter.range}, unit, left_out(usual.*member), ""};
+        } else if constexpr (std::is_same_v<T, int>) {
+          const WholeNumber number{static_cast<int>(parameter.range.lower), static_cast<int>(parameter.range.upper)};
+          return {name, number, unit, left_out(usual.*member), ""};
+        } else {
+          return {name, Numbers{per_axis, parameter.range}, unit, left_out((usual.*member)[0]), ""};
+        }
+      },
+      parameter.value);
+}
+
+template <class P>
+TypeKeys type_of()
+{
+  TypeKeys type{std::string(P::type), {}, std::string(P::meaning)};
+  for (const auto& parameter : P::parameters()) type.keys.push_back(key_of(parameter));
+  return type;
+}
+
+template <class... P>
+std::vector<TypeKeys> types_of(const std::variant<P...>*)
+{
+  return {type_of<P>()...};
+}
+
+}  // namespace
 
 const ObjectKeys& drive_keys()
 {
@@ -50,6 +90,13 @@ const ObjectKeys& pressure_keys()
   return keys;
 }
 
+const ObjectKeys& problem_keys()
+{
+  static const ObjectKeys keys{
+      .name = "problem", .keys = {}, .types = types_of(static_cast<const components::Problem*>(nullptr))};
+  return keys;
+}
+
 const ObjectKeys& body_keys()
 {
   static const std::string ends =
@@ -85,7 +132,10 @@ const ObjectKeys& body_keys()
         "whose floor and sides lie on walls and whose top is free; the axis of a centrifuge is then along x, y or z, "
         "and its speed constant"},
        {"pressure", Object{pressure_keys}, "", none,
-        "an object: a pressure on the surface of a body that is not rigid, see below"}}};
+        "an object: a pressure on the surface of a body that is not rigid, see below"},
+       {"problem", Object{problem_keys}, "", none,
+        "an object: the body starts and is driven by functions of place and time, see below; not of a rigid body, and "
+        "not with `initial_stress`"}}};
   return keys;
 }
 

@@ -5,7 +5,8 @@
 #include <optional>
 #include <set>
 
-#include "tasks/set_up/sites.hpp"
+#include "tasks/rigid_body.hpp"
+#include "tasks/set_up/body_sites.hpp"
 #include "tools/scene/place_text.hpp"
 
 namespace tamp::tools

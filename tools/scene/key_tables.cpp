@@ -66,11 +66,11 @@ std::string told(const Key& key)
   return text;
 }
 
-/// A row for each type of solid in scenes of a dimension; 0: of any.
-std::string table_of_solids(int dimension)
+/// A row for each type of an object in scenes of a dimension; 0: of any.
+std::string table_of_types(const ObjectKeys& object, const std::string& meaning, int dimension)
 {
-  std::string text = "| `type` | other keys | region |\n| --- | --- | --- |\n";
-  for (const TypeKeys& type : solid_keys().types) {
+  std::string text = "| `type` | other keys | " + meaning + " |\n| --- | --- | --- |\n";
+  for (const TypeKeys& type : object.types) {
     if (type.only_in != dimension) continue;
     std::string keys;
     for (const Key& key : type.keys) keys += (keys.empty() ? "" : ", ") + told(key);
@@ -87,7 +87,8 @@ std::vector<std::string> key_tables()
   for (const KeysOf keys : {scene_keys, centrifuge_keys, contact_keys, body_keys, pressure_keys, drive_keys}) {
     tables.push_back(table(keys().keys));
   }
-  for (const int dimension : {0, 2, 3}) tables.push_back(table_of_solids(dimension));
+  tables.push_back(table_of_types(problem_keys(), "the body", 0));
+  for (const int dimension : {0, 2, 3}) tables.push_back(table_of_types(solid_keys(), "region", dimension));
   tables.push_back(table(material_keys().keys));
   for (const TypeKeys& type : material_keys().types) tables.push_back(table(type.keys));
   return tables;

@@ -162,6 +162,7 @@ const ObjectKeys& contact_keys();
 const ObjectKeys& body_keys();
 const ObjectKeys& drive_keys();
 const ObjectKeys& pressure_keys();
+const ObjectKeys& problem_keys();
 const ObjectKeys& solid_keys();
 const ObjectKeys& material_keys();
 

@@ -8,7 +8,7 @@
 #include <optional>
 #include <variant>
 
-#include "components/portable_math.hpp"
+#include "tasks/set_up/body_sites.hpp"
 #include "tasks/set_up/initial_moduli.hpp"
 #include "tools/scene/csv_table.hpp"
 #include "tools/scene/file_kind.hpp"
@@ -77,9 +77,7 @@ void doubt_mass(const tasks::Scene& scene, const tasks::SceneBody& body, Warning
   constexpr std::size_t few = 10;
   if (std::visit([](const auto& s) { return s.n_shapes(); }, body.solid) > few) return;
   const components::Volume solid = std::visit([](const auto& s) { return s.volume(); }, body.solid);
-  const double spacing = scene.grid.cell_size / scene.particles_per_axis_of(body.material);
-  const double filled = static_cast<double>(body.n_particles) * portable::pow(spacing, scene.grid.dimension);
-  const double error = filled / solid.value - 1;
+  const double error = tasks::particle_volume(scene, body) / solid.value - 1;
   if (std::abs(error) - solid.error / solid.value <= 0.01) return;
   warnings.push_back(
       fmt::format("/bodies/{}/geometry: its particles are off by {:+.3g} % of its mass; finer cells, or more "

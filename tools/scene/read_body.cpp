@@ -6,11 +6,13 @@
 #include <cmath>
 
 #include "components/errors.hpp"
+#include "tasks/method.hpp"
+#include "tasks/set_up/body_sites.hpp"
 #include "tasks/set_up/settled_sand.hpp"
-#include "tasks/set_up/sites.hpp"
 #include "tools/machine_room.hpp"
 #include "tools/scene/place_text.hpp"
 #include "tools/scene/read_pressure.hpp"
+#include "tools/scene/read_problem.hpp"
 #include "tools/scene/read_solid.hpp"
 
 namespace tamp::tools
@@ -203,10 +205,13 @@ std::optional<tasks::SceneBody> read(const std::string& name, JsonReader& reader
   const auto solid = read_solid<D>(reader, "geometry");
   const bool initial_stress = reader.flag("initial_stress");
   auto pressure = read_pressure<D>(reader);
+  const std::size_t n_before = reader.document().problems.size();
+  const auto problem = read_problem(reader);
+  const bool problem_is_good = reader.document().problems.size() == n_before;
   reader.finish();
   check_may_go_around(scene, rigid, axis.has_value(), reader);
   const bool materials_are_good = scene.materials.size() == material_names.size();
-  if (!solid || material.empty() || !grid_is_good || !materials_are_good) return std::nullopt;
+  if (!solid || material.empty() || !grid_is_good || !materials_are_good || !problem_is_good) return std::nullopt;
 
   if (!within_grid(*solid, scene.grid)) {
     const components::Box<D> box = solid->bounding_box();
@@ -217,17 +222,22 @@ std::optional<tasks::SceneBody> read(const std::string& name, JsonReader& reader
   const auto at = std::find(material_names.begin(), material_names.end(), material) - material_names.begin();
   const int number = static_cast<int>(at);
   if (!has_room_for(*solid, scene, number, reader.document())) return std::nullopt;
-  const std::size_t n_particles = tasks::sites_of<D>(scene, *solid, number).size();
-  if (n_particles == 0) {
+  tasks::SceneBody body{name, number, *solid, {0, 0, 0}, 0};
+  if (problem) {
+    auto functions = functions_of(*problem, reader, D, scene.materials[static_cast<std::size_t>(number)]);
+    if (!functions) return std::nullopt;
+    body.functions = std::move(*functions);
+  }
+  body.n_particles = tasks::sites_of<D>(scene, body).size();
+  if (body.n_particles == 0) {
     reader.add_problem("geometry", "holds no particle",
                        fmt::format("expected a shape that holds a site of the particle lattice, whose spacing is {} m",
                                    scene.grid.cell_size / scene.particles_per_axis_of(number)));
     return std::nullopt;
   }
-  if (rigid && n_particles == 1) {
+  if (rigid && body.n_particles == 1) {
     reader.add_problem("rigid", "a rigid body of one particle", "expected two or more, so that it has an orientation");
   }
-  tasks::SceneBody body{name, number, *solid, {0, 0, 0}, n_particles};
   std::copy(velocity.begin(), velocity.end(), body.velocity.begin());
   std::copy(spin.begin(), spin.end(), body.angular_velocity.end() - static_cast<std::ptrdiff_t>(spin.size()));
   body.rigid = rigid;
@@ -242,6 +252,7 @@ std::optional<tasks::SceneBody> read(const std::string& name, JsonReader& reader
   if (axis) check_axis<D>(*axis, *solid, scene.grid.cell_size / scene.particles_per_axis_of(number), reader);
   if (initial_stress) check_settled<D>(scene, body, reader);
   if (body.pressure) check_pressed<D>(scene, body, reader);
+  if (problem) check_functions<D>(scene, body, reader);
   return body;
 }
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "components/errors.hpp"
-#include "tasks/set_up/sites.hpp"
+#include "tasks/set_up/body_sites.hpp"
 #include "tools/scene/place_text.hpp"
 
 namespace tamp::tools

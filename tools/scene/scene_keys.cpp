@@ -130,10 +130,10 @@ const ObjectKeys& limit_keys()
         Number{above_zero, "off"},
         "",
         {tasks::SceneLimits{}.energy_error},
-        "a run whose total energy is wrong by more than this part of what it has been given (its initial kinetic "
-        "energy and the work of gravity, of driving bodies and of pressure loads) ends with exit code 3; once "
-        "particles have left, or "
-        "where a centrifuge speeds up, nothing is judged; `\"off\"`: no limit"}}};
+        "a run whose total energy is wrong by more than this part of what it has been given (its initial energy and "
+        "the "
+        "work of gravity, of loads and of driving bodies) ends with exit code 3; once particles have left, or where a "
+        "centrifuge speeds up, nothing is judged; `\"off\"`: no limit"}}};
   return keys;
 }
 

@@ -55,6 +55,15 @@ double wave_modulus(const Matrix<3>& f, const Eigen::Vector3d& a, const Eigen::V
 
 }  // namespace
 
+TEST_CASE("a neo-Hookean solid stores the energy of its law, in the plane as in space")
+{
+  const Matrix<2> f = (Matrix<2>() << 1.3, 0.4, -0.2, 0.8).finished();
+
+  CHECK(solid.stored_energy<3>(any_deformation()) == Approx(energy(any_deformation())));
+  CHECK(solid.stored_energy<2>(f) == Approx(energy(in_space(f))));
+  CHECK(solid.stored_energy<3>(Matrix<3>::Identity()) == 0);
+}
+
 TEST_CASE("a neo-Hookean solid stretched in one direction only has the stress of its closed form")
 {
   const double stretch = GENERATE(0.5, 1.0, 1.7);

@@ -179,6 +179,30 @@ TEMPLATE_TEST_CASE_SIG("the grid receives all mass and momentum, and no net forc
   CHECK(force.norm() * cell_size < 1e-11);
 }
 
+TEMPLATE_TEST_CASE_SIG("forces on particles come to the nodes by their weights, and to nothing else there", "",
+                       ((int D), D), 2, 3)
+{
+  const int n_per_axis = GENERATE(1, 2, 4);
+  const auto block = block_of_nodes<D>(5, cell_size);
+  std::mt19937 random(11);
+  const Cloud<D> cloud(block, 20, random);
+  std::vector<NodeSums<D>> sums(static_cast<std::size_t>(n_nodes_of(block)));
+
+  // Any vectors of the particles will do.
+  add_forces<Gimp<D>, D>(Gimp<D>(n_per_axis), block, cloud.position, cloud.velocity, sums.data());
+
+  for (std::size_t i = 0; i < sums.size(); ++i) {
+    Vector<D> plain = Vector<D>::Zero();
+    for (std::size_t p = 0; p < cloud.position.size(); ++p) {
+      const Vector<D> node = node_position(block, static_cast<std::ptrdiff_t>(i));
+      plain += PlainShape<D>(cloud.position[p], node, 0.5 / n_per_axis, cell_size).weight * cloud.velocity[p];
+    }
+    REQUIRE((sums[i].internal_force() - plain).norm() < 1e-14);
+    REQUIRE(sums[i].mass() == 0);
+    REQUIRE(sums[i].momentum().norm() + sums[i].surface_gradient().norm() == 0);
+  }
+}
+
 TEMPLATE_TEST_CASE_SIG("a particle takes from the grid what a plain loop over all nodes gives", "", ((int D), D), 2, 3)
 {
   const int n_per_axis = GENERATE(1, 2, 4);

@@ -1,0 +1,41 @@
+#pragma once
+
+#include <functional>
+#include <optional>
+
+#include "components/geometry/polar_layout.hpp"
+#include "components/materials/material_model.hpp"
+#include "components/tensors.hpp"
+
+namespace tamp::components
+{
+
+/// A body in functions: how it starts, what acts on it, how it moves then. X is where a point of the body is undeformed
+/// [m], t the time [s]; in plane strain the third entries of vectors are 0, and that of a deformation gradient is 1.
+/// What is not set is not said. Functions are pure: they are no state, and each rank and thread calls them for itself.
+struct BodyFunctions {
+  using Of = std::function<Vector<3>(const Vector<3>& X)>;
+  using OfTime = std::function<Vector<3>(const Vector<3>& X, double t)>;
+
+  /// At the start [m]. With it goes `deformation_gradient`, 1 + its gradient by X.
+  Of displacement{};
+  std::function<Matrix<3>(const Vector<3>& X)> deformation_gradient{};
+  /// At the start [m/s].
+  Of velocity{};
+  /// Per mass [m/s^2].
+  OfTime body_force{};
+  /// What theory says [m]; errors are measured against it.
+  OfTime exact_displacement{};
+  /// The particles' places; without one they are the sites of the lattice.
+  std::optional<PolarLayout> layout{};
+};
+
+/// The body that a problem is set for.
+struct ProblemBody {
+  int dimension;
+  /// Of the undeformed material [kg/m^3].
+  double density;
+  const MaterialModel& material;
+};
+
+}  // namespace tamp::components

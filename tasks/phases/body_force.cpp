@@ -1,0 +1,97 @@
+#include <algorithm>
+#include <vector>
+
+#include "tasks/labels.hpp"
+#include "tasks/phases/phases.hpp"
+#include "tasks/phases/walls.hpp"
+
+namespace tamp::tasks
+{
+
+using components::NodeSums;
+using runtime::TaskContext;
+
+namespace
+{
+
+/// On each of a patch's particles of one material [N], from the function of the body that it was made for; zero where
+/// that has none.
+template <int D>
+std::vector<Vector<D>> body_forces_on(const Scene& scene, double time, std::span<const std::int64_t> body,
+                                      std::span<const double> mass, std::span<const Vector<D>> reference)
+{
+  std::vector<Vector<D>> forces(mass.size(), Vector<D>::Zero());
+  for (std::size_t p = 0; p < mass.size(); ++p) {
+    const auto& of_body = scene.bodies[static_cast<std::size_t>(body[p])].functions.body_force;
+    if (of_body) forces[p] = mass[p] * of_body(in_space<D>(reference[p]), time).template head<D>();
+  }
+  return forces;
+}
+
+/// Materials of which some body has one.
+std::vector<int> groups_with_body_force(const Scene& scene)
+{
+  std::vector<int> groups;
+  for (const SceneBody& body : scene.bodies) {
+    const bool is_new = std::find(groups.begin(), groups.end(), body.material) == groups.end();
+    if (body.functions.body_force && is_new) groups.push_back(body.material);
+  }
+  return groups;
+}
+
+}  // namespace
+
+/// As of the start of the step, like the stress. The image behind a wall feels the image of the force.
+template <int D>
+runtime::TaskDeclaration body_force(const Method<D>& method)
+{
+  return runtime::task("body force")
+      .over_patches_and_groups()
+      .sparse()
+      .reads(particle::body.previous(), particle::mass.previous(), particle::reference_position<D>.previous(),
+             particle::position<D>.previous())
+      .accumulates(node::sums<D>.halo(method.halo))
+      .body([&method, groups = groups_with_body_force(method.scene)](const TaskContext& at, auto data) {
+        const auto sums = data[node::sums<D>];
+        if (std::find(groups.begin(), groups.end(), at.group) == groups.end()) return;
+        const auto forces =
+            body_forces_on<D>(method.scene, at.step.time, data[particle::body.previous()],
+                              data[particle::mass.previous()], data[particle::reference_position<D>.previous()]);
+        // What other phases have given to the nodes has its images already.
+        std::vector<NodeSums<D>> own(sums.box().size());
+        method.interpolation(at.group).add_forces(block_of<D>(at.layout, sums), data[particle::position<D>.previous()],
+                                                  std::span(forces), own.data());
+        for_each_wall(method, at, sums.box(), [&](const Wall<D>& wall) {
+          wall.keeps_normal_push() ? wall.image.add_image(own.data()) : wall.image.fold(own.data());
+        });
+        for (std::size_t i = 0; i < own.size(); ++i) sums.data()[i].add_force(own[i].internal_force());
+      });
+}
+
+/// Over the way that particles go, as gravity's is counted; the force is that of the middle of the step.
+template <int D>
+runtime::TaskDeclaration work_of_body_force(const Method<D>& method)
+{
+  return runtime::task("work of body force")
+      .over_patches_and_groups(groups_with_body_force(method.scene))
+      .sparse()
+      .reads(particle::body.previous(), particle::mass.previous(), particle::reference_position<D>.previous(),
+             particle::position<D>.previous(), particle::position<D>)
+      .reduces(body_force_work)
+      .body([&method](const TaskContext& at, auto data) {
+        const auto before = data[particle::position<D>.previous()];
+        const auto after = data[particle::position<D>];
+        const auto forces =
+            body_forces_on<D>(method.scene, at.step.time + 0.5 * at.step.size, data[particle::body.previous()],
+                              data[particle::mass.previous()], data[particle::reference_position<D>.previous()]);
+        double& work = data[body_force_work].value;
+        for (std::size_t p = 0; p < forces.size(); ++p) work += forces[p].dot(after[p] - before[p]);
+      });
+}
+
+template runtime::TaskDeclaration body_force(const Method<2>&);
+template runtime::TaskDeclaration body_force(const Method<3>&);
+template runtime::TaskDeclaration work_of_body_force(const Method<2>&);
+template runtime::TaskDeclaration work_of_body_force(const Method<3>&);
+
+}  // namespace tamp::tasks

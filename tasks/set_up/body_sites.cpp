@@ -1,0 +1,43 @@
+#include "tasks/set_up/body_sites.hpp"
+
+#include <algorithm>
+
+#include "components/geometry/fill.hpp"
+#include "components/portable_math.hpp"
+#include "tasks/method.hpp"
+
+namespace tamp::tasks
+{
+
+template <int D>
+std::vector<components::Site<D>> particle_sites(const Scene& scene, const SceneBody& body)
+{
+  const auto lattice = lattice_of<D>(scene, body.material);
+  if constexpr (D == 2) {
+    if (body.functions.layout) return body.functions.layout->sites(lattice.cell_size / lattice.n_per_axis);
+  }
+  components::CellRange<D> cells{};
+  std::copy_n(scene.grid.n_cells.begin(), D, cells.upper.begin());
+  std::vector<components::Site<D>> sites;
+  const double volume = lattice.particle_volume();
+  for (const Vector<D>& x : components::fill(std::get<components::Solid<D>>(body.solid), lattice, cells)) {
+    sites.push_back({x, volume});
+  }
+  return sites;
+}
+
+double particle_volume(const Scene& scene, const SceneBody& body)
+{
+  const double spacing = scene.grid.cell_size / scene.particles_per_axis_of(body.material);
+  if (!body.functions.layout) {
+    return static_cast<double>(body.n_particles) * portable::pow(spacing, scene.grid.dimension);
+  }
+  double volume = 0;
+  for (const components::Site<2>& site : body.functions.layout->sites(spacing)) volume += site.volume;
+  return volume;
+}
+
+template std::vector<components::Site<2>> particle_sites(const Scene&, const SceneBody&);
+template std::vector<components::Site<3>> particle_sites(const Scene&, const SceneBody&);
+
+}  // namespace tamp::tasks

@@ -1,0 +1,47 @@
+#include "components/geometry/polar_layout.hpp"
+
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <numbers>
+
+using namespace tamp;
+using namespace tamp::components;
+
+TEST_CASE("a polar layout fills its ring, and is as round as one")
+{
+  const double inner = GENERATE(0.0, 0.37);
+  const PolarLayout layout{{0.2, -0.1}, inner, 0.8};
+
+  const auto sites = layout.sites(GENERATE(0.013, 0.1, 3.0));
+
+  double volume = 0;
+  Vector<2> moment = Vector<2>::Zero();
+  for (const Site<2>& site : sites) {
+    const Vector<2> arm = site.place - layout.centre;
+    REQUIRE((arm.norm() > inner && arm.norm() < 0.8));
+    volume += site.volume;
+    moment += site.volume * arm;
+  }
+  CHECK(volume == Approx(std::numbers::pi * (0.64 - inner * inner)).epsilon(1e-13));
+  CHECK(moment.norm() < 1e-13 * volume);
+}
+
+TEST_CASE("a polar layout's rings are as wide as the spacing, and its sectors about as long")
+{
+  const PolarLayout layout{{0, 0}, 1, 2};
+
+  const auto sites = layout.sites(0.26);
+
+  // Four rings of 0.25; round the first, at 1.125, go 28.3 of them.
+  CHECK(sites[0].place.norm() == Approx(1.125));
+  CHECK(sites[28].place.norm() == Approx(1.375));
+  CHECK((sites[1].place - sites[0].place).norm() == Approx(2 * 1.125 * std::sin(std::numbers::pi / 28)));
+  CHECK(sites.back().place.norm() == Approx(1.875));
+  CHECK(sites[0].volume == Approx(0.25 * 2 * std::numbers::pi * 1.125 / 28));
+}
+
+TEST_CASE("a ring thinner than the spacing is one ring of particles")
+{
+  CHECK(PolarLayout{{0, 0}, 1, 1.01}.sites(0.1).front().place.norm() == Approx(1.005));
+  CHECK(PolarLayout{{0, 0}, 0, 0.01}.sites(0.1).size() == 3);
+}

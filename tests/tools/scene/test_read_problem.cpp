@@ -1,0 +1,119 @@
+#include <catch2/catch.hpp>
+
+#include "tests/tools/scene/small_scene.hpp"
+#include "tools/scene/print_json.hpp"
+
+using namespace tamp;
+using namespace tamp::test;
+
+namespace
+{
+
+/// The small scene, its block soft and with a problem, after some more assignments.
+std::vector<std::string> with_problem(const std::string& problem, const std::vector<std::string>& more = {})
+{
+  std::vector<std::string> assignments{
+      R"(/materials/steel={"type":"neo_hookean","density":1,"bulk_modulus":8333,"shear_modulus":3846})",
+      "/bodies/block/problem=" + problem};
+  assignments.insert(assignments.end(), more.begin(), more.end());
+  return assignments;
+}
+
+std::string problems_of_problem(const std::string& problem, const std::vector<std::string>& more = {})
+{
+  return problems_with(with_problem(problem, more));
+}
+
+const std::string aligned = R"({"type":"axis_aligned","amplitude":0.05,"length":1,"n_axes":2})";
+const std::string disk =
+    R"({"type":"rotating_disk","centre":[1,1],"outer_radius":0.9,"inner_radius":0.4,"angular_speed":5})";
+const std::string ring_of_disk =
+    R"(/bodies/block/geometry={"type":"difference","of":[{"type":"ball","centre":[1,1],"radius":0.9},)"
+    R"({"type":"ball","centre":[1,1],"radius":0.4}]})";
+
+const std::string at_problem = "--set#/bodies/block/problem";
+
+}  // namespace
+
+TEST_CASE("a body's problem gives its functions, with what the scene leaves out")
+{
+  const TemporaryFolder folder;
+  const auto checked = tools::read_scene(folder.write("small.json", small_scene), with_problem(aligned));
+
+  const components::BodyFunctions& functions = checked.scene.bodies.at(0).functions;
+  REQUIRE(functions.body_force);
+  CHECK(functions.displacement({0.5, 0.5, 0})[1] == Approx(0.05 * std::sqrt(0.75)));
+  CHECK(checked.resolved["bodies"]["block"]["problem"]["origin"] == tools::Json({0, 0}));
+  CHECK(tools::read_scene(folder.write("again.json", tools::printed(checked.resolved))).resolved["bodies"] ==
+        checked.resolved["bodies"]);
+}
+
+TEST_CASE("a body whose problem lays out its particles has those")
+{
+  const TemporaryFolder folder;
+  const auto scene =
+      tools::read_scene(folder.write("small.json", small_scene), with_problem(disk, {ring_of_disk})).scene;
+
+  // One ring of the half metre between the radii, 0.65 from the centre: 8.2 particles of half a metre.
+  CHECK(scene.bodies.at(0).n_particles == 8);
+}
+
+TEST_CASE("a problem that is not known, or lacks something, is told")
+{
+  CHECK(problems_of_problem(R"({"type":"axis_alined"})") ==
+        at_problem + R"(/type: "axis_alined"; expected one of axis_aligned, rotating_disk, vibrating_bar)");
+  CHECK(problems_of_problem(R"({"type":"vibrating_bar","speed":1})") ==
+        at_problem + "/wave_number: missing; expected a number above 0 [rad/m]");
+  CHECK(problems_of_problem(R"({"type":"vibrating_bar","speed":1,"wave_number":-1})") ==
+        at_problem + "/wave_number: -1; expected a number above 0 [rad/m]");
+  CHECK(problems_of_problem(R"({"type":"vibrating_bar","speed":1,"wave_number":1,"lenght":2})") ==
+        at_problem + "/lenght: unknown key; expected one of type, speed, wave_number");
+  CHECK(problems_of_problem(R"({"type":"axis_aligned","amplitude":0.05,"length":1,"n_axes":1.5})") ==
+        at_problem + "/n_axes: 1.5; expected a whole number from 1 to 3");
+  CHECK(problems_of_problem("3") == at_problem + ": 3; expected an object");
+}
+
+TEST_CASE("a problem whose parameters do not go together is told")
+{
+  CHECK(problems_of_problem(R"({"type":"axis_aligned","amplitude":0.05,"length":1,"n_axes":3})") ==
+        at_problem + "/n_axes: 3; expected at most the scene's dimension, 2");
+  CHECK(problems_of_problem(R"({"type":"axis_aligned","amplitude":0.4,"length":1,"n_axes":2})") ==
+        at_problem + "/amplitude: 0.4; expected less than length / pi, as more turns the body inside out");
+}
+
+TEST_CASE("a problem that does not go with its body or its scene is told")
+{
+  const std::string steel =
+      R"(/materials/steel={"type":"hypoelastic","density":8000,"bulk_modulus":10e9,"shear_modulus":7e9})";
+  CHECK(problems_of_problem(aligned, {steel}) ==
+        at_problem + ": another material; expected one of type neo_hookean, for which it is made");
+  CHECK(problems_of_problem(aligned, {"/bodies/block/rigid=true"}) ==
+        at_problem + ": a rigid body's; expected that of a body that is not rigid");
+  CHECK(problems_of_problem(aligned, {"/bodies/block/velocity=[1,0]"}) ==
+        at_problem + ": that of a body with a velocity; expected the velocity of the problem alone");
+  CHECK(problems_of_problem(aligned, {"/bodies/block/angular_velocity=[1]"}) ==
+        at_problem + ": that of a body with a velocity; expected the velocity of the problem alone");
+  CHECK(problems_of_problem(aligned, {"/gravity=[0,-9.81]"}) ==
+        at_problem +
+            ": an exact solution in a scene with gravity or a centrifuge; expected the problem's own loads "
+            "alone");
+  CHECK_THAT(
+      problems_of_problem(aligned, {"/bodies/block/initial_stress=true"}),
+      Catch::Contains(at_problem + ": that of a body that starts settled; expected either it or initial_stress"));
+  CHECK(problems_of_problem(disk, {"/dimension=3", "/grid/upper=[2,2,2]",
+                                   R"(/bodies/block/geometry={"type":"box","lower":[0,0,0],"upper":[1,1,1]})",
+                                   "/bodies/block/problem/centre=[1,1,1]"}) ==
+        at_problem + ": a scene of dimension 3; expected one of dimension 2, in which it is a disk");
+}
+
+TEST_CASE("particles that a problem puts outside of the body or the grid are told")
+{
+  CHECK(problems_of_problem(disk) ==
+        at_problem +
+            ": a particle at [1.6005216936000363, 1.248744230052661]; expected all of them within the body's "
+            "geometry");
+  // Between x = 0.75 and the wall at 0 the second axis starts by as much as 0.26 below it.
+  CHECK_THAT(problems_of_problem(R"({"type":"axis_aligned","amplitude":0.3,"length":1,"n_axes":2,"origin":[0,1]})"),
+             Catch::StartsWith(at_problem + ": the particle of [0.25, 0.25] starts at [0.25, ") &&
+                 Catch::Contains("expected a place within the grid"));
+}
