@@ -24,7 +24,7 @@ std::string default_text(const Key& key)
   return is_list ? text + " each" : text;
 }
 
-std::string row(const std::vector<std::string>& cells)
+std::string table_row(const std::vector<std::string>& cells)
 {
   std::string text = "|";
   for (const std::string& cell : cells) text += cell.empty() ? " |" : " " + cell + " |";
@@ -37,23 +37,23 @@ bool share_a_row(const Key& a, const Key& b)
 }
 
 /// A row for each key, and for those of objects that have no table of their own.
-std::string rows(const std::vector<Key>& keys, const std::string& prefix = "")
+std::string rows_of(const std::vector<Key>& keys, const std::string& prefix = "")
 {
   std::string text;
   for (std::size_t i = 0; i < keys.size(); ++i) {
     const Key& key = keys[i];
     std::string names = fmt::format("`{}{}`", prefix, key.name);
     for (; i + 1 < keys.size() && share_a_row(keys[i + 1], key); ++i) names += ", `" + keys[i + 1].name + "`";
-    if (!key.meaning.empty()) text += row({names, shown_unit(key.unit), default_text(key), key.meaning});
+    if (!key.meaning.empty()) text += table_row({names, shown_unit(key.unit), default_text(key), key.meaning});
     const auto* const object = std::get_if<Object>(&key.value);
-    if (object != nullptr && object->keys().name.empty()) text += rows(object->keys().keys, prefix + key.name + "/");
+    if (object != nullptr && object->keys().name.empty()) text += rows_of(object->keys().keys, prefix + key.name + "/");
   }
   return text;
 }
 
-std::string table(const std::vector<Key>& keys)
+std::string table_of(const std::vector<Key>& keys)
 {
-  return "| key | unit | default | meaning |\n| --- | --- | --- | --- |\n" + rows(keys);
+  return "| key | unit | default | meaning |\n| --- | --- | --- | --- |\n" + rows_of(keys);
 }
 
 /// A key as it is told in passing.
@@ -74,7 +74,7 @@ std::string table_of_types(const ObjectKeys& object, const std::string& meaning,
     if (type.only_in != dimension) continue;
     std::string keys;
     for (const Key& key : type.keys) keys += (keys.empty() ? "" : ", ") + told(key);
-    text += row({"`\"" + type.word + "\"`", keys, type.meaning});
+    text += table_row({"`\"" + type.word + "\"`", keys, type.meaning});
   }
   return text;
 }
@@ -85,12 +85,12 @@ std::vector<std::string> key_tables()
 {
   std::vector<std::string> tables;
   for (const KeysOf keys : {scene_keys, centrifuge_keys, contact_keys, body_keys, pressure_keys, drive_keys}) {
-    tables.push_back(table(keys().keys));
+    tables.push_back(table_of(keys().keys));
   }
   tables.push_back(table_of_types(problem_keys(), "the body", 0));
   for (const int dimension : {0, 2, 3}) tables.push_back(table_of_types(solid_keys(), "region", dimension));
-  tables.push_back(table(material_keys().keys));
-  for (const TypeKeys& type : material_keys().types) tables.push_back(table(type.keys));
+  tables.push_back(table_of(material_keys().keys));
+  for (const TypeKeys& type : material_keys().types) tables.push_back(table_of(type.keys));
   return tables;
 }
 

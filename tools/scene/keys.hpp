@@ -151,6 +151,7 @@ Key choice(std::string name, Enum default_value, const std::vector<std::pair<std
   return {std::move(name), std::move(choice), "", std::move(left_out), std::move(meaning)};
 }
 
+inline constexpr int most_particles_per_axis = 16;
 /// Of a run, where its scene does not say how often.
 inline constexpr int usual_field_outputs = 50, usual_history_rows = 1000;
 /// Words of the contact key "normal", beside the names of materials.

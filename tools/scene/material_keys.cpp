@@ -119,7 +119,7 @@ const ObjectKeys& material_keys()
       .name = "material",
       .keys = {{"density", Number{above_zero}, "kg/m^3", compulsory, "of the unstrained material"},
                {"particles_per_axis",
-                WholeNumber{1, 16},
+                WholeNumber{1, most_particles_per_axis},
                 "",
                 {nullptr, "the scene's"},
                 "the number of its particles along each axis of a cell"}},

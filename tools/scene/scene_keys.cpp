@@ -175,7 +175,7 @@ const ObjectKeys& contact_keys()
 
 const ObjectKeys& scene_keys()
 {
-  constexpr int many = 1'000'000'000, most_particles_per_axis = 16;
+  constexpr int many = 1'000'000'000;
   const Default empty{Json::object()};
   static const tasks::Scene scene{};
   static const ObjectKeys keys{
@@ -201,7 +201,8 @@ const ObjectKeys& scene_keys()
             WholeNumbers{per_axis, 1, most_particles_per_axis},
             "",
             {scene.particles_per_axis},
-            "particles along each axis of a cell, the same number along all, at most 16"},
+            fmt::format("particles along each axis of a cell, the same number along all, at most {}",
+                        most_particles_per_axis)},
            {"gravity", Numbers{per_axis}, "m/s^2", {0.0}, "acceleration of free fall"},
            {"centrifuge",
             Object{centrifuge_keys},

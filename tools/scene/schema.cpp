@@ -37,7 +37,7 @@ Json list_of(const Json& item, Length length)
   return {{"type", "array"}, {"items", item}, {"minItems", length.in_plane}, {"maxItems", length.in_space}};
 }
 
-Json any_of(const std::vector<Json>& schemas)
+Json one_schema_of(const std::vector<Json>& schemas)
 {
   return schemas.size() == 1 ? schemas.front() : Json{{"anyOf", schemas}};
 }
@@ -51,7 +51,7 @@ Json or_null(Json schema)
   } else if (schema.contains("anyOf")) {
     schema["anyOf"].push_back({{"type", "null"}});
   } else {
-    schema = any_of({schema, {{"type", "null"}}});
+    schema = one_schema_of({schema, {{"type", "null"}}});
   }
   return schema;
 }
@@ -94,7 +94,7 @@ class SchemaWriter
   {
     std::vector<Json> either{number_in(number.range)};
     if (!number.word.empty()) either.push_back({{"enum", {number.word}}});
-    return any_of(either);
+    return one_schema_of(either);
   }
   Json of(const Numbers& numbers, Extent) { return list_of(number_in(numbers.range), numbers.length); }
   Json of(const WholeNumber& number, Extent) { return whole_number_in(number.least, number.most); }
@@ -110,7 +110,7 @@ class SchemaWriter
   {
     std::vector<Json> either{{{"enum", choice.words}}};
     if (choice.instead != nullptr) either.push_back(object(choice.instead(), extent));
-    return any_of(either);
+    return one_schema_of(either);
   }
   Json of(const Object& value, Extent extent) { return object(value.keys(), extent); }
   Json of(const Members& members, Extent extent)
@@ -157,7 +157,7 @@ class SchemaWriter
       }
     }
     Json schema{{"type", "object"}, {"properties", Json::object()}};
-    for (const auto& [name, schemas] : properties) schema["properties"][name] = any_of(schemas);
+    for (const auto& [name, schemas] : properties) schema["properties"][name] = one_schema_of(schemas);
     if (extent == Extent::whole && !required.empty()) schema["required"] = required;
     schema["additionalProperties"] = extent == Extent::whole ? Json(false) : Json{{"type", "null"}};
     return schema;

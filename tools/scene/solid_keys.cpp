@@ -14,17 +14,17 @@ const ObjectKeys& rotation_keys()
 }
 
 /// A place or a direction.
-Key vector(std::string name, std::string unit = "m", Range range = any_number)
+Key place_key(std::string name, std::string unit = "m", Range range = any_number)
 {
   return {std::move(name), Numbers{per_axis, range}, std::move(unit), compulsory, ""};
 }
 
-Key number(std::string name, Range range)
+Key length_key(std::string name, Range range)
 {
   return {std::move(name), Number{range}, "m", compulsory, ""};
 }
 
-Key rows(std::string name, std::string row)
+Key rows_key(std::string name, std::string row)
 {
   return {std::move(name), Rows{just(2)}, "m", compulsory, "`[" + row + ", ...]`"};
 }
@@ -35,41 +35,43 @@ const ObjectKeys& solid_keys()
 {
   static const Key solids{"of", Objects{solid_keys}, "", {Json::array()}, "a list of solids"};
   static const Key solid{"of", Object{solid_keys}, "", compulsory, "a solid"};
-  static const Key corners = rows("corners", "[x, y]");
+  static const Key corners = rows_key("corners", "[x, y]");
   static const ObjectKeys keys{
       .name = "solid",
       .keys = {{"title", Text{}, "", none, "one line for people"}},
       .types =
-          {{"box", {vector("lower"), vector("upper")}, "edges along the axes"},
-           {"ball", {vector("centre"), number("radius", above_zero)}, "a disk in two dimensions, a sphere in three"},
+          {{"box", {place_key("lower"), place_key("upper")}, "edges along the axes"},
+           {"ball",
+            {place_key("centre"), length_key("radius", above_zero)},
+            "a disk in two dimensions, a sphere in three"},
            {"rotated_box",
-            {vector("centre"), vector("sides", "m", above_zero), {"angle", Number{}, "degrees", compulsory, ""}},
+            {place_key("centre"), place_key("sides", "m", above_zero), {"angle", Number{}, "degrees", compulsory, ""}},
             "a box turned about its centre from x towards y"},
            {"polygon", {corners}, "within straight edges that do not cross or touch", 2},
            {"cylinder",
-            {vector("first_end"), vector("second_end"), number("radius", above_zero)},
+            {place_key("first_end"), place_key("second_end"), length_key("radius", above_zero)},
             "a right circular cylinder",
             3},
            {"cone",
-            {vector("first_end"), vector("second_end"), number("first_radius", zero_or_above),
-             number("second_radius", zero_or_above)},
+            {place_key("first_end"), place_key("second_end"), length_key("first_radius", zero_or_above),
+             length_key("second_radius", zero_or_above)},
             "a cone, cut off where both radii are above 0",
             3},
            {"ogive",
-            {vector("tip"), vector("base"), number("radius", above_zero)},
+            {place_key("tip"), place_key("base"), length_key("radius", above_zero)},
             "a tangent ogive from its pointed tip to the centre of its base, which has the radius",
             3},
            {"revolved",
-            {vector("start"),
-             vector("axis", ""),
-             rows("profile", "[s, r]"),
+            {place_key("start"),
+             place_key("axis", ""),
+             rows_key("profile", "[s, r]"),
              {"tip_radius", Number{above_zero}, "m", none, ""}},
             "a body of revolution, of radius r at the distance s from `start` along `axis`. Between the points r² is a "
             "smooth curve that rises and falls only where they do. `tip_radius`, which may be left out, is the radius "
             "of curvature of a tip, where the first r is 0",
             3},
            {"extruded_polygon",
-            {corners, number("lower", any_number), number("upper", any_number)},
+            {corners, length_key("lower", any_number), length_key("upper", any_number)},
             "a polygon of the x-y plane from z = `lower` to z = `upper`",
             3},
            {"mesh",
