@@ -297,10 +297,12 @@ class SimulationOf : public Simulation
     totals_.viscous += of_nodes.taken_by_damping;
     if (scene_.has_body_force()) totals_.driving += engine_->warehouse().result(body_force_work).value;
     contact_.combine(engine_->warehouse().result(contact_impulses));
+    last_driving_ = step.driving;
     if (method_.pressed_groups.empty()) return;
     const LoadTotals& loads = engine_->warehouse().result(load_totals);
     loads_.combine(loads);
     totals_.driving += loads.work;
+    last_driving_ += loads.work;
   }
 
   /// Looks at what the patches have cost since the last look, and deals them anew if that pays.

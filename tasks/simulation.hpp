@@ -62,6 +62,8 @@ class Simulation
   const runtime::Communicator& communicator() const { return communicator_; }
   /// Sums since the start; `stable_step` is that of the last step.
   const StepTotals& totals() const { return totals_; }
+  /// What driving and pressure loads did in the last step [J].
+  double last_driving() const { return last_driving_; }
   /// What the grid gave to the particles since the start [N s].
   const GridTotals& grid_totals() const { return grid_totals_; }
 
@@ -130,6 +132,7 @@ class Simulation
   double last_step_size_ = 0;
   StepTotals totals_;
   GridTotals grid_totals_;
+  double last_driving_ = 0;
   /// Since the forces of contact were last taken.
   ContactImpulses contact_;
   double contact_since_ = 0;

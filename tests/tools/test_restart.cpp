@@ -162,7 +162,7 @@ TEST_CASE("a footing under a load that grows goes on with the bits of a straight
   const auto parted = summary_of(folder.path() / "parted"), straight = summary_of(folder.path() / "straight");
   CHECK(parted["restarted_at_step"] == 70);
   CHECK(parted["state_digest"] == straight["state_digest"]);
-  CHECK_THAT(read_text(folder.path() / "parted/history.csv"), Catch::Contains("footing.load_y[N]"));
+  CHECK_THAT(read_text(folder.path() / "parted/history.csv"), Catch::Contains("soil.load_y[N]"));
   CHECK(read_text(folder.path() / "parted/history.csv") == read_text(folder.path() / "straight/history.csv"));
 }
 

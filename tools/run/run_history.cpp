@@ -257,7 +257,7 @@ double RunHistory::negligible_energy() const
   const double slow = part_of_wave_speed * fastest;
   // Velocities are those of half a step before.
   const double late = greatest_acceleration(scene) * simulation_.last_step_size();
-  return 0.5 * mass * slow * slow + late * std::sqrt(2 * mass * report_.kinetic);
+  return 0.5 * mass * slow * slow + late * std::sqrt(2 * mass * report_.kinetic) + std::abs(simulation_.last_driving());
 }
 
 double RunHistory::depth(std::size_t body) const

@@ -86,7 +86,8 @@ class RunHistory
   void add_peak_columns(std::size_t material, const std::string& where, const tasks::PeaksOfMaterials& peaks);
   std::vector<std::string> column_names() const;
   /// That of all mass at a millionth of the fastest wave's speed, as what is at rest has no other energy to compare
-  /// with, and what half a step of free fall makes [J].
+  /// with, what half a step of free fall makes, and the work of a step of driving and of loads, which is counted to the
+  /// step's middle while what it goes into is counted to its end [J].
   double negligible_energy() const;
 
   tasks::Simulation& simulation_;
