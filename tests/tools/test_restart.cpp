@@ -150,20 +150,7 @@ TEST_CASE("soil on walls goes on, on other ranks too, with the bits of a straigh
 
 TEST_CASE("a footing under a load that grows goes on with the bits of a straight run, on other ranks too", "[mpiexec]")
 {
-  const TemporaryFolder folder;
-  const std::string footing = TAMP_SOURCE_DIR "/inputs/footing/quick.json --set /output/history_interval=0.0005 ";
-  const auto run = [&](const std::string& name) { return " --quiet --out " + (folder.path() / name).string(); };
-  const std::string restart = " --quiet --restart " + (folder.path() / "parted").string();
-
-  REQUIRE(tamp_with("run " + footing + "--steps 150" + run("straight")).exit_code == 0);
-  REQUIRE(tamp_with("run " + footing + "--steps 80 --checkpoint-steps 70" + run("parted")).exit_code == 0);
-  REQUIRE(tamp_on_ranks(3, "run " + footing + "--steps 150 --threads 2" + restart).exit_code == 0);
-
-  const auto parted = summary_of(folder.path() / "parted"), straight = summary_of(folder.path() / "straight");
-  CHECK(parted["restarted_at_step"] == 70);
-  CHECK(parted["state_digest"] == straight["state_digest"]);
-  CHECK_THAT(read_text(folder.path() / "parted/history.csv"), Catch::Contains("soil.load_y[N]"));
-  CHECK(read_text(folder.path() / "parted/history.csv") == read_text(folder.path() / "straight/history.csv"));
+  check_parted_run(TAMP_SOURCE_DIR "/inputs/footing/quick.json --set /output/history_interval=0.0005", 3);
 }
 
 namespace
@@ -213,19 +200,7 @@ TEST_CASE("bodies that go around a periodic domain go on with the bits of a stra
 
 TEST_CASE("a body that functions start and drive goes on with the bits of a straight run", "[mpiexec]")
 {
-  const TemporaryFolder folder;
-  const std::string block = TAMP_SOURCE_DIR "/inputs/verification/axis_aligned/quick.json ";
-  const auto run = [&](const std::string& name) { return " --quiet --out " + (folder.path() / name).string(); };
-  const std::string restart = " --quiet --restart " + (folder.path() / "parted").string();
-
-  REQUIRE(tamp_with("run " + block + "--steps 60" + run("straight")).exit_code == 0);
-  REQUIRE(tamp_with("run " + block + "--steps 35 --checkpoint-steps 30" + run("parted")).exit_code == 0);
-  REQUIRE(tamp_on_ranks(2, "run " + block + "--steps 60" + restart).exit_code == 0);
-
-  const auto parted = summary_of(folder.path() / "parted"), straight = summary_of(folder.path() / "straight");
-  CHECK(parted["restarted_at_step"] == 30);
-  CHECK(parted["state_digest"] == straight["state_digest"]);
-  CHECK(read_text(folder.path() / "parted/history.csv") == read_text(folder.path() / "straight/history.csv"));
+  check_parted_run(TAMP_SOURCE_DIR "/inputs/verification/axis_aligned/quick.json", 2);
 }
 
 TEST_CASE("a damaged checkpoint is refused with its reason, and the one before is used")
