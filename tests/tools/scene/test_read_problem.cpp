@@ -61,7 +61,8 @@ TEST_CASE("a body whose problem lays out its particles has those")
 TEST_CASE("a problem that is not known, or lacks something, is told")
 {
   CHECK(problems_of_problem(R"({"type":"axis_alined"})") ==
-        at_problem + R"(/type: "axis_alined"; expected one of axis_aligned, rotating_disk, vibrating_bar)");
+        at_problem + R"(/type: "axis_alined"; expected one of axis_aligned, rotating_disk, vibrating_bar, )"
+                     R"(did you mean "axis_aligned"?)");
   CHECK(problems_of_problem(R"({"type":"vibrating_bar","speed":1})") ==
         at_problem + "/wave_number: missing; expected a number above 0 [rad/m]");
   CHECK(problems_of_problem(R"({"type":"vibrating_bar","speed":1,"wave_number":-1})") ==
@@ -108,12 +109,11 @@ TEST_CASE("a problem that does not go with its body or its scene is told")
 
 TEST_CASE("particles that a problem puts outside of the body or the grid are told")
 {
-  CHECK(problems_of_problem(disk) ==
-        at_problem +
-            ": a particle at [1.6005216936000363, 1.248744230052661]; expected all of them within the body's "
-            "geometry");
-  // Between x = 0.75 and the wall at 0 the second axis starts by as much as 0.26 below it.
-  CHECK_THAT(problems_of_problem(R"({"type":"axis_aligned","amplitude":0.3,"length":1,"n_axes":2,"origin":[0,1]})"),
-             Catch::StartsWith(at_problem + ": the particle of [0.25, 0.25] starts at [0.25, ") &&
+  // A ring of 0.65 m about (1, 1), its first particle an eighth of pi from the x axis.
+  CHECK_THAT(problems_of_problem(disk), Catch::StartsWith(at_problem + ": a particle at [1.60052") &&
+                                            Catch::Contains("expected all of them within the body's geometry"));
+  // At y = 0.25 the second axis starts 0.3 sqrt(3)/2 below it, which is below the wall.
+  CHECK_THAT(problems_of_problem(R"({"type":"axis_aligned","amplitude":0.3,"length":1,"n_axes":2,"origin":[0,0.75]})"),
+             Catch::StartsWith(at_problem + ": the particle of [0.25, 0.25] starts at [0.25, -0.0098") &&
                  Catch::Contains("expected a place within the grid"));
 }
