@@ -28,7 +28,7 @@ Key key_of(const components::ProblemParameter<P>& parameter)
 }
 
 template <class P>
-TypeKeys type_of()
+TypeKeys problem_type()
 {
   TypeKeys type{std::string(P::type), {}, std::string(P::meaning)};
   for (const auto& parameter : P::parameters()) type.keys.push_back(key_of(parameter));
@@ -36,9 +36,9 @@ TypeKeys type_of()
 }
 
 template <class... P>
-std::vector<TypeKeys> types_of(const std::variant<P...>*)
+std::vector<TypeKeys> problem_types(const std::variant<P...>*)
 {
-  return {type_of<P>()...};
+  return {problem_type<P>()...};
 }
 
 }  // namespace
@@ -93,7 +93,7 @@ const ObjectKeys& pressure_keys()
 const ObjectKeys& problem_keys()
 {
   static const ObjectKeys keys{
-      .name = "problem", .keys = {}, .types = types_of(static_cast<const components::Problem*>(nullptr))};
+      .name = "problem", .keys = {}, .types = problem_types(static_cast<const components::Problem*>(nullptr))};
   return keys;
 }
 
