@@ -46,14 +46,14 @@ Method<D>::Method(const Scene& given)
   for (int m = 0; m < static_cast<int>(scene.materials.size()); ++m) {
     interpolations.push_back(components::Interpolation<D>::make(scene.interpolator, scene.particles_per_axis_of(m)));
     const auto is_pressed = [m](const SceneBody& body) { return body.pressure && body.material == m; };
-    if (std::any_of(scene.bodies.begin(), scene.bodies.end(), is_pressed)) pressed_groups.push_back(m);
+    if (std::any_of(scene.bodies.begin(), scene.bodies.end(), is_pressed)) pressed_materials.push_back(m);
     const auto is_rigid = [m](const SceneBody& body) { return body.rigid && body.material == m; };
     const auto body = std::find_if(scene.bodies.begin(), scene.bodies.end(), is_rigid);
     if (body == scene.bodies.end()) {
-      deformable_groups.push_back(m);
+      deformable_materials.push_back(m);
     } else {
       rigid_bodies.push_back({.body = static_cast<int>(body - scene.bodies.begin()),
-                              .group = m,
+                              .material = m,
                               .drive = body->drive ? &*body->drive : nullptr,
                               .touchable = touchable_faces(scene, *body)});
     }
@@ -68,10 +68,10 @@ Method<D>::Method(const Scene& given)
 }
 
 template <int D>
-const RigidBody* Method<D>::rigid_body(int group) const
+const RigidBody* Method<D>::rigid_body(int material) const
 {
-  const auto has_group = [group](const RigidBody& body) { return body.group == group; };
-  const auto body = std::find_if(rigid_bodies.begin(), rigid_bodies.end(), has_group);
+  const auto has_material = [material](const RigidBody& body) { return body.material == material; };
+  const auto body = std::find_if(rigid_bodies.begin(), rigid_bodies.end(), has_material);
   return body == rigid_bodies.end() ? nullptr : &*body;
 }
 

@@ -38,7 +38,7 @@ Eigen::Vector3d in_space(const Vector<D>& v)
 
 /// Position of a node [m].
 template <int D>
-Vector<D> place_of(const runtime::Grid& grid, const runtime::Index& node)
+Vector<D> node_position(const runtime::Grid& grid, const runtime::Index& node)
 {
   Vector<D> x;
   for (int k = 0; k < D; ++k) x[k] = grid.coordinate(k, node[static_cast<std::size_t>(k)]);
@@ -59,12 +59,12 @@ struct Method {
   explicit Method(const Scene& scene);
 
   /// The interpolation for a material's particles.
-  const components::Interpolation<D>& interpolation(int group) const
+  const components::Interpolation<D>& interpolation(int material) const
   {
-    return *interpolations[static_cast<std::size_t>(group)];
+    return *interpolations[static_cast<std::size_t>(material)];
   }
   /// The rigid body that a material is, or null.
-  const RigidBody* rigid_body(int group) const;
+  const RigidBody* rigid_body(int material) const;
 
   const Scene& scene;
   std::vector<std::unique_ptr<const components::Interpolation<D>>> interpolations;
@@ -89,9 +89,9 @@ struct Method {
   /// Their mass is that of their particles, which the simulation fills in.
   std::vector<RigidBody> rigid_bodies;
   /// Materials that are no rigid body.
-  std::vector<int> deformable_groups;
+  std::vector<int> deformable_materials;
   /// Materials with a body under a pressure load.
-  std::vector<int> pressed_groups;
+  std::vector<int> pressed_materials;
 };
 
 /// The nodes of a view as the kernels of components see them.

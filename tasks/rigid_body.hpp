@@ -17,7 +17,7 @@ namespace tamp::tasks
 struct RigidBody {
   /// Places in Scene::bodies and Scene::materials.
   int body;
-  int group;
+  int material;
   components::MassProperties properties{};
   /// Null where it moves as the forces on it will have it.
   const BodyDrive* drive = nullptr;
@@ -31,17 +31,17 @@ struct RigidBody {
   }
 };
 
-/// Where the rigid bodies are, by group, and how they move; materials that are none have nothing here.
+/// Where the rigid bodies are, by material, and how they move; materials that are none have nothing here.
 struct RigidStates {
-  std::array<components::RigidState, runtime::PerGroup<int>::max_groups> by_group;
+  std::array<components::RigidState, runtime::PerGroup<int>::max_groups> by_material;
   /// The impulse that drives each driven body in this step [N s].
   std::array<Eigen::Vector3d, runtime::PerGroup<int>::max_groups> driving;
 
   const components::RigidState& of(const RigidBody& body) const
   {
-    return by_group[static_cast<std::size_t>(body.group)];
+    return by_material[static_cast<std::size_t>(body.material)];
   }
-  components::RigidState& of(const RigidBody& body) { return by_group[static_cast<std::size_t>(body.group)]; }
+  components::RigidState& of(const RigidBody& body) { return by_material[static_cast<std::size_t>(body.material)]; }
 };
 
 /// What contact gives to each material in one step.
@@ -50,24 +50,24 @@ struct ContactImpulses {
     Eigen::Vector3d linear = Eigen::Vector3d::Zero();   ///< N s
     Eigen::Vector3d angular = Eigen::Vector3d::Zero();  ///< N m s; of rigid bodies alone, about their centre
   };
-  std::array<Impulse, runtime::PerGroup<int>::max_groups> by_group;
+  std::array<Impulse, runtime::PerGroup<int>::max_groups> by_material;
 
   void combine(const ContactImpulses& other)
   {
-    for (std::size_t g = 0; g < by_group.size(); ++g) {
-      by_group[g].linear += other.by_group[g].linear;
-      by_group[g].angular += other.by_group[g].angular;
+    for (std::size_t g = 0; g < by_material.size(); ++g) {
+      by_material[g].linear += other.by_material[g].linear;
+      by_material[g].angular += other.by_material[g].angular;
     }
   }
 };
 
 /// What each rigid body's contact asks of its motion; materials that are none have nothing here.
 struct RigidCouplings {
-  std::array<components::RigidCoupling, runtime::PerGroup<int>::max_groups> by_group;
+  std::array<components::RigidCoupling, runtime::PerGroup<int>::max_groups> by_material;
 
   void combine(const RigidCouplings& other)
   {
-    for (std::size_t g = 0; g < by_group.size(); ++g) by_group[g].combine(other.by_group[g]);
+    for (std::size_t g = 0; g < by_material.size(); ++g) by_material[g].combine(other.by_material[g]);
   }
 };
 

@@ -298,7 +298,7 @@ class SimulationOf : public Simulation
     if (scene_.has_body_force()) totals_.driving += engine_->warehouse().result(body_force_work).value;
     contact_.combine(engine_->warehouse().result(contact_impulses));
     last_driving_ = step.driving;
-    if (method_.pressed_groups.empty()) return;
+    if (method_.pressed_materials.empty()) return;
     const LoadTotals& loads = engine_->warehouse().result(load_totals);
     loads_.combine(loads);
     totals_.driving += loads.work;
@@ -310,7 +310,7 @@ class SimulationOf : public Simulation
   {
     if (balance_interval_ == 0 || communicator_.size() == 1 || n_steps_ == 0 || n_steps_ % balance_interval_ != 0)
       return;
-    const auto watch = executor_->watch("dealing patches anew");
+    const auto watch = executor_->watch("redistributing patches");
     const std::vector<double> own = profiler_->take_patch_costs();
     std::vector<double> costs(own.size(), 0.0);
     for (const auto& bytes : communicator_.gather(std::as_bytes(std::span(own)))) {
@@ -325,10 +325,10 @@ class SimulationOf : public Simulation
     const auto deal = runtime::better_deal(layout, costs, least_gain);
     if (!deal) return;
     rebalances_.push_back({n_steps_, deal->imbalance_before, deal->imbalance_expected, 0});
-    deal_anew(deal->ranks);
+    redistribute(deal->ranks);
   }
 
-  void deal_anew(const std::vector<int>& ranks)
+  void redistribute(const std::vector<int>& ranks)
   {
     lost_->share(engine_->layout(), communicator_);
     runtime::PatchLayout layout = engine_->layout();
@@ -357,7 +357,7 @@ std::vector<ContactForce> Simulation::take_contact_forces()
   const double span = time_ - contact_since_;
   std::vector<ContactForce> forces(scene_.materials.size());
   for (std::size_t m = 0; m < forces.size() && span > 0; ++m) {
-    forces[m] = {contact_.by_group[m].linear / span, contact_.by_group[m].angular / span};
+    forces[m] = {contact_.by_material[m].linear / span, contact_.by_material[m].angular / span};
   }
   contact_ = {};
   contact_since_ = time_;

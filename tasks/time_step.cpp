@@ -42,15 +42,15 @@ std::vector<runtime::TaskDeclaration> time_step(const Method<D>& method,
   std::vector<runtime::TaskDeclaration> step;
   step.push_back(hear_hosts());
   step.push_back(particles_to_grid(method));
-  if (!method.pressed_groups.empty()) {
+  if (!method.pressed_materials.empty()) {
     for (runtime::TaskDeclaration& phase : press(method)) step.push_back(std::move(phase));
   }
   if (method.scene.has_body_force()) step.push_back(body_force(method));
-  if (!method.deformable_groups.empty()) step.push_back(accelerate_nodes(method));
+  if (!method.deformable_materials.empty()) step.push_back(accelerate_nodes(method));
   if (!method.rigid_bodies.empty()) step.push_back(accelerate_rigid_bodies(method));
-  for (const RigidBody& body : method.rigid_bodies) step.push_back(rigid_nodes_before_contact(method, body.group));
+  for (const RigidBody& body : method.rigid_bodies) step.push_back(rigid_nodes_before_contact(method, body.material));
   if (method.contacts.has_regression()) {
-    for (runtime::TaskDeclaration& phase : part_materials(method)) step.push_back(std::move(phase));
+    for (runtime::TaskDeclaration& phase : contact_planes(method)) step.push_back(std::move(phase));
   }
   if (!method.rigid_bodies.empty()) {
     step.push_back(gather_rigid_contact(method));
@@ -58,12 +58,12 @@ std::vector<runtime::TaskDeclaration> time_step(const Method<D>& method,
   }
   step.push_back(contact(method));
   step.push_back(walls(method));
-  if (!method.pressed_groups.empty()) step.push_back(account_for_pressure(method));
+  if (!method.pressed_materials.empty()) step.push_back(account_for_pressure(method));
   if (!method.rigid_bodies.empty()) step.push_back(move_rigid_bodies(method));
-  for (const RigidBody& body : method.rigid_bodies) step.push_back(move_rigid_particles(method, body.group));
-  if (!method.deformable_groups.empty()) step.push_back(grid_to_particles(method));
+  for (const RigidBody& body : method.rigid_bodies) step.push_back(move_rigid_particles(method, body.material));
+  if (!method.deformable_materials.empty()) step.push_back(grid_to_particles(method));
   if (method.scene.has_body_force()) step.push_back(work_of_body_force(method));
-  for (const int material : method.deformable_groups) step.push_back(update_stress(method, material));
+  for (const int material : method.deformable_materials) step.push_back(update_stress(method, material));
   step.push_back(runtime::migration(particle::position<D>, step_totals, std::move(accepted),
                                     method.scene.is_periodic() ? &particle::laps : nullptr));
   return step;
@@ -77,7 +77,7 @@ runtime::HostData host_data(const Method<D>& method)
                           &particle::volume, &particle::stress<D>, &particle::viscous_pressure, &rigid_states},
                          {&step_totals, &grid_totals, &contact_impulses, &host_requests}};
   for (const SceneMaterial& material : method.materials) add_state_of(material.model, data);
-  if (!method.pressed_groups.empty()) data.results.push_back(&load_totals);
+  if (!method.pressed_materials.empty()) data.results.push_back(&load_totals);
   if (method.scene.is_periodic()) data.state.push_back(&particle::laps);
   if (method.transfer == Transfer::affine) data.state.push_back(&particle::velocity_gradient<D>);
   if (method.scene.has_body_force()) data.results.push_back(&body_force_work);

@@ -11,15 +11,15 @@
 #include "tools/console.hpp"
 #include "tools/errors.hpp"
 #include "tools/machine_room.hpp"
+#include "tools/report_failure.hpp"
 #include "tools/run/signals.hpp"
-#include "tools/settle.hpp"
 
 namespace
 {
 
 using tamp::runtime::Communicator;
 using tamp::tools::ExitCode;
-using tamp::tools::settle;
+using tamp::tools::report_failure;
 
 /// Only these commands share their work over ranks; any other is the first rank's alone.
 bool is_for_all_ranks(int argc, char** argv)
@@ -34,7 +34,7 @@ Communicator ranks_of(int argc, char** argv)
   return is_for_all_ranks(argc, argv) ? Communicator::world() : Communicator{};
 }
 
-int run_or_settle(int argc, char** argv)
+int run_or_report(int argc, char** argv)
 {
   const Communicator ranks = ranks_of(argc, argv);
   if (ranks.size() == 1 && !Communicator::world().is_first()) return 0;
@@ -43,19 +43,19 @@ int run_or_settle(int argc, char** argv)
     tamp::tools::flush_out();
     return code;
   } catch (const tamp::tools::Interrupted& stop) {
-    return settle(stop.what(), ExitCode{static_cast<int>(ExitCode::signal) + stop.signal}, ranks);
+    return report_failure(stop.what(), ExitCode{static_cast<int>(ExitCode::signal) + stop.signal}, ranks);
   } catch (const tamp::tools::InputError& error) {
-    return settle(error.what(), ExitCode::bad_input, ranks);
+    return report_failure(error.what(), ExitCode::bad_input, ranks);
   } catch (const tamp::tasks::SimulationError& error) {
-    return settle(error.what(), ExitCode::bad_simulation, ranks);
+    return report_failure(error.what(), ExitCode::bad_simulation, ranks);
   } catch (const tamp::runtime::FileError& error) {
-    return settle(error.what(), ExitCode::no_resources, ranks);
+    return report_failure(error.what(), ExitCode::no_resources, ranks);
   } catch (const tamp::runtime::OtherRankFailed&) {
-    return settle("", ExitCode::no_resources, ranks);
+    return report_failure("", ExitCode::no_resources, ranks);
   } catch (const std::bad_alloc&) {
-    return settle("out of memory", ExitCode::no_resources, ranks);
+    return report_failure("out of memory", ExitCode::no_resources, ranks);
   } catch (const std::exception& error) {
-    return settle(error.what(), ExitCode::no_resources, ranks);
+    return report_failure(error.what(), ExitCode::no_resources, ranks);
   }
 }
 
@@ -68,8 +68,8 @@ int main(int argc, char** argv)
   tamp::runtime::hdf5::close_nothing_at_exit();
   try {
     const tamp::runtime::MpiSession session(argc, argv);
-    return run_or_settle(argc, argv);
+    return run_or_report(argc, argv);
   } catch (const std::exception& error) {
-    return settle(error.what(), ExitCode::no_resources, Communicator{});
+    return report_failure(error.what(), ExitCode::no_resources, Communicator{});
   }
 }

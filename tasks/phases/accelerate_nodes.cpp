@@ -19,8 +19,8 @@ namespace
 
 /// What a node on mirroring walls is left with when they take up what presses on them at rest: without it the Coriolis
 /// term would turn a push on the floor into one along it.
-void take_up(const std::array<std::array<bool, 2>, 3>& mirrors, const runtime::Grid& grid, const Index& node,
-             const Vector<3>& frame_acceleration, Vector<3>& velocity, Vector<3>& acceleration)
+void hold_at_walls(const std::array<std::array<bool, 2>, 3>& mirrors, const runtime::Grid& grid, const Index& node,
+                   const Vector<3>& frame_acceleration, Vector<3>& velocity, Vector<3>& acceleration)
 {
   for (std::size_t k = 0; k < 3; ++k) {
     if (!(mirrors[k][0] && node[k] == 0) && !(mirrors[k][1] && node[k] == grid.n_cells[k])) continue;
@@ -38,11 +38,11 @@ Vector<D> velocity_change(const Method<D>& method, const TaskContext& at, const 
   Vector<D> acceleration = by_force + method.gravity;
   if constexpr (D == 3) {
     if (method.centrifuge) {
-      const Vector<3> x = place_of<3>(at.layout.grid(), node);
+      const Vector<3> x = node_position<3>(at.layout.grid(), node);
       const double time = at.step.time;
       Vector<3> free_velocity = velocity;
-      take_up(method.mirrors, at.layout.grid(), node, method.centrifuge->acceleration(x, Vector<3>::Zero(), time),
-              free_velocity, acceleration);
+      hold_at_walls(method.mirrors, at.layout.grid(), node, method.centrifuge->acceleration(x, Vector<3>::Zero(), time),
+                    free_velocity, acceleration);
       return method.centrifuge->velocity_change(x, free_velocity, acceleration, time, kick);
     }
   }
@@ -58,7 +58,7 @@ template <int D>
 runtime::TaskDeclaration accelerate_nodes(const Method<D>& method)
 {
   return runtime::task("accelerate nodes")
-      .over_patches_and_groups(method.deformable_groups)
+      .over_patches_and_groups(method.deformable_materials)
       .sparse()
       .reads(node::sums<D>.halo(method.halo))
       .computes(node::motion<D>.halo(method.halo), node::inverse_mass.halo(method.halo))

@@ -30,9 +30,9 @@ struct NodeImpulses {
   /// leapfrog are counted. Forces that contact balances then take nothing, however hard they press.
   double energy = 0;
 
-  void add(std::size_t group, const Vector<D>& value, const Vector<D>& before, const Vector<D>& after)
+  void add(std::size_t material, const Vector<D>& value, const Vector<D>& before, const Vector<D>& after)
   {
-    impulse[group] = value;
+    impulse[material] = value;
     energy -= 0.5 * value.dot(before + after);
   }
 };
@@ -40,15 +40,15 @@ struct NodeImpulses {
 /// Hands on the velocities after the impulses, at the node `i` at `x`; a rigid body's stays, and it takes what the
 /// others together gave.
 template <int D>
-NodeImpulses<D> give_back(const Method<D>& method, const NodeOfGroups<D>& node, const RigidBody* rigid,
+NodeImpulses<D> give_back(const Method<D>& method, const NodeOfMaterials<D>& node, const RigidBody* rigid,
                           const RigidStates& at_step_start, const PerGroup<GridView<const NodeSums<D>>>& sums,
                           const PerGroup<GridView<NodeMotion<D>>>& motions, const Index& i, const Vector<D>& x)
 {
   const auto at_start = [&](std::size_t g) { return Vector<D>(sums[g][i].momentum() / sums[g][i].mass()); };
   NodeImpulses<D> done;
   Vector<D> given = Vector<D>::Zero();
-  for (const int group : method.deformable_groups) {
-    const auto g = static_cast<std::size_t>(group);
+  for (const int material : method.deformable_materials) {
+    const auto g = static_cast<std::size_t>(material);
     if (!(node.mass[g] > method.least_node_mass)) continue;
     NodeMotion<D>& motion = motions[g][i];
     const Vector<D> change = node.velocity[g] - motion.velocity();
@@ -57,25 +57,25 @@ NodeImpulses<D> give_back(const Method<D>& method, const NodeOfGroups<D>& node, 
     motion.set(node.velocity[g], motion.velocity_change() + change);
   }
   if (rigid == nullptr) return done;
-  const auto g = static_cast<std::size_t>(rigid->group);
+  const auto g = static_cast<std::size_t>(rigid->material);
   const components::RigidMotion before = components::motion_of(rigid->properties, at_step_start.of(*rigid));
   done.add(g, -given, before.at(in_space<D>(x)).template head<D>(), node.velocity[g]);
   return done;
 }
 
 template <int D>
-void add_impulses(const Method<D>& method, const NodeOfGroups<D>& node, const RigidStates& at_step_start,
+void add_impulses(const Method<D>& method, const NodeOfMaterials<D>& node, const RigidStates& at_step_start,
                   const NodeImpulses<D>& done, const Vector<D>& x, ContactImpulses& impulses)
 {
   for (std::size_t g = 0; g < method.materials.size(); ++g) {
     if (!(node.mass[g] > method.least_node_mass)) continue;
-    impulses.by_group[g].linear += in_space<D>(done.impulse[g]);
+    impulses.by_material[g].linear += in_space<D>(done.impulse[g]);
   }
   for (const RigidBody& body : method.rigid_bodies) {
-    const auto g = static_cast<std::size_t>(body.group);
+    const auto g = static_cast<std::size_t>(body.material);
     if (!(node.mass[g] > method.least_node_mass)) continue;
     const Eigen::Vector3d arm = in_space<D>(x) - at_step_start.of(body).centre;
-    impulses.by_group[g].angular += arm.cross(in_space<D>(done.impulse[g]));
+    impulses.by_material[g].angular += arm.cross(in_space<D>(done.impulse[g]));
   }
 }
 
@@ -99,18 +99,18 @@ runtime::TaskDeclaration contact(const Method<D>& method)
         const std::size_t n_groups = sums.size();
         const components::ContactThresholds thresholds = contact_thresholds(method);
         const runtime::IndexBox counted = counted_nodes(method, at);
-        NodeOfGroups<D> node;
+        NodeOfMaterials<D> node;
         for_each(sums[0].box(), [&](const Index& i) {
           if (node.gather(method, sums, motions, i) < 2) return;
           const RigidBody* rigid = node.rigid_body(method, at_step_start);
           if (rigid != nullptr) {
-            node.mass[static_cast<std::size_t>(rigid->group)] = std::numeric_limits<double>::infinity();
+            node.mass[static_cast<std::size_t>(rigid->material)] = std::numeric_limits<double>::infinity();
           }
           const auto outcome = components::resolve_contact<D>(
               std::span(node.mass.data(), n_groups), std::span(node.surface_gradient.data(), n_groups), method.contacts,
               thresholds, std::span(node.velocity.data(), n_groups));
           if (outcome.approach_speed == 0) return;
-          const Vector<D> x = place_of<D>(at.layout.grid(), i);
+          const Vector<D> x = node_position<D>(at.layout.grid(), i);
           const NodeImpulses<D> done = give_back(method, node, rigid, at_step_start, sums, motions, i, x);
           // Nodes on a seam are worked on by every patch around it, and counted by one.
           if (!counted.contains(i)) return;

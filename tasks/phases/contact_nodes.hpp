@@ -21,7 +21,7 @@ components::ContactThresholds contact_thresholds(const Method<D>& method)
 
 /// The materials at one node, side by side.
 template <int D>
-struct NodeOfGroups {
+struct NodeOfMaterials {
   static constexpr int max_groups = runtime::PerGroup<int>::max_groups;
 
   std::array<double, max_groups> mass;
@@ -49,11 +49,11 @@ struct NodeOfGroups {
   {
     const RigidBody* found = nullptr;
     for (const RigidBody& body : method.rigid_bodies) {
-      if (!(mass[static_cast<std::size_t>(body.group)] > method.least_node_mass)) continue;
+      if (!(mass[static_cast<std::size_t>(body.material)] > method.least_node_mass)) continue;
       if (found != nullptr) {
         const Eigen::Vector3d& centre = states.of(body).centre;
         throw SimulationError("two rigid bodies meet; one of them must be deformable",
-                              method.materials[static_cast<std::size_t>(body.group)].name, -1,
+                              method.materials[static_cast<std::size_t>(body.material)].name, -1,
                               {centre.begin(), centre.begin() + D});
       }
       found = &body;

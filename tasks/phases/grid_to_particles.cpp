@@ -25,7 +25,7 @@ runtime::TaskDeclaration grid_to_particles(const Method<D>& method)
 {
   auto task =
       runtime::task("grid to particles")
-          .over_patches_and_groups(method.deformable_groups)
+          .over_patches_and_groups(method.deformable_materials)
           .sparse()
           .reads(node::inverse_mass.halo(method.halo), node::motion<D>.halo(method.halo), particle::id.previous(),
                  particle::mass.previous(), particle::position<D>.previous(), particle::velocity<D>.previous(),

@@ -29,7 +29,7 @@ runtime::TaskDeclaration accelerate_rigid_bodies(const Method<D>& method)
           if (body.drive == nullptr) continue;
           const Eigen::Vector3d undriven = state.momentum;
           state = driven(body.properties, *body.drive, state, at.step.time, at.step.size);
-          free.driving[static_cast<std::size_t>(body.group)] = state.momentum - undriven;
+          free.driving[static_cast<std::size_t>(body.material)] = state.momentum - undriven;
         }
       });
 }
@@ -46,9 +46,9 @@ runtime::TaskDeclaration move_rigid_bodies(const Method<D>& method)
         const ContactImpulses& impulses = data[contact_impulses];
         RigidStates& after = data[rigid_states];
         for (const RigidBody& body : method.rigid_bodies) {
-          const auto g = static_cast<std::size_t>(body.group);
-          after.of(body) = moved(body.properties, free.of(body), impulses.by_group[g], body.held(), at.step.size);
-          after.driving[g] = free.driving[g] - impulses.by_group[g].linear;
+          const auto g = static_cast<std::size_t>(body.material);
+          after.of(body) = moved(body.properties, free.of(body), impulses.by_material[g], body.held(), at.step.size);
+          after.driving[g] = free.driving[g] - impulses.by_material[g].linear;
         }
       });
 }
@@ -65,18 +65,18 @@ void add_totals(const TaskContext& at, const RigidBody& body, const RigidStates&
   const Eigen::Vector3d p = before.of(body).momentum, q = after.of(body).momentum;
   for (int k = 0; k < 3; ++k) grid.impulse[static_cast<std::size_t>(k)] += q[k] - p[k];
   if (body.drive == nullptr) return;
-  totals.driving += after.driving[static_cast<std::size_t>(body.group)].dot(p + q) / (2 * body.properties.mass);
+  totals.driving += after.driving[static_cast<std::size_t>(body.material)].dot(p + q) / (2 * body.properties.mass);
 }
 
 }  // namespace
 
 /// A rigid body's particles keep their places in it.
 template <int D>
-runtime::TaskDeclaration move_rigid_particles(const Method<D>& method, int group)
+runtime::TaskDeclaration move_rigid_particles(const Method<D>& method, int material)
 {
-  const std::string& name = method.materials[static_cast<std::size_t>(group)].name;
+  const std::string& name = method.materials[static_cast<std::size_t>(material)].name;
   return runtime::task("move rigid particles: " + name)
-      .over_patches_and_groups({group})
+      .over_patches_and_groups({material})
       .reads(rigid_states.previous(), rigid_states, particle::id.previous(), particle::reference_position<D>.previous(),
              particle::volume.previous())
       .computes(particle::position<D>, particle::velocity<D>, particle::deformation_gradient<D>, particle::volume,

@@ -40,7 +40,7 @@ runtime::TaskDeclaration rigid_nodes_before_contact(const Method<D>& method, int
 /// Contact normals by regression: planes are laid between the particles of two materials, which then face each other
 /// along the planes' normals where they touch, and nowhere else.
 template <int D>
-std::vector<runtime::TaskDeclaration> part_materials(const Method<D>& method);
+std::vector<runtime::TaskDeclaration> contact_planes(const Method<D>& method);
 
 /// What the contact of rigid bodies asks of their motion.
 template <int D>

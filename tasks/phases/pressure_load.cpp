@@ -18,8 +18,9 @@ template <int D>
 class Pressures
 {
  public:
-  Pressures(const Method<D>& method, int group, double time)
-      : size_(method.cell_size / method.scene.particles_per_axis_of(group)), depth_(method.scene.pressed_depth(group))
+  Pressures(const Method<D>& method, int material, double time)
+      : size_(method.cell_size / method.scene.particles_per_axis_of(material)),
+        depth_(method.scene.pressed_depth(material))
   {
     for (const SceneBody& body : method.scene.bodies) {
       const bool is_pressed = body.pressure.has_value();
@@ -50,7 +51,7 @@ template <int D>
 runtime::TaskDeclaration gather_pressure(const Method<D>& method)
 {
   return runtime::task("gather pressure")
-      .over_patches_and_groups(method.pressed_groups)
+      .over_patches_and_groups(method.pressed_materials)
       .sparse()
       .reads(particle::body.previous(), particle::reference_position<D>.previous(), particle::position<D>.previous(),
              particle::mass.previous())
@@ -73,7 +74,7 @@ template <int D>
 runtime::TaskDeclaration press_nodes(const Method<D>& method)
 {
   return runtime::task("press nodes")
-      .over_patches_and_groups(method.pressed_groups)
+      .over_patches_and_groups(method.pressed_materials)
       .sparse()
       .reads(node::pressure_sums<D>.halo(method.halo))
       .updates(node::sums<D>.halo(method.halo))
@@ -102,7 +103,7 @@ template <int D>
 runtime::TaskDeclaration account_for_pressure(const Method<D>& method)
 {
   return runtime::task("account for pressure")
-      .over_patches_and_groups(method.pressed_groups)
+      .over_patches_and_groups(method.pressed_materials)
       .sparse()
       .reads(node::pressure_sums<D>.halo(method.halo), node::sums<D>.halo(method.halo),
              node::motion<D>.halo(method.halo))

@@ -24,32 +24,32 @@ namespace
 
 /// What the materials at a node ask of the rigid body there.
 template <int D>
-void add_node(const Method<D>& method, const RigidBody& body, const RigidStates& states, const NodeOfGroups<D>& node,
+void add_node(const Method<D>& method, const RigidBody& body, const RigidStates& states, const NodeOfMaterials<D>& node,
               const Vector<D>& x, RigidCouplings& couplings)
 {
-  const auto self = static_cast<std::size_t>(body.group);
-  for (const int g : method.deformable_groups) {
+  const auto self = static_cast<std::size_t>(body.material);
+  for (const int g : method.deformable_materials) {
     const auto other = static_cast<std::size_t>(g);
     if (!(node.mass[other] > method.least_node_mass)) continue;
-    const Vector<D> outward = components::outward_of<D>(method.contacts, body.group, g, node.surface_gradient[self],
+    const Vector<D> outward = components::outward_of<D>(method.contacts, body.material, g, node.surface_gradient[self],
                                                         node.surface_gradient[other]);
     const double length = outward.norm();
     if (!(length > contact_thresholds(method).surface_gradient)) continue;
     const NodeContact contact = components::node_contact(
-        node.mass[other], in_space<D>(outward / length), method.contacts.friction(body.group, g),
+        node.mass[other], in_space<D>(outward / length), method.contacts.friction(body.material, g),
         in_space<D>(node.velocity[self]), in_space<D>(node.velocity[other]));
-    couplings.by_group[self].add(contact, in_space<D>(x) - states.of(body).centre);
+    couplings.by_material[self].add(contact, in_space<D>(x) - states.of(body).centre);
   }
 }
 
 }  // namespace
 
 template <int D>
-runtime::TaskDeclaration rigid_nodes_before_contact(const Method<D>& method, int group)
+runtime::TaskDeclaration rigid_nodes_before_contact(const Method<D>& method, int material)
 {
-  const std::string& name = method.materials[static_cast<std::size_t>(group)].name;
+  const std::string& name = method.materials[static_cast<std::size_t>(material)].name;
   return runtime::task("rigid nodes before contact: " + name)
-      .over_patches_and_groups({group})
+      .over_patches_and_groups({material})
       .sparse()
       .reads(free_rigid_states, node::sums<D>.halo(method.halo))
       .computes(node::motion<D>.halo(method.halo))
@@ -61,7 +61,8 @@ runtime::TaskDeclaration rigid_nodes_before_contact(const Method<D>& method, int
         for_each(motion.box(), [&](const Index& i) {
           motion[i] = {};
           if (!(sums[i].mass() > 0)) return;
-          motion[i].set(free.at(in_space<D>(place_of<D>(at.layout.grid(), i))).template head<D>(), Vector<D>::Zero());
+          motion[i].set(free.at(in_space<D>(node_position<D>(at.layout.grid(), i))).template head<D>(),
+                        Vector<D>::Zero());
         });
       });
 }
@@ -82,11 +83,11 @@ runtime::TaskDeclaration gather_rigid_contact(const Method<D>& method)
         const auto motions = data[node::motion<D>];
         const RigidStates& states = data[rigid_states.previous()];
         RigidCouplings& couplings = data[rigid_couplings];
-        NodeOfGroups<D> node;
+        NodeOfMaterials<D> node;
         for_each(at.layout.owned_nodes(at.patch), [&](const Index& i) {
           if (node.gather(method, sums, motions, i) < 2) return;
           if (const RigidBody* body = node.rigid_body(method, states)) {
-            add_node(method, *body, states, node, place_of<D>(at.layout.grid(), i), couplings);
+            add_node(method, *body, states, node, node_position<D>(at.layout.grid(), i), couplings);
           }
         });
       });
@@ -107,12 +108,12 @@ runtime::TaskDeclaration rigid_nodes_after_contact(const Method<D>& method)
         const auto sums = data[node::sums<D>];
         const auto motions = data[node::motion<D>];
         for (const RigidBody& body : method.rigid_bodies) {
-          const auto g = static_cast<std::size_t>(body.group);
+          const auto g = static_cast<std::size_t>(body.material);
           const components::RigidMotion motion =
-              couplings.by_group[g].solve(body.properties, free.of(body), body.held());
+              couplings.by_material[g].solve(body.properties, free.of(body), body.held());
           for_each(motions[g].box(), [&](const Index& i) {
             if (!(sums[g][i].mass() > 0)) return;
-            const Vector<D> velocity = motion.at(in_space<D>(place_of<D>(at.layout.grid(), i))).template head<D>();
+            const Vector<D> velocity = motion.at(in_space<D>(node_position<D>(at.layout.grid(), i))).template head<D>();
             motions[g][i].set(velocity, Vector<D>::Zero());
           });
         }

@@ -96,28 +96,28 @@ void account(const Method<D>& method, double dt, const Data& data, std::size_t f
 
 /// Throws SimulationError for the first of `n` particles whose stress or velocity is not finite.
 template <int D, class Data>
-void check_finite(const Method<D>& method, int group, const Data& data, std::size_t first, std::size_t n)
+void check_finite(const Method<D>& method, int material, const Data& data, std::size_t first, std::size_t n)
 {
   const auto stress = data[particle::stress<D>];
   const auto velocity = data[particle::velocity<D>];
   for (std::size_t p = first; p < first + n; ++p) {
     if (stress[p].allFinite() && velocity[p].allFinite()) continue;
     const Vector<D>& x = data[particle::position<D>][p];
-    throw SimulationError("stress or velocity is not finite", method.materials[static_cast<std::size_t>(group)].name,
+    throw SimulationError("stress or velocity is not finite", method.materials[static_cast<std::size_t>(material)].name,
                           data[particle::id.previous()][p], {x.begin(), x.end()});
   }
 }
 
-/// What is known of the particle that a batch of a group failed with.
+/// What is known of the particle that a batch of a material failed with.
 template <int D, class Model, class Data>
-FailedUpdate failed_update(const Model& model, int group, std::size_t p, components::UpdateFault fault,
+FailedUpdate failed_update(const Model& model, int material, std::size_t p, components::UpdateFault fault,
                            const Data& data)
 {
   const SymmetricTensor<D>& strain = data[particle::strain_increment<D>][p];
   const SymmetricTensor<D> shape = deviator(strain);
   const components::Invariants stress = components::invariants(data[particle::stress<D>][p]);
   FailedUpdate failed{.particle = data[particle::id.previous()][p],
-                      .material = group,
+                      .material = material,
                       .fault = fault,
                       .pressure = stress.pressure,
                       .q = stress.q(),
@@ -154,11 +154,11 @@ void update_batches(const Method<D>& method, const Model& model, const TaskConte
 }
 
 template <int D, class Model>
-runtime::TaskDeclaration update_of(const Method<D>& method, int group, const Model& model)
+runtime::TaskDeclaration update_of(const Method<D>& method, int material, const Model& model)
 {
   auto task =
-      runtime::task("update stress: " + method.materials[static_cast<std::size_t>(group)].name)
-          .over_patches_and_groups({group})
+      runtime::task("update stress: " + method.materials[static_cast<std::size_t>(material)].name)
+          .over_patches_and_groups({material})
           .reads(particle::id.previous(), particle::mass.previous(), particle::position<D>, particle::velocity<D>,
                  particle::deformation_gradient<D>, particle::volume.previous(), particle::volume,
                  particle::viscous_pressure.previous(), particle::own_stiffness, particle::strain_increment<D>)

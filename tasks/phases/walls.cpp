@@ -17,7 +17,7 @@ using runtime::TaskContext;
 namespace
 {
 
-/// What the particles of one group take from the nodes that this patch counts.
+/// What the particles of one material take from the nodes that this patch counts.
 template <int D>
 void add_impulse(const Method<D>& method, const TaskContext& at, const GridView<const NodeSums<D>>& sums,
                  const GridView<NodeMotion<D>>& motion, GridTotals& totals)

@@ -74,7 +74,7 @@ Eigen::Vector3d BodySums::spin() const
   return inertia.inverse() * (angular_momentum - position.cross(momentum) / mass);
 }
 
-Eigen::Vector3d BodySums::place_of(const Eigen::Vector3d& reference) const
+Eigen::Vector3d BodySums::position_of(const Eigen::Vector3d& reference) const
 {
   return position / mass + rotation() * (reference - reference_position / mass);
 }

@@ -31,7 +31,7 @@ struct BodySums {
   /// Angular velocity of the rigid motion that has the body's angular momentum about its centre [rad/s].
   Eigen::Vector3d spin() const;
   /// Where the body carries a point that was at `reference` at the start [m].
-  Eigen::Vector3d place_of(const Eigen::Vector3d& reference) const;
+  Eigen::Vector3d position_of(const Eigen::Vector3d& reference) const;
 };
 
 BodySums sums_of(const components::MassProperties& body, const components::RigidState& state);

@@ -120,10 +120,10 @@ runtime::TaskDeclaration with_state(Task task, const Body& body)
 }
 
 template <int D, class Model>
-runtime::TaskDeclaration report_of(const Method<D>& method, int group, const Model& model)
+runtime::TaskDeclaration report_of(const Method<D>& method, int material, const Model& model)
 {
-  auto task = runtime::task("report: " + method.materials[static_cast<std::size_t>(group)].name)
-                  .over_patches_and_groups({group})
+  auto task = runtime::task("report: " + method.materials[static_cast<std::size_t>(material)].name)
+                  .over_patches_and_groups({material})
                   .reads(rigid_states.previous(), particle::body.previous(), particle::mass.previous(),
                          particle::position<D>.previous(), particle::reference_position<D>.previous(),
                          particle::velocity<D>.previous(), particle::stress<D>.previous())
@@ -146,7 +146,7 @@ class Noses
   {
     for (std::size_t b = 0; b < scene.bodies.size(); ++b) {
       const SceneBody& body = scene.bodies[b];
-      if (body.axis) places_.push_back(report.bodies[b].place_of(Eigen::Vector3d(body.axis->nose.data())));
+      if (body.axis) places_.push_back(report.bodies[b].position_of(Eigen::Vector3d(body.axis->nose.data())));
     }
   }
 
@@ -163,10 +163,10 @@ class Noses
 
 /// Waits for the report of the bodies, which tells where their noses are.
 template <int D, class Model>
-runtime::TaskDeclaration report_near_noses(const Method<D>& method, int group, const Model& model)
+runtime::TaskDeclaration report_near_noses(const Method<D>& method, int material, const Model& model)
 {
-  auto task = runtime::task("report near noses: " + method.materials[static_cast<std::size_t>(group)].name)
-                  .over_patches_and_groups({group})
+  auto task = runtime::task("report near noses: " + method.materials[static_cast<std::size_t>(material)].name)
+                  .over_patches_and_groups({material})
                   .reads(particle_report, particle::position<D>.previous(), particle::stress<D>.previous())
                   .reduces(nose_report);
   return with_state<Model>(std::move(task), [&method, &model](const TaskContext& at, auto data) {
@@ -255,14 +255,14 @@ std::vector<runtime::TaskDeclaration> report_tasks(const Method<D>& method)
 {
   std::vector<runtime::TaskDeclaration> tasks;
   const auto add_for_all = [&](const auto& report) {
-    for (int group = 0; group < static_cast<int>(method.materials.size()); ++group) {
-      const MaterialModel& any = method.materials[static_cast<std::size_t>(group)].model;
-      tasks.push_back(std::visit([&](const auto& model) { return report(group, model); }, any));
+    for (int material = 0; material < static_cast<int>(method.materials.size()); ++material) {
+      const MaterialModel& any = method.materials[static_cast<std::size_t>(material)].model;
+      tasks.push_back(std::visit([&](const auto& model) { return report(material, model); }, any));
     }
   };
-  add_for_all([&](int group, const auto& model) { return report_of(method, group, model); });
+  add_for_all([&](int material, const auto& model) { return report_of(method, material, model); });
   if (method.scene.has_nose()) {
-    add_for_all([&](int group, const auto& model) { return report_near_noses(method, group, model); });
+    add_for_all([&](int material, const auto& model) { return report_near_noses(method, material, model); });
   }
   return tasks;
 }

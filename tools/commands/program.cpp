@@ -4,7 +4,7 @@
 
 #include "tools/commands/commands.hpp"
 #include "tools/console.hpp"
-#include "tools/settle.hpp"
+#include "tools/report_failure.hpp"
 #include "tools/version.hpp"
 
 namespace tamp::tools
@@ -35,7 +35,7 @@ int run_program(int argc, char** argv, const runtime::Communicator& ranks)
     write_out(text.str());
     return code;
   } catch (const CLI::ParseError& error) {
-    return settle(error.what(), ExitCode::bad_input, ranks);
+    return report_failure(error.what(), ExitCode::bad_input, ranks);
   }
   return static_cast<int>(ExitCode::done);
 }

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "runtime/storage/checkpoints/checkpoint.hpp"
-#include "tools/run/moments.hpp"
+#include "tools/run/output_times.hpp"
 #include "tools/scene/read_scene.hpp"
 
 namespace tamp::tools
@@ -43,7 +43,7 @@ class CheckpointClock
   using Clock = std::chrono::steady_clock;
 
   CheckpointPolicy policy_;
-  Every simulated_;
+  OutputTimes simulated_;
   Clock::time_point last_ = Clock::now();
 };
 

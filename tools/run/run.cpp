@@ -19,7 +19,7 @@
 #include "tools/console.hpp"
 #include "tools/machine_room.hpp"
 #include "tools/run/forecast.hpp"
-#include "tools/run/moments.hpp"
+#include "tools/run/output_times.hpp"
 #include "tools/run/progress.hpp"
 #include "tools/run/run_folder.hpp"
 #include "tools/run/run_history.hpp"
@@ -104,8 +104,8 @@ class Runner
         signals_(*executor_),
         simulation_(simulation_of(checked.scene, executor_, options)),
         history_(*simulation_),
-        fields_moment_(checked.scene.output.fields_interval),
-        history_moment_(checked.scene.output.history_interval),
+        field_times_(checked.scene.output.fields_interval),
+        history_times_(checked.scene.output.history_interval),
         checkpoint_clock_(options.checkpoints),
         end_(std::min(checked.scene.time.end, options.until))
   {
@@ -185,8 +185,8 @@ class Runner
     due_.rows = history_.extent();
     due_.n_fields = fields_->n_steps();
     history_.set_given_from_outside(due_.given_from_outside);
-    history_moment_.skip_to(simulation_->time());
-    fields_moment_.skip_to(simulation_->time());
+    history_times_.skip_to(simulation_->time());
+    field_times_.skip_to(simulation_->time());
     checkpoint_clock_.skip_to(simulation_->time());
     if (options_.quiet || !is_first()) return;
     print_out("going on from {}, step {}, time {:.6g} s\n", found.file.string(), restarted_at_, simulation_->time());
@@ -223,14 +223,14 @@ class Runner
 
   void write_due()
   {
-    if (history_moment_.due(simulation_->time())) {
+    if (history_times_.due(simulation_->time())) {
       write_history();
       due_.history = simulation_->n_steps();
       due_.rows = history_.extent();
       due_.given_from_outside = history_.given_from_outside();
       expect_energy();
     }
-    if (fields_moment_.due(simulation_->time())) {
+    if (field_times_.due(simulation_->time())) {
       write_fields();
       due_.fields = simulation_->n_steps();
       ++due_.n_fields;
@@ -351,7 +351,7 @@ class Runner
       runtime::write_whole_file(options_.folder / "summary.json", told.dump(2) + "\n");
     });
     if (options_.quiet || !is_first()) return;
-    print_out("{}\n{}  written to {}\n", runtime::to_text(json, 10), told_in_short(told), options_.folder.string());
+    print_out("{}\n{}  written to {}\n", runtime::to_text(json, 10), summary_text(told), options_.folder.string());
   }
 
   const CheckedScene& checked_;
@@ -364,8 +364,8 @@ class Runner
   std::unique_ptr<tasks::Simulation> simulation_;
   RunHistory history_;
   std::optional<runtime::FieldFile> fields_;
-  Every fields_moment_;
-  Every history_moment_;
+  OutputTimes field_times_;
+  OutputTimes history_times_;
   CheckpointClock checkpoint_clock_;
   double end_;
   /// Written because it was due: what a stopped run wrote later, it wrote as it left.

@@ -161,8 +161,8 @@ void RunHistory::add_body_columns(std::size_t body)
   }
   if (given.axis) {
     const Eigen::Vector3d nose(given.axis->nose.data()), tail(given.axis->tail.data());
-    add_vector(given.name + ".nose", "m", [sums, nose] { return sums().place_of(nose); });
-    add_vector(given.name + ".tail", "m", [sums, tail] { return sums().place_of(tail); });
+    add_vector(given.name + ".nose", "m", [sums, nose] { return sums().position_of(nose); });
+    add_vector(given.name + ".tail", "m", [sums, tail] { return sums().position_of(tail); });
     columns_.push_back({given.name + ".axis_angle[deg]", [this, body] { return axis_angle(body); }});
   }
   // Nothing is known of a body that has left; the sign of what is not a number would be chance.

@@ -147,7 +147,7 @@ Json run_summary(tasks::Simulation& simulation, const RunHistory& history, const
             {"failed_updates", updates.failures}}}};
 }
 
-std::string told_in_short(const Json& summary)
+std::string summary_text(const Json& summary)
 {
   std::string text =
       fmt::format("{}: {} after {} steps, {:.6g} s simulated in {:.1f} s\n", summary["scene"].get<std::string>(),

@@ -31,6 +31,6 @@ struct RunOutcome {
 nlohmann::ordered_json run_summary(tasks::Simulation& simulation, const RunHistory& history, const RunOutcome& outcome);
 
 /// A few lines of it for a person.
-std::string told_in_short(const nlohmann::ordered_json& summary);
+std::string summary_text(const nlohmann::ordered_json& summary);
 
 }  // namespace tamp::tools

@@ -1,4 +1,4 @@
-#include "tools/settle.hpp"
+#include "tools/report_failure.hpp"
 
 #include <fmt/core.h>
 #include <mpi.h>
@@ -42,7 +42,7 @@ bool done_soon(MPI_Request& request)
 
 }  // namespace
 
-int settle(const std::string& text, ExitCode code, const runtime::Communicator& ranks)
+int report_failure(const std::string& text, ExitCode code, const runtime::Communicator& ranks)
 {
   if (ranks.size() == 1) {
     complain(text);

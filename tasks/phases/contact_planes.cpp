@@ -150,9 +150,9 @@ runtime::TaskDeclaration turn_planes(const Method<D>& method, std::string name, 
 /// Materials touch that would close their gap within the step. They face each other along the plane's normal; others
 /// have no surface here, which leaves them alone.
 template <int D>
-runtime::TaskDeclaration face_materials(const Method<D>& method)
+runtime::TaskDeclaration align_contact_normals(const Method<D>& method)
 {
-  return runtime::task("face materials")
+  return runtime::task("align contact normals")
       .over_patches()
       .sparse()
       .reads(node::contact_plane<D>.halo(method.halo).every_group(), node::edge_sums<D>.halo(method.halo).every_group(),
@@ -185,7 +185,7 @@ runtime::TaskDeclaration face_materials(const Method<D>& method)
 }  // namespace
 
 template <int D>
-std::vector<runtime::TaskDeclaration> part_materials(const Method<D>& method)
+std::vector<runtime::TaskDeclaration> contact_planes(const Method<D>& method)
 {
   std::vector<runtime::TaskDeclaration> phases{lay_planes(method)};
   const auto regress = [&](const std::string& pass, const auto& label) {
@@ -199,11 +199,11 @@ std::vector<runtime::TaskDeclaration> part_materials(const Method<D>& method)
   phases.push_back(sum_at_planes(
       method, "find edges", node::edge_sums<D>,
       [](const auto& interpolation, const auto&... arguments) { interpolation.add_edges(arguments...); }));
-  phases.push_back(face_materials(method));
+  phases.push_back(align_contact_normals(method));
   return phases;
 }
 
-template std::vector<runtime::TaskDeclaration> part_materials(const Method<2>&);
-template std::vector<runtime::TaskDeclaration> part_materials(const Method<3>&);
+template std::vector<runtime::TaskDeclaration> contact_planes(const Method<2>&);
+template std::vector<runtime::TaskDeclaration> contact_planes(const Method<3>&);
 
 }  // namespace tamp::tasks

@@ -5,11 +5,11 @@
 namespace tamp::tools
 {
 
-/// A moment that comes again and again: at every multiple of an interval of simulated time [s].
-class Every
+/// When a run writes something: at every multiple of an interval of simulated time [s].
+class OutputTimes
 {
  public:
-  explicit Every(double interval) : interval_(interval) {}
+  explicit OutputTimes(double interval) : interval_(interval) {}
 
   bool due(double time)
   {
@@ -18,7 +18,7 @@ class Every
     return true;
   }
 
-  /// As if every moment until then, and at it, had been.
+  /// As if all times up to then had passed.
   void skip_to(double time)
   {
     const double reached = with_tolerance(time);
@@ -31,7 +31,7 @@ class Every
   }
 
  private:
-  /// Round-off in the sum of steps makes no moment come twice, or late.
+  /// Round-off in the sum of steps makes no time due twice, or late.
   static double with_tolerance(double time) { return time * (1 + 1e-12); }
 
   double interval_;
