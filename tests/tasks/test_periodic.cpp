@@ -225,9 +225,9 @@ double mode(const std::vector<Particle>& start, const std::vector<Particle>& now
 double frequency(Scene scene, double k, int axis, double drift, double expected)
 {
   scene.bodies[0].velocity = {drift, 0, 0};
-  scene.bodies[0].velocity_field = [=](const Triple& x) {
+  scene.bodies[0].functions.velocity = [=](const Vector<3>& x) {
     const double v = 1e-3 * std::sin(k * x[0]);
-    return axis == 0 ? Triple{drift + v, 0, 0} : Triple{drift, v, 0};
+    return axis == 0 ? Vector<3>(drift + v, 0, 0) : Vector<3>(drift, v, 0);
   };
   const auto simulation = Simulation::make(scene, 2);
   const auto start = particles_of(*simulation);
@@ -278,7 +278,7 @@ TEST_CASE("a standing wave between mirrors is half of one around a periodic doma
     // Walls count as edges in the bound on the step.
     scene.time.maximum_step = 0.005;
     // Strains up to 0.05.
-    scene.bodies[0].velocity_field = [k](const Triple& x) { return Triple{0.5 * std::sin(k * x[0]), 0, 0}; };
+    scene.bodies[0].functions.velocity = [k](const Vector<3>& x) { return Vector<3>(0.5 * std::sin(k * x[0]), 0, 0); };
     return Simulation::make(scene, 1);
   };
   const auto whole = make(true, 64, GENERATE(1, 4)), half = make(false, 32, 1);
