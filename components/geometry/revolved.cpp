@@ -6,9 +6,9 @@
 #include <numbers>
 #include <string>
 
+#include "components/curves/monotone_cubic.hpp"
 #include "components/errors.hpp"
 #include "components/geometry/checks.hpp"
-#include "components/materials/monotone_cubic.hpp"
 
 namespace tamp::components
 {

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "components/materials/piecewise_linear.hpp"
+#include "components/curves/piecewise_linear.hpp"
 #include "components/moduli/modulus.hpp"
 
 namespace tamp::components

@@ -5,10 +5,10 @@
 #include <span>
 #include <string_view>
 
+#include "components/curves/piecewise_linear.hpp"
 #include "components/errors.hpp"
 #include "components/materials/crush_curve.hpp"
 #include "components/materials/material_batch.hpp"
-#include "components/materials/piecewise_linear.hpp"
 #include "components/materials/state_columns.hpp"
 #include "components/materials/yield_surface.hpp"
 #include "components/tensors.hpp"

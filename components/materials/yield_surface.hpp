@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "components/materials/piecewise_linear.hpp"
+#include "components/curves/piecewise_linear.hpp"
 
 namespace tamp::components
 {

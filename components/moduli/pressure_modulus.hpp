@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-#include "components/materials/monotone_cubic.hpp"
+#include "components/curves/monotone_cubic.hpp"
 
 namespace tamp::components
 {

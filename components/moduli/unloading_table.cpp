@@ -4,8 +4,8 @@
 #include <cmath>
 #include <string>
 
+#include "components/curves/piecewise_linear.hpp"
 #include "components/errors.hpp"
-#include "components/materials/piecewise_linear.hpp"
 #include "components/portable_math.hpp"
 
 namespace tamp::components

@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "components/materials/monotone_cubic.hpp"
+#include "components/curves/monotone_cubic.hpp"
 #include "components/moduli/elastic_model.hpp"
 #include "components/moduli/pressure_modulus.hpp"
 

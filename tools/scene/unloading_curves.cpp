@@ -6,8 +6,8 @@
 #include <cmath>
 #include <limits>
 
+#include "components/curves/piecewise_linear.hpp"
 #include "components/errors.hpp"
-#include "components/materials/piecewise_linear.hpp"
 #include "components/portable_math.hpp"
 #include "tools/scene/csv_table.hpp"
 #include "tools/scene/file_kind.hpp"

@@ -1,4 +1,4 @@
-#include "components/materials/piecewise_linear.hpp"
+#include "components/curves/piecewise_linear.hpp"
 
 #include <algorithm>
 #include <cmath>

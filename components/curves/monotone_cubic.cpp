@@ -1,4 +1,4 @@
-#include "components/materials/monotone_cubic.hpp"
+#include "components/curves/monotone_cubic.hpp"
 
 #include <algorithm>
 #include <cmath>
