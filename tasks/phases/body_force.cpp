@@ -29,14 +29,14 @@ std::vector<Vector<D>> body_forces_on(const Scene& scene, double time, std::span
 }
 
 /// Materials of which some body has one.
-std::vector<int> groups_with_body_force(const Scene& scene)
+std::vector<int> materials_with_body_force(const Scene& scene)
 {
-  std::vector<int> groups;
+  std::vector<int> materials;
   for (const SceneBody& body : scene.bodies) {
-    const bool is_new = std::find(groups.begin(), groups.end(), body.material) == groups.end();
-    if (body.functions.body_force && is_new) groups.push_back(body.material);
+    const bool is_new = std::find(materials.begin(), materials.end(), body.material) == materials.end();
+    if (body.functions.body_force && is_new) materials.push_back(body.material);
   }
-  return groups;
+  return materials;
 }
 
 }  // namespace
@@ -51,9 +51,9 @@ runtime::TaskDeclaration body_force(const Method<D>& method)
       .reads(particle::body.previous(), particle::mass.previous(), particle::reference_position<D>.previous(),
              particle::position<D>.previous())
       .accumulates(node::sums<D>.halo(method.halo))
-      .body([&method, groups = groups_with_body_force(method.scene)](const TaskContext& at, auto data) {
+      .body([&method, materials = materials_with_body_force(method.scene)](const TaskContext& at, auto data) {
         const auto sums = data[node::sums<D>];
-        if (std::find(groups.begin(), groups.end(), at.group) == groups.end()) return;
+        if (std::find(materials.begin(), materials.end(), at.group) == materials.end()) return;
         const auto forces =
             body_forces_on<D>(method.scene, at.step.time, data[particle::body.previous()],
                               data[particle::mass.previous()], data[particle::reference_position<D>.previous()]);
@@ -73,7 +73,7 @@ template <int D>
 runtime::TaskDeclaration work_of_body_force(const Method<D>& method)
 {
   return runtime::task("work of body force")
-      .over_patches_and_groups(groups_with_body_force(method.scene))
+      .over_patches_and_groups(materials_with_body_force(method.scene))
       .sparse()
       .reads(particle::body.previous(), particle::mass.previous(), particle::reference_position<D>.previous(),
              particle::position<D>.previous(), particle::position<D>)
