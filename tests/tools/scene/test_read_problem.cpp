@@ -68,7 +68,7 @@ TEST_CASE("a problem that is not known, or lacks something, is told")
   CHECK(problems_of_problem(R"({"type":"vibrating_bar","speed":1,"wave_number":-1})") ==
         at_problem + "/wave_number: -1; expected a number above 0 [rad/m]");
   CHECK(problems_of_problem(R"({"type":"vibrating_bar","speed":1,"wave_number":1,"lenght":2})") ==
-        at_problem + "/lenght: unknown key; expected one of type, speed, wave_number");
+        at_problem + "/lenght: unknown key; expected one of speed, type, wave_number");
   CHECK(problems_of_problem(R"({"type":"axis_aligned","amplitude":0.05,"length":1,"n_axes":1.5})") ==
         at_problem + "/n_axes: 1.5; expected a whole number from 1 to 3");
   CHECK(problems_of_problem("3") == at_problem + ": 3; expected an object");
