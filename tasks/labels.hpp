@@ -64,7 +64,7 @@ template <int D>
 inline const runtime::NodeLabel<components::NodeMotion<D>, "node motion"> motion;
 /// 0 at nodes that hardly exist [1/kg].
 inline const runtime::NodeLabel<double, "inverse mass"> inverse_mass;
-/// Of materials with a body under a pressure load.
+/// Only for materials with a body under a pressure load.
 template <int D>
 inline const runtime::NodeLabel<components::PressureSums<D>, "pressure sums"> pressure_sums;
 template <int D>
@@ -90,7 +90,7 @@ inline const runtime::ReductionLabel<HostRequests, "host requests"> host_request
 /// What a step adds to the energies, and how long the next may be.
 inline const runtime::ReductionLabel<StepTotals, "step totals"> step_totals;
 inline const runtime::ReductionLabel<GridTotals, "grid totals"> grid_totals;
-/// Of body forces in the step; where a scene has some.
+/// Work of body forces in the step, where a scene has some.
 inline const runtime::ReductionLabel<LoadWork, "body force work"> body_force_work;
 inline const runtime::ReductionLabel<ContactImpulses, "contact impulses"> contact_impulses;
 inline const runtime::ReductionLabel<LoadTotals, "load totals"> load_totals;

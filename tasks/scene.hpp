@@ -107,7 +107,7 @@ struct SceneBody {
   bool initial_stress = false;
   /// Only on a body that is not rigid.
   std::optional<BodyPressure> pressure{};
-  /// Of its problem, if it has one: they say more of its start than the above, and what acts on it.
+  /// The functions of its problem, if it has one: they say more of its start than the above, and what acts on it.
   components::BodyFunctions functions{};
 };
 

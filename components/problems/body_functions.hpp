@@ -33,7 +33,7 @@ struct BodyFunctions {
 /// The body that a problem is set for.
 struct ProblemBody {
   int dimension;
-  /// Of the undeformed material [kg/m^3].
+  /// Density of the undeformed material [kg/m^3].
   double density;
   const MaterialModel& material;
 };

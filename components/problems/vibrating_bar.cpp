@@ -10,7 +10,7 @@ namespace tamp::components
 namespace
 {
 
-/// Of small waves of compression [m/s].
+/// Speed of small waves of compression [m/s].
 double elastic_wave_speed(const ProblemBody& body)
 {
   const auto speed_in = [&](const auto& solid) {

@@ -112,7 +112,7 @@ bool BoundGraph::begins_part(const Instance& instance, const Access& access) con
 /// Lists what must be there for a sparse body to have anything to do.
 void BoundGraph::bind_sparse(const Instance& instance, Bound& bound)
 {
-  // Of a layer that is filled from neighbours it is not known whether it is zero.
+  // A layer that is filled from neighbours may not be zero.
   const auto is_filler = [&](int p) { return at(p).kind == InstanceKind::fill_halo; };
   bound.is_sparse = std::none_of(instance.predecessors.begin(), instance.predecessors.end(), is_filler);
   const auto& accesses = graph_.declaration(instance).accesses;

@@ -83,7 +83,7 @@ class BoundGraph final : public Work
   const TaskGraph& graph_;
   Warehouse& warehouse_;
   int rank_;
-  /// Of each patch, how many of this rank's patches come before it; and how many these are in all.
+  /// For each patch, how many of this rank's patches come before it; and how many this rank has in all.
   std::vector<int> places_;
   int n_local_patches_ = 0;
   std::unique_ptr<Migration> migration_;

@@ -94,7 +94,8 @@ void Exchange::send(int message)
 {
   Line& line = lines_[static_cast<std::size_t>(message)];
   {
-    // Of the step before. Its receiver may be a step behind, but waits for nothing that this rank has not sent.
+    // The message of the step before. Its receiver may be a step behind, but waits for nothing that this rank has not
+    // sent.
     const std::lock_guard lock(mutex_);
     wait_for(line.request);
   }

@@ -65,9 +65,9 @@ class Exchange
     std::vector<Field*> fields;
     /// When it was sent [ticks], then the data.
     std::vector<std::byte> bytes;
-    /// Of what is sent.
+    /// The request of what is sent.
     MPI_Request request = MPI_REQUEST_NULL;
-    /// Of what comes in with a fixed length, which of `requests_`.
+    /// For what comes in with a fixed length, its place in `requests_`.
     std::size_t incoming_request = 0;
     /// Particles only: whether the next is looked for.
     bool open = false;

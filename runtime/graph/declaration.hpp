@@ -63,7 +63,7 @@ struct TaskDeclaration {
   /// See TaskBuilder::sparse.
   bool sparse = false;
   std::function<void(const TaskContext&, const BoundArgument*)> body;
-  /// Of a migration that waits for a reduction: whether particles may move, given its value.
+  /// For a migration that waits for a reduction: whether particles may move, given its value.
   std::function<bool(const void*)> may_move;
 
   void add(const Access& access);

@@ -66,7 +66,7 @@ struct MessagePart {
   FieldBuffer buffer = FieldBuffer::current;
   /// What of a node or cell field goes along.
   IndexBox box;
-  /// Of the image of `from_patch` that `to_patch` sees.
+  /// Where `to_patch` sees an image of `from_patch`: by how much it is shifted.
   Index shift{0, 0, 0};
 };
 

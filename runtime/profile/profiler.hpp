@@ -48,7 +48,7 @@ struct TaskStatistics {
   double min_s = 0;
   double max_s = 0;
   double p95_s = 0;
-  /// Of the time of all tasks; the shares of all rows add up to 1.
+  /// Part of the time of all tasks; the shares of all rows add up to 1.
   double share = 0;
   double bytes = 0;
   double particles = 0;
@@ -99,7 +99,7 @@ class Profiler
   void add_step();
   /// Ticks that task bodies took on each of this rank's patches since this was last asked; 0 on others.
   std::vector<double> take_patch_costs();
-  /// Of all ranks together. Collective.
+  /// The profile of all ranks together. Collective.
   Profile profile(const Communicator& communicator = {}) const;
 
  private:

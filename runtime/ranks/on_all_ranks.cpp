@@ -42,7 +42,7 @@ void on_all_ranks(const Communicator& communicator, const std::function<void()>&
   if (first == static_cast<std::size_t>(n_ranks)) return;
   const std::string file = communicator.gather(failure.file)[first];
   const std::string cause = communicator.gather(failure.cause)[first];
-  // Of the kind that the first one threw, so that all ranks go the same way from here.
+  // All throw the kind that the first one threw, so that all ranks go the same way from here.
   if (failure.own && failure.file.empty() == file.empty()) std::rethrow_exception(failure.own);
   if (!file.empty()) throw FileError(file, cause);
   throw std::runtime_error("rank " + std::to_string(first) + ": " + cause);

@@ -68,7 +68,7 @@ Properties collective_transfer(const fs::path& file, const Communicator& communi
 
 // These give negative ids where they fail.
 
-/// Of groups that know the order in which their members came, so that a file says in which order its columns are.
+/// For groups that know the order in which their members came, so that a file says in which order its columns are.
 Properties ordered_group()
 {
   Properties properties(H5Pcreate(H5P_GROUP_CREATE));
@@ -78,7 +78,7 @@ Properties ordered_group()
   return properties;
 }
 
-/// Of paths whose groups are made where there are none.
+/// For paths whose groups are made where there are none.
 Properties with_groups_on_the_way()
 {
   Properties links(H5Pcreate(H5P_LINK_CREATE));

@@ -35,7 +35,7 @@ class Warehouse
   /// The same of all patches, for so many particles of each group, before anything is stored.
   static double forecast_bytes(std::span<const TaskGraph* const> graphs, std::span<const std::size_t> n_particles);
 
-  /// Of this rank's patches; 0 on others.
+  /// Particles on this rank's patches; 0 for others.
   std::size_t n_particles(int patch, int group) const { return count(patch, group); }
   std::size_t n_particles(int group) const;
   /// Grows or cuts every particle field of a patch and group; new values are zero bytes.

@@ -29,7 +29,7 @@ class Pressures
     }
   }
 
-  /// Of a particle that started at `reference` [Pa].
+  /// The pressure on a particle that started at `reference` [Pa].
   components::ByFace<D> at(std::int64_t body, const Vector<D>& reference) const
   {
     const Load& load = loads_[static_cast<std::size_t>(body)];

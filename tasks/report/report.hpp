@@ -67,7 +67,7 @@ struct ParticleReport {
   /// centrifuge. One that speeds up has no such function: its work is left out, and an energy balance does not close.
   double gravity_work = 0;
   std::array<BodySums, max_entries> bodies;
-  /// Of bodies that have an exact solution.
+  /// Only for bodies that have an exact solution.
   std::array<DisplacementError, max_entries> displacement_errors;
   PeaksOfMaterials materials;
 

@@ -13,7 +13,6 @@ namespace tamp::tasks
 template <int D>
 std::vector<components::Site<D>> particle_sites(const Scene& scene, const SceneBody& body);
 
-/// Of all of them together.
 /// Their places alone.
 template <int D>
 std::vector<Vector<D>> sites_of(const Scene& scene, const SceneBody& body)
@@ -23,6 +22,7 @@ std::vector<Vector<D>> sites_of(const Scene& scene, const SceneBody& body)
   return places;
 }
 
+/// Their volume, all together [m^3].
 double particle_volume(const Scene& scene, const SceneBody& body);
 
 }  // namespace tamp::tasks

@@ -29,7 +29,7 @@ class BodyParticles
   std::vector<double> per_patch() const;
   /// Spans the velocities of a body's particles [m/s].
   Eigen::AlignedBox<double, D> velocities(int body) const;
-  /// Of all particles that start deformed [J].
+  /// Energy stored in all particles that start deformed [J].
   double stored_energy() const;
   /// Mass, centre and inertia of a rigid body. Throws BadValue for one that has fewer than two particles.
   components::MassProperties mass_properties(int body) const;

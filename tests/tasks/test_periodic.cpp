@@ -195,7 +195,7 @@ namespace
 
 constexpr double density = 1;
 constexpr double poisson = 0.25;
-/// Of uniaxial strain: waves run at 10 m/s lengthwise and at 10 / sqrt 3 across.
+/// Modulus of uniaxial strain: waves run at 10 m/s lengthwise and at 10 / sqrt 3 across.
 constexpr double modulus = 100;
 constexpr double length = 32;
 
@@ -221,7 +221,7 @@ double mode(const std::vector<Particle>& start, const std::vector<Particle>& now
   return sum / norm;
 }
 
-/// Of the mode sin(k x) of small velocities along `axis`, over four periods.
+/// Frequency of the mode sin(k x) of small velocities along `axis`, over four periods.
 double frequency(Scene scene, double k, int axis, double drift, double expected)
 {
   scene.bodies[0].velocity = {drift, 0, 0};

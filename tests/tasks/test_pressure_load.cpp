@@ -51,7 +51,7 @@ Scene free_block(const BodyPressure& load)
   return scene;
 }
 
-/// Of the load on the undeformed body: the first kick is half a step long.
+/// Force of the load on the undeformed body: the first kick is half a step long.
 Eigen::Vector3d first_force(const Scene& scene)
 {
   const auto simulation = Simulation::make(scene, 1);
@@ -224,7 +224,7 @@ namespace
 /// Weightless soil that flows as it yields, with a strip on top: the right half of it.
 Scene strip_on_soil(double load)
 {
-  // Of Mohr and Coulomb in plane strain.
+  // Mohr and Coulomb's, in plane strain.
   constexpr double friction = 20 * std::numbers::pi / 180, cohesion = 10e3;
   // The cone that has this strength in plane strain with associated flow, and its angles in triaxial compression
   // (D. C. Drucker, W. Prager, Q. Appl. Math. 10, 1952).

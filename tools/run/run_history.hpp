@@ -71,7 +71,7 @@ class RunHistory
   double axis_angle(std::size_t body) const;
 
  private:
-  /// Of `history.csv`: the name with the unit, and the value in the state that was last measured.
+  /// A column of `history.csv`: the name with the unit, and the value in the state that was last measured.
   struct Column {
     std::string name;
     std::function<double()> value;

@@ -52,7 +52,7 @@ class Document
   std::vector<Problem> problems;
   /// Every file that has been read for it, in the order in which they were named.
   std::vector<InputFile> inputs;
-  /// Of the scene, 2 or 3, when it has been read; 0 before, and where there is no scene.
+  /// Dimension of the scene, 2 or 3, when it has been read; 0 before, and where there is no scene.
   int dimension = 0;
   /// Solids that have been read so far.
   std::size_t n_solids = 0;

@@ -39,7 +39,7 @@ struct Flag {
 };
 struct File {
 };
-/// Of a material: one that the user chose; a reader knows which there are.
+/// The name of a material, which the user chose; a reader knows which there are.
 struct Name {
   /// May stand there instead; the names may not be one of them.
   std::vector<std::string> words{};
@@ -77,7 +77,7 @@ struct Choice {
   std::vector<std::string> words;
   /// What each word stands for in code: values of an enumeration; none where the word itself is used.
   std::vector<int> values{};
-  /// Of an object that may stand there instead of a word.
+  /// The keys of an object that may stand there instead of a word.
   KeysOf instead = nullptr;
 };
 struct Object {
@@ -125,8 +125,8 @@ struct TypeKeys {
 };
 
 struct ObjectKeys {
-  /// Of an object that the documentation shows in a table of its own, and the schema in a definition; the keys of
-  /// others stand with those around them.
+  /// The name of an object that the documentation shows in a table of its own, and the schema in a definition; the
+  /// keys of others stand with those around them.
   std::string name;
   std::vector<Key> keys;
   /// Where there are any, the compulsory key "type" names one of them.
@@ -152,7 +152,7 @@ Key choice(std::string name, Enum default_value, const std::vector<std::pair<std
 }
 
 inline constexpr int most_particles_per_axis = 16;
-/// Of a run, where its scene does not say how often.
+/// Outputs of a run whose scene does not say how many.
 inline constexpr int usual_field_outputs = 50, usual_history_rows = 1000;
 /// Words of the contact key "normal", beside the names of materials.
 inline constexpr char flatter[] = "flatter", regression[] = "regression";

@@ -323,7 +323,7 @@ class SceneReader
     reader.finish();
   }
 
-  /// Of all materials and of the nodes.
+  /// The fields of all materials and of the nodes.
   void read_fields(JsonReader& reader)
   {
     // Nobody knows what the fields of a bad material are.

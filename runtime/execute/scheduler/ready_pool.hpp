@@ -12,14 +12,14 @@ namespace tamp::runtime
 class ReadyPool
 {
  public:
-  /// Of a step that has begun. Messages that have come before it count.
+  /// For a step that has begun. Messages that have come before it count.
   explicit ReadyPool(ScheduleState& schedule);
 
   /// Whether all instances of this rank are complete.
   bool finished() const { return n_left_ == 0; }
   bool empty() const { return ready_.empty(); }
   ScheduleState::Entry& draw(std::mt19937_64& random);
-  /// Of this rank or of another.
+  /// The instance may be another rank's.
   void complete(int instance);
 
  private:

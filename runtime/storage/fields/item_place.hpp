@@ -12,7 +12,7 @@ namespace tamp::runtime
 
 /// Where the items that one rank gives stand in a dataset of all ranks.
 struct ItemPlace {
-  /// Of a dataset of scalars, an item each.
+  /// This rank's share of a dataset of scalars, an item each.
   hdf5::Share share;
   std::size_t n_own = 0;
   /// This rank's items in the order in which they stand in the file, which is how HDF5 takes those of many slabs.

@@ -157,8 +157,8 @@ class StepReader
     return read;
   }
 
-  /// Of items that stand along the first dimensions of each dataset, as many as `n_items` has room for; what is left
-  /// are components.
+  /// The columns of items that stand along the first dimensions of each dataset, as many as `n_items` has room for;
+  /// what is left are components.
   std::vector<XdmfColumn> columns(const StoredBlock& block, std::span<hsize_t> n_items) const
   {
     std::vector<XdmfColumn> all;
@@ -182,7 +182,7 @@ class StepReader
   std::uintmax_t n_bytes_;
 };
 
-/// Of a file of which `n_bytes` are known to have been written.
+/// Cuts a file of which `n_bytes` are known to have been written.
 std::vector<XdmfStep> cut(const std::filesystem::path& name, std::int64_t last_step, std::uintmax_t n_bytes)
 {
   const hdf5::OpenFile file(name, hdf5::OpenFile::Access::write, "cannot be read");

@@ -16,7 +16,7 @@ namespace tamp::test
 using namespace tamp::runtime;
 
 using Point = std::array<double, 2>;
-/// Of a size that is no multiple of eight.
+/// A value whose size is no multiple of eight.
 using Colour = std::array<unsigned char, 3>;
 
 inline const ParticleLabel<Point, "place"> place;

@@ -69,7 +69,7 @@ TEST_CASE("a halo is filled with what the neighbours have, and the nodes of a se
   for (const Patch& patch : nodes.layout) {
     const GridView<double> filled = nodes.warehouse.grid_state(warmth, patch.id, 0);
     for_each(grown(patch.nodes, halo, dimension), [&](const Index& i) {
-      // Of several neighbours that have the node, any may have given it.
+      // Any of the neighbours that have the node may have given it.
       bool known = false, found = false;
       for (const Patch& other : nodes.layout) {
         if (!other.nodes.contains(i) || (patch.nodes.contains(i) && other.id != patch.id)) continue;
