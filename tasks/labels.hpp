@@ -90,9 +90,10 @@ inline const runtime::ReductionLabel<HostRequests, "host requests"> host_request
 /// What a step adds to the energies, and how long the next may be.
 inline const runtime::ReductionLabel<StepTotals, "step totals"> step_totals;
 inline const runtime::ReductionLabel<GridTotals, "grid totals"> grid_totals;
-/// Work of body forces in the step, where a scene has some.
-inline const runtime::ReductionLabel<LoadWork, "body force work"> body_force_work;
+/// Where a scene has body forces.
+inline const runtime::ReductionLabel<BodyForceWork, "body force work"> body_force_work;
 inline const runtime::ReductionLabel<ContactImpulses, "contact impulses"> contact_impulses;
+/// Where a scene has pressure loads.
 inline const runtime::ReductionLabel<LoadTotals, "load totals"> load_totals;
 inline const runtime::ReductionLabel<RigidCouplings, "rigid couplings"> rigid_couplings;
 

@@ -39,8 +39,8 @@ struct StepTotals {
   double plastic = 0;
   double viscous = 0;  ///< by artificial viscosity and local damping
   double contact = 0;
-  /// Work of what drives bodies and of body forces, in this step [J]; what the simulation sums has that of pressure
-  /// loads too.
+  /// Work of what drives bodies, in this step [J]. The simulation adds that of body forces and of pressure loads to its
+  /// sum.
   double driving = 0;
   /// Stress updates of all materials.
   components::UpdateCounts updates;
@@ -65,11 +65,11 @@ struct StepTotals {
   }
 };
 
-/// What a load does in one step [J].
-struct LoadWork {
+/// Work of body forces in one step [J].
+struct BodyForceWork {
   double value = 0;
 
-  void combine(const LoadWork& other) { value += other.value; }
+  void combine(const BodyForceWork& other) { value += other.value; }
 };
 
 /// Sums over the nodes of one step.

@@ -117,7 +117,7 @@ class Runner
       fields_.emplace(options.folder, options.communicator);
       history_.begin(options.folder);
     }
-    by_first([&] { runtime::write_whole_file(options_.folder / "scene.json", checked_.resolved.dump(2) + "\n"); });
+    on_first_rank([&] { runtime::write_whole_file(options_.folder / "scene.json", checked_.resolved.dump(2) + "\n"); });
   }
 
   void run()
@@ -158,7 +158,7 @@ class Runner
   bool is_first() const { return options_.communicator.is_first(); }
 
   template <class Work>
-  void by_first(const Work& work) const
+  void on_first_rank(const Work& work) const
   {
     runtime::on_first_rank(options_.communicator, work);
   }
@@ -196,7 +196,7 @@ class Runner
   std::unique_ptr<RunFolder> own_folder() const
   {
     std::unique_ptr<RunFolder> folder;
-    by_first([&] {
+    on_first_rank([&] {
       const auto use = options_.restart ? RunFolder::Use::go_on
                        : options_.force ? RunFolder::Use::replace
                                         : RunFolder::Use::begin;
@@ -285,7 +285,7 @@ class Runner
   /// Nothing more may be written into a folder that is another program's.
   void expect_own_folder() const
   {
-    by_first([&] { folder_->expect_own(); });
+    on_first_rank([&] { folder_->expect_own(); });
   }
 
   void keep_state()
@@ -345,7 +345,7 @@ class Runner
         run_summary(*simulation_, history_,
                     {status, reason, seconds_since(start_), median({step_seconds_.begin(), step_seconds_.end()}),
                      restarted_at_, forecast_, checked_.inputs, warnings_});
-    by_first([&] {
+    on_first_rank([&] {
       runtime::write_whole_file(options_.folder / "profile.json", json.dump(1) + "\n");
       runtime::write_whole_file(options_.folder / "trace.json", runtime::trace_to_json(profile).dump() + "\n");
       runtime::write_whole_file(options_.folder / "summary.json", told.dump(2) + "\n");
