@@ -22,20 +22,20 @@ inline constexpr int n_symmetric = D == 2 ? 4 : 6;
 template <int D>
 using SymmetricTensor = Eigen::Matrix<double, n_symmetric<D>, 1>;
 
-template <int Size>
-double trace(const Eigen::Matrix<double, Size, 1>& a)
+template <class Number, int Size>
+Number trace(const Eigen::Matrix<Number, Size, 1>& a)
 {
   return a[0] + a[1] + a[2];
 }
 
 /// a : b, every off-diagonal component counted twice.
-template <int Size>
-double double_dot(const Eigen::Matrix<double, Size, 1>& a, const Eigen::Matrix<double, Size, 1>& b)
+template <class Number, int Size>
+Number double_dot(const Eigen::Matrix<Number, Size, 1>& a, const Eigen::Matrix<Number, Size, 1>& b)
 {
-  double diagonal = 0, shear = 0;
+  Number diagonal = 0.0, shear = 0.0;
   for (int i = 0; i < 3; ++i) diagonal += a[i] * b[i];
   for (int i = 3; i < Size; ++i) shear += a[i] * b[i];
-  return diagonal + 2 * shear;
+  return diagonal + 2.0 * shear;
 }
 
 template <int Size>

@@ -9,11 +9,13 @@ namespace tamp::components
 {
 
 /// What an elastic model says of one state. Pascal; compression positive.
-struct ElasticPoint {
-  double pressure;
-  double bulk_modulus;  ///< K = d pressure / d elastic volumetric strain, positive
-  double coupling;      ///< d pressure / d plastic volumetric strain, at the same elastic strain
+template <class Number>
+struct ElasticPointOf {
+  Number pressure;
+  Number bulk_modulus;  ///< K = d pressure / d elastic volumetric strain, positive
+  Number coupling;      ///< d pressure / d plastic volumetric strain, at the same elastic strain
 };
+using ElasticPoint = ElasticPointOf<double>;
 
 /// The elastic volumetric strains (logarithmic, compression positive) that a model was made for, and the plastic ones.
 /// What a model answers outside is its own stated extrapolation: continuous, with K positive and bounded.
