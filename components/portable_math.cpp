@@ -3,7 +3,7 @@
 #include <sleef.h>
 
 // In SLEEF's names "cinz" are the reproducible functions that do not use a fused multiply-add, "u10" is an error of at
-// most 1.0 units in the last place, "purec" is plain C.
+// most 1.0 units in the last place, "purec" is plain C, "d1" one number and "d4" four.
 namespace tamp::portable
 {
 
@@ -58,6 +58,64 @@ double atan2(double y, double x)
 double tanh(double x)
 {
   return Sleef_cinz_tanhd1_u10purec(x);
+}
+
+// SLEEF's function of as many numbers as there are lanes.
+#if defined(__AVX512F__)
+#  define TAMP_SLEEF(function) Sleef_cinz_##function##d8_u10avx512fnofma
+using Register = __m512d;
+#elif defined(__AVX__)
+#  define TAMP_SLEEF(function) Sleef_cinz_##function##d4_u10avx
+using Register = __m256d;
+#elif defined(__SSE2__)
+#  define TAMP_SLEEF(function) Sleef_cinz_##function##d2_u10sse2
+using Register = __m128d;
+#else
+#  define TAMP_SLEEF(function) Sleef_cinz_##function##d1_u10purec
+using Register = double;
+#endif
+
+template <auto function, class... Arguments>
+static Lanes of_lanes(const Arguments&... x)
+{
+  if constexpr (sizeof(Register) == sizeof(double)) {
+    return each_lane([&](std::size_t l) { return function(x[l]...); });
+  } else {
+    return Lanes(function(static_cast<Register>(x)...));
+  }
+}
+
+Lanes exp(const Lanes& x)
+{
+  return of_lanes<TAMP_SLEEF(exp)>(x);
+}
+Lanes expm1(const Lanes& x)
+{
+  return of_lanes<TAMP_SLEEF(expm1)>(x);
+}
+Lanes log(const Lanes& x)
+{
+  return of_lanes<TAMP_SLEEF(log)>(x);
+}
+Lanes log1p(const Lanes& x)
+{
+  return of_lanes<TAMP_SLEEF(log1p)>(x);
+}
+Lanes pow(const Lanes& base, const Lanes& exponent)
+{
+  return of_lanes<TAMP_SLEEF(pow)>(base, exponent);
+}
+Lanes cos(const Lanes& angle)
+{
+  return of_lanes<TAMP_SLEEF(cos)>(angle);
+}
+Lanes acos(const Lanes& x)
+{
+  return of_lanes<TAMP_SLEEF(acos)>(x);
+}
+Lanes tanh(const Lanes& x)
+{
+  return of_lanes<TAMP_SLEEF(tanh)>(x);
 }
 
 }  // namespace tamp::portable

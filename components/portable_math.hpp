@@ -1,5 +1,7 @@
 #pragma once
 
+#include "components/lanes.hpp"
+
 /// Elementary functions whose bits do not depend on the processor. The C library's own do: it chooses among several
 /// versions of exp, pow, sin and the like when a program starts, with fused multiply-add where there is one. These are
 /// SLEEF's reproducible ones, without it. Errors are below 1 unit in the last place. Angles in radians.
@@ -22,5 +24,16 @@ double asin(double x);
 double acos(double x);
 double atan2(double y, double x);
 double tanh(double x);
+
+/// The same of many at once: each lane has the bits that the function of one number gives. Angles to 15, where SLEEF
+/// begins to choose by the largest of them how it takes whole turns off.
+Lanes exp(const Lanes& x);
+Lanes expm1(const Lanes& x);
+Lanes log(const Lanes& x);
+Lanes log1p(const Lanes& x);
+Lanes pow(const Lanes& base, const Lanes& exponent);
+Lanes cos(const Lanes& angle);
+Lanes acos(const Lanes& x);
+Lanes tanh(const Lanes& x);
 
 }  // namespace tamp::portable
