@@ -12,16 +12,20 @@ std::vector<double> monotone_slopes(std::span<const double> x, std::span<const d
 
 /// Value and slope of the cubic on [0, h] with values y0, y1 and slopes m0, m1 at its ends, at distance `x` from the
 /// first.
-struct CubicValue {
-  double value;
-  double slope;
+template <class Number>
+struct CubicValueOf {
+  Number value;
+  Number slope;
 };
-inline CubicValue cubic(double h, double y0, double m0, double y1, double m1, double x)
+using CubicValue = CubicValueOf<double>;
+template <class Number>
+CubicValueOf<Number> cubic(const Number& h, const Number& y0, const Number& m0, const Number& y1, const Number& m1,
+                           const Number& x)
 {
-  const double t = x / h;
-  const double chord = (y1 - y0) / h;
-  const double a = m0 + m1 - 2 * chord;
-  const double b = 3 * chord - 2 * m0 - m1;
+  const Number t = x / h;
+  const Number chord = (y1 - y0) / h;
+  const Number a = m0 + m1 - 2 * chord;
+  const Number b = 3 * chord - 2 * m0 - m1;
   return {y0 + x * (m0 + t * (b + t * a)), m0 + t * (2 * b + 3 * t * a)};
 }
 

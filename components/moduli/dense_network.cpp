@@ -6,10 +6,10 @@
 #include <cstdint>
 #include <numbers>
 #include <string>
-#include <type_traits>
 #include <utility>
 
 #include "components/errors.hpp"
+#include "components/lanes.hpp"
 #include "components/portable_math.hpp"
 
 namespace tamp::components
@@ -50,17 +50,6 @@ constexpr std::size_t packs_for(std::size_t n_neurons)
 constexpr std::size_t turns_for(std::size_t n_outputs, std::size_t n_streams)
 {
   return n_streams * padded(n_outputs) / row_multiple < 8 ? 2 : 1;
-}
-
-/// body(0), ..., body(n - 1), written out, so that arrays indexed by it can stay in registers.
-template <std::size_t n, class Body>
-inline void unrolled(const Body& body)
-{
-  [&]<std::size_t... i>(std::index_sequence<i...>)
-  {
-    (body(std::integral_constant<std::size_t, i>()), ...);
-  }
-  (std::make_index_sequence<n>());
 }
 
 /// Bit i is set where the i-th neuron is positive.

@@ -5,6 +5,8 @@
 #include <cstddef>
 #include <span>
 
+#include "components/lanes.hpp"
+
 namespace tamp::components
 {
 
@@ -33,13 +35,15 @@ struct StrainRange {
 ///  - state form, `at`: pressure as a function of elastic and plastic volumetric strain;
 ///  - rate form, `rate_modulus`: the K of dp = K d(elastic), which the published Table takes at the pressure, and the
 ///    published SVR and MLP at the strains.
+/// Both also answer as many states at once as there are lanes, each with the bits that it gets alone.
 /// `modulus_by_plastic` is dK/d(plastic) at the same elastic strain, in state form. `in_range` and
 /// `rate_in_range` are false where the answer is an extrapolation; `range` is a rectangle on which that of the state
 /// form is none.
 template <class Model>
-concept ElasticModel = requires(const Model& model, double pressure, double elastic, double plastic)
+concept ElasticModel = requires(const Model& model, double pressure, double elastic, double plastic, Lanes strains)
 {
   ElasticPoint(model.at(elastic, plastic));
+  ElasticPointOf<Lanes>(model.at(strains, strains));
   double(model.rate_modulus(pressure, elastic, plastic));
   double(model.modulus_by_plastic(elastic, plastic));
   bool(model.in_range(elastic, plastic));
@@ -52,7 +56,12 @@ template <ElasticModel Model>
 void evaluate(const Model& model, std::span<const double> elastic, std::span<const double> plastic,
               std::span<ElasticPoint> points)
 {
-  for (std::size_t i = 0; i < points.size(); ++i) points[i] = model.at(elastic[i], plastic[i]);
+  for (std::size_t i = 0; i < points.size(); i += n_lanes) {
+    const ElasticPointOf<Lanes> found = model.at(lanes_at(elastic, i), lanes_at(plastic, i));
+    for (std::size_t l = 0; l < n_lanes && i + l < points.size(); ++l) {
+      points[i + l] = {found.pressure[l], found.bulk_modulus[l], found.coupling[l]};
+    }
+  }
 }
 
 /// The rate form of a batch: spans of equal length.
@@ -60,8 +69,13 @@ template <ElasticModel Model>
 void evaluate_rate(const Model& model, std::span<const double> pressure, std::span<const double> elastic,
                    std::span<const double> plastic, std::span<double> bulk_modulus)
 {
-  for (std::size_t i = 0; i < bulk_modulus.size(); ++i) {
-    bulk_modulus[i] = model.rate_modulus(pressure[i], elastic[i], plastic[i]);
+  for (std::size_t i = 0; i < bulk_modulus.size(); i += n_lanes) {
+    const Lanes p = lanes_at(pressure, i), e = lanes_at(elastic, i), ep = lanes_at(plastic, i);
+    if constexpr (requires { model.rate_modulus(p, e, ep); }) {
+      set_lanes(bulk_modulus, i, model.rate_modulus(p, e, ep));
+    } else {
+      set_lanes(bulk_modulus, i, each_lane([&](std::size_t l) { return model.rate_modulus(p[l], e[l], ep[l]); }));
+    }
   }
 }
 

@@ -27,24 +27,22 @@ class EngineeringStrain
  public:
   explicit EngineeringStrain(Model model) : model_(std::move(model)) {}
 
-  ElasticPoint at(double elastic, double plastic) const
-  {
-    const Measured m = measured(elastic, plastic);
-    const ElasticPoint point = model_.at(m.elastic, m.plastic);
-    return {point.pressure, point.bulk_modulus * m.total_rate,
-            point.bulk_modulus * (m.total_rate - m.plastic_rate) + point.coupling * m.plastic_rate};
-  }
+  ElasticPoint at(double elastic, double plastic) const { return point_at(elastic, plastic); }
+  ElasticPointOf<Lanes> at(const Lanes& elastic, const Lanes& plastic) const { return point_at(elastic, plastic); }
 
   double rate_modulus(double pressure, double elastic, double plastic) const
   {
-    const Measured m = measured(elastic, plastic);
-    return model_.rate_modulus(pressure, m.elastic, m.plastic) * m.total_rate;
+    return modulus_at(pressure, elastic, plastic);
+  }
+  Lanes rate_modulus(const Lanes& pressure, const Lanes& elastic, const Lanes& plastic) const
+  {
+    return modulus_at(pressure, elastic, plastic);
   }
 
   double modulus_by_plastic(double elastic, double plastic) const
   {
     // d/d(plastic) of K(m.elastic, m.plastic) total_rate; the model's dK/d(elastic) by a difference: for reports only.
-    const Measured m = measured(elastic, plastic);
+    const Measured<double> m = measured(elastic, plastic);
     constexpr double h = 1e-6;
     const double by_elastic =
         (model_.at(m.elastic + h, m.plastic).bulk_modulus - model_.at(m.elastic - h, m.plastic).bulk_modulus) / (2 * h);
@@ -55,13 +53,13 @@ class EngineeringStrain
 
   bool in_range(double elastic, double plastic) const
   {
-    const Measured m = measured(elastic, plastic);
+    const Measured<double> m = measured(elastic, plastic);
     return model_.in_range(m.elastic, m.plastic);
   }
 
   bool rate_in_range(double pressure, double elastic, double plastic) const
   {
-    const Measured m = measured(elastic, plastic);
+    const Measured<double> m = measured(elastic, plastic);
     return model_.rate_in_range(pressure, m.elastic, m.plastic);
   }
 
@@ -79,14 +77,31 @@ class EngineeringStrain
  private:
   static constexpr double largest_engineering = 0.95;
 
+  template <class Number>
   struct Measured {
-    double elastic, plastic;          // engineering
-    double total_rate, plastic_rate;  // d(engineering) / d(logarithmic)
+    Number elastic, plastic;          // engineering
+    Number total_rate, plastic_rate;  // d(engineering) / d(logarithmic)
   };
-  static Measured measured(double elastic, double plastic)
+  template <class Number>
+  static Measured<Number> measured(const Number& elastic, const Number& plastic)
   {
-    const double total_rate = portable::exp(-(elastic + plastic)), plastic_rate = portable::exp(-plastic);
+    const Number total_rate = portable::exp(-(elastic + plastic)), plastic_rate = portable::exp(-plastic);
     return {plastic_rate - total_rate, 1 - plastic_rate, total_rate, plastic_rate};
+  }
+
+  template <class Number>
+  ElasticPointOf<Number> point_at(const Number& elastic, const Number& plastic) const
+  {
+    const Measured<Number> m = measured(elastic, plastic);
+    const ElasticPointOf<Number> point = model_.at(m.elastic, m.plastic);
+    return {point.pressure, point.bulk_modulus * m.total_rate,
+            point.bulk_modulus * (m.total_rate - m.plastic_rate) + point.coupling * m.plastic_rate};
+  }
+  template <class Number>
+  Number modulus_at(const Number& pressure, const Number& elastic, const Number& plastic) const
+  {
+    const Measured<Number> m = measured(elastic, plastic);
+    return model_.rate_modulus(pressure, m.elastic, m.plastic) * m.total_rate;
   }
 
   Model model_;

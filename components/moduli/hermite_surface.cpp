@@ -111,7 +111,7 @@ class HermiteSurface::Refinement
   {
     const auto strain = [&](const StrainAxis& axis, Place corner) {
       const StrainAxis::Section& section = axis.section_of_square(static_cast<double>(corner) * per_square);
-      return power_of_two(side_bits - QuadTree::fraction_bits) / section.squares_per_strain;
+      return QuadTree::power_of_two(side_bits - QuadTree::fraction_bits) / section.squares_per_strain;
     };
     if (i == squares_.size()) squares_.emplace_back();
     squares_[i] = {x, y, side_bits, strain(surface_.elastic_, x), strain(surface_.plastic_, y)};
@@ -176,7 +176,7 @@ class HermiteSurface::Refinement
               [&](std::size_t a, std::size_t b) { return squares_[a].side_bits > squares_[b].side_bits; });
     surface_.patches_.resize(squares_.size());
     for (const std::size_t i : largest_first) {
-      HermitePatch patch;
+      HermitePatch patch{};
       for (std::size_t corner = 0; corner < 4; ++corner) patch.corner[corner] = joined(squares_[i], corner);
       if (patch == surface_.patches_[i]) continue;
       surface_.patches_[i] = patch;
@@ -210,7 +210,7 @@ class HermiteSurface::Refinement
       const Square& other = squares_[i];
       const Place along = x - other.x, up = y - other.y;
       if (along % other.side() == 0 && up % other.side() == 0) continue;  // a corner of that one too
-      const double per_side = power_of_two(-other.side_bits);
+      const double per_side = QuadTree::power_of_two(-other.side_bits);
       return surface_.patches_[i]
           .at(static_cast<double>(along) * per_side, static_cast<double>(up) * per_side)
           .per(square.width / other.width, square.height / other.height);

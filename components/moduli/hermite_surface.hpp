@@ -1,9 +1,7 @@
 #pragma once
 
-#include <algorithm>
-#include <bit>
+#include <array>
 #include <cstddef>
-#include <cstdint>
 #include <functional>
 #include <span>
 #include <vector>
@@ -50,19 +48,13 @@ class HermiteSurface
                  const SurfaceSeams& seams = {});
   static constexpr std::size_t most_patches = std::size_t{1} << 18;
 
-  ElasticPoint at(double elastic, double plastic) const
-  {
-    const Located here = locate(elastic, plastic);
-    const SurfaceNode point = here.patch->at(here.elastic, here.plastic).per(here.per_elastic, here.per_plastic);
-    return {point.pressure + point.bulk_modulus * here.beyond, point.bulk_modulus,
-            here.held ? 0 : point.coupling + point.modulus_by_plastic * here.beyond};
-  }
+  ElasticPoint at(double elastic, double plastic) const { return point_at(elastic, plastic); }
+  ElasticPointOf<Lanes> at(const Lanes& elastic, const Lanes& plastic) const { return point_at(elastic, plastic); }
 
   double modulus_by_plastic(double elastic, double plastic) const
   {
-    const Located here = locate(elastic, plastic);
-    const SurfaceNode point = here.patch->at(here.elastic, here.plastic).per(here.per_elastic, here.per_plastic);
-    return here.held ? 0 : point.modulus_by_plastic;
+    const Located<double> here = locate(elastic, plastic);
+    return here.held ? 0 : here.point.modulus_by_plastic;
   }
 
   const SurfaceErrors& errors() const { return errors_; }
@@ -71,39 +63,35 @@ class HermiteSurface
  private:
   class Refinement;
 
-  static double power_of_two(int n) { return std::bit_cast<double>(static_cast<std::uint64_t>(1023 + n) << 52); }
-
+  template <class Number>
   struct Located {
-    const HermitePatch* patch;
-    double elastic, plastic;          // in the patch, from 0 to 1
-    double per_elastic, per_plastic;  // patches per unit of strain
-    double beyond;                    // how far the elastic strain is out of the range
-    bool held;                        // whether the plastic strain is
+    SurfaceNodeOf<Number> point;  // of the range
+    Number beyond;                // how far the elastic strain is out of the range
+    Mask<Number> held;            // whether the plastic strain is
   };
-  Located locate(double elastic, double plastic) const
+  template <class Number>
+  Located<Number> locate(const Number& elastic, const Number& plastic) const
   {
     // In this order a strain that is not a number counts as the least, and ends up in `beyond`.
-    const double e = std::min(std::max(range_.least_elastic, elastic), range_.most_elastic);
-    const double p = std::min(std::max(range_.least_plastic, plastic), range_.most_plastic);
-    const StrainAxis::Section &column = elastic_.section_of(e), &row = plastic_.section_of(p);
-    const QuadTree::Place x = place(column, e, elastic_.n_squares()), y = place(row, p, plastic_.n_squares());
-    const QuadTree::Leaf leaf = tree_.find(x, y);
-    const QuadTree::Place in_leaf = (QuadTree::Place{1} << leaf.side_bits) - 1;
-    const double per_side = power_of_two(-leaf.side_bits);
-    const double cuts = power_of_two(QuadTree::fraction_bits - leaf.side_bits);
-    return {&patches_[static_cast<std::size_t>(leaf.number)],
-            static_cast<double>(x & in_leaf) * per_side,
-            static_cast<double>(y & in_leaf) * per_side,
-            column.squares_per_strain * cuts,
-            row.squares_per_strain * cuts,
-            elastic - e,
-            p != plastic};
+    const Number e = lesser_of<Number>(greater_of<Number>(range_.least_elastic, elastic), range_.most_elastic);
+    const Number p = lesser_of<Number>(greater_of<Number>(range_.least_plastic, plastic), range_.most_plastic);
+    const auto [column, columns_per_strain] = elastic_.square_at(e);
+    const auto [row, rows_per_strain] = plastic_.square_at(p);
+    const QuadTree::Found<Number> found = tree_.find_points(column, row);
+    std::array<const double*, n_lanes_of<Number>> patches;
+    for (std::size_t l = 0; l < patches.size(); ++l) patches[l] = &patches_[found.number[l]].corner[0].pressure;
+    const auto [a0, a1, a2, a3, b0, b1, b2, b3, c0, c1, c2, c3, d0, d1, d2, d3] = side_by_side<16>(patches);
+    const HermitePatchOf<Number> patch{{{{a0, a1, a2, a3}, {b0, b1, b2, b3}, {c0, c1, c2, c3}, {d0, d1, d2, d3}}}};
+    return {patch.at(found.x, found.y)
+                .per(columns_per_strain * found.leaves_per_square, rows_per_strain * found.leaves_per_square),
+            elastic - e, p != plastic};
   }
-  static QuadTree::Place place(const StrainAxis::Section& section, double strain, int n_squares)
+  template <class Number>
+  ElasticPointOf<Number> point_at(const Number& elastic, const Number& plastic) const
   {
-    const double square = section.first_square + (strain - section.start) * section.squares_per_strain;
-    return std::min(static_cast<QuadTree::Place>(square * power_of_two(QuadTree::fraction_bits)),
-                    (QuadTree::Place{n_squares} << QuadTree::fraction_bits) - 1);
+    const auto [point, beyond, held] = locate(elastic, plastic);
+    const Number coupling = point.coupling + point.modulus_by_plastic * beyond;
+    return {point.pressure + point.bulk_modulus * beyond, point.bulk_modulus, select(held, Number(0.0), coupling)};
   }
 
   StrainRange range_;

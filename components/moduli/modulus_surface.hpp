@@ -31,9 +31,16 @@ class ModulusSurface
   }
 
   ElasticPoint at(double elastic, double plastic) const { return surface_.at(elastic, plastic); }
+  ElasticPointOf<Lanes> at(const Lanes& elastic, const Lanes& plastic) const { return surface_.at(elastic, plastic); }
   double rate_modulus(double pressure, double elastic, double plastic) const
   {
     if (pressure_modulus_) return (*pressure_modulus_)(pressure, plastic);
+    return surface_.at(elastic, plastic).bulk_modulus;
+  }
+  Lanes rate_modulus(const Lanes& pressure, const Lanes& elastic, const Lanes& plastic) const
+  {
+    if (pressure_modulus_)
+      return each_lane([&](std::size_t l) { return (*pressure_modulus_)(pressure[l], plastic[l]); });
     return surface_.at(elastic, plastic).bulk_modulus;
   }
   double modulus_by_plastic(double elastic, double plastic) const

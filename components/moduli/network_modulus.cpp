@@ -40,6 +40,15 @@ void check(const StrainRange& range)
   }
 }
 
+const NetworkFit& checked(const NetworkFit& fit)
+{
+  check(fit.elastic, "elastic strain");
+  check(fit.plastic, "plastic strain");
+  check(fit.bulk_modulus, "bulk modulus");
+  check(fit.range);
+  return fit;
+}
+
 /// A deviation of zero counts as one.
 double deviation_of(const Scaling& scaling)
 {
@@ -141,18 +150,15 @@ class Integral
 NetworkModulus::Input::Input(const Scaling& scaling) : mean(scaling.mean), per_deviation(1 / deviation_of(scaling)) {}
 
 NetworkModulus::Modulus::Modulus(const NetworkFit& fit)
-    : network(fit.layers),
-      elastic(fit.elastic),
+    : elastic(fit.elastic),
       plastic(fit.plastic),
       mean(fit.bulk_modulus.mean),
       deviation(deviation_of(fit.bulk_modulus)),
-      range(fit.range),
+      range(checked(fit).range),
+      network(fit.layers, {elastic(0.0), plastic(range.least_plastic)},
+              {elastic(range.most_elastic), plastic(range.most_plastic)}),
       least(-std::numeric_limits<double>::infinity())
 {
-  check(fit.elastic, "elastic strain");
-  check(fit.plastic, "plastic strain");
-  check(fit.bulk_modulus, "bulk modulus");
-  check(range);
   least = least_share * largest();
 }
 
@@ -170,12 +176,6 @@ double NetworkModulus::Modulus::largest() const
   }
   if (found == 0) throw BadValue("a network whose bulk modulus is nowhere positive", "a positive one");
   return found;
-}
-
-double NetworkModulus::Modulus::at(double e, double ep) const
-{
-  const double scaled = network.value(elastic(held_elastic(e)), plastic(held_plastic(ep)));
-  return std::max(mean + deviation * scaled, least);
 }
 
 NetworkModulus::Modulus::Slopes NetworkModulus::Modulus::with_slopes(double e, double ep) const

@@ -4,8 +4,9 @@
 #include <cstdint>
 #include <span>
 
-#include "components/moduli/dense_network.hpp"
 #include "components/moduli/hermite_surface.hpp"
+#include "components/moduli/network_fit.hpp"
+#include "components/moduli/piecewise_network.hpp"
 #include "components/moduli/range_mask.hpp"
 
 namespace tamp::components
@@ -33,12 +34,13 @@ class NetworkModulus
   /// for scalings that are not finite, and for a modulus that is not, or is nowhere positive.
   explicit NetworkModulus(const NetworkFit& fit);
 
-  ElasticPoint at(double elastic, double plastic) const
-  {
-    const ElasticPoint on_surface = pressure_.at(elastic, plastic);
-    return {on_surface.pressure, modulus_.at(elastic, plastic), on_surface.coupling};
-  }
+  ElasticPoint at(double elastic, double plastic) const { return point_at(elastic, plastic); }
+  ElasticPointOf<Lanes> at(const Lanes& elastic, const Lanes& plastic) const { return point_at(elastic, plastic); }
   double rate_modulus(double /*pressure*/, double elastic, double plastic) const
+  {
+    return modulus_.at(elastic, plastic);
+  }
+  Lanes rate_modulus(const Lanes& /*pressure*/, const Lanes& elastic, const Lanes& plastic) const
   {
     return modulus_.at(elastic, plastic);
   }
@@ -66,7 +68,11 @@ class NetworkModulus
     double mean, per_deviation;
 
     explicit Input(const Scaling& scaling);
-    double operator()(double strain) const { return (strain - mean) * per_deviation; }
+    template <class Number>
+    Number operator()(const Number& strain) const
+    {
+      return (strain - mean) * per_deviation;
+    }
   };
 
   /// Gradients of the network that its pressure may take; that of the shipped network takes 3 million.
@@ -74,19 +80,33 @@ class NetworkModulus
 
   /// K of the strains, with its bounds.
   struct Modulus {
-    DenseNetwork network;
     Input elastic, plastic;
     double mean, deviation;  // of K
     StrainRange range;
+    PiecewiseNetwork network;
     double least;  // K
 
     explicit Modulus(const NetworkFit& fit);
     double largest() const;  // of a sample over the range
 
-    double held_elastic(double e) const { return std::min(std::max(e, 0.0), range.most_elastic); }
-    double held_plastic(double ep) const { return std::min(std::max(ep, range.least_plastic), range.most_plastic); }
+    // In this order a strain that is not a number counts as the least.
+    template <class Number>
+    Number held_elastic(const Number& e) const
+    {
+      return lesser_of<Number>(greater_of<Number>(0.0, e), range.most_elastic);
+    }
+    template <class Number>
+    Number held_plastic(const Number& ep) const
+    {
+      return lesser_of<Number>(greater_of<Number>(range.least_plastic, ep), range.most_plastic);
+    }
 
-    double at(double e, double ep) const;
+    template <class Number>
+    Number at(const Number& e, const Number& ep) const
+    {
+      const Number scaled = network.value(elastic(held_elastic(e)), plastic(held_plastic(ep)));
+      return greater_of<Number>(mean + deviation * scaled, least);
+    }
     struct Slopes {
       double bulk_modulus, by_elastic, by_plastic;
     };
@@ -94,6 +114,13 @@ class NetworkModulus
     void on_line(double ep, std::span<const double> e, std::span<SurfaceNode> nodes, std::int64_t& samples_left) const;
   };
   static HermiteSurface pressure_of(const Modulus& modulus);
+
+  template <class Number>
+  ElasticPointOf<Number> point_at(const Number& elastic, const Number& plastic) const
+  {
+    const ElasticPointOf<Number> on_surface = pressure_.at(elastic, plastic);
+    return {on_surface.pressure, modulus_.at(elastic, plastic), on_surface.coupling};
+  }
 
   Modulus modulus_;
   HermiteSurface pressure_;

@@ -1,8 +1,13 @@
 #pragma once
 
+#include <algorithm>
+#include <array>
+#include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
+
+#include "components/lanes.hpp"
 
 namespace tamp::components
 {
@@ -40,6 +45,39 @@ class QuadTree
     const Slot slot = slot_of(x, y);
     return {~slots_[slot.index], slot.side_bits};
   }
+
+  /// The leaves around points, which are given in squares from the grid's corner; what is outside of the grid counts as
+  /// on its edge.
+  template <class Number>
+  struct Found {
+    std::array<std::size_t, n_lanes_of<Number>> number;
+    Number x, y;               ///< in the leaf, from 0 to 1
+    Number leaves_per_square;  ///< in a row; a power of two
+  };
+  template <class Number>
+  Found<Number> find_points(const Number& x, const Number& y) const
+  {
+    constexpr std::size_t n = n_lanes_of<Number>;
+    constexpr auto unit = static_cast<double>(Place{1} << fraction_bits);
+    const Number scaled_x = x * unit, scaled_y = y * unit;
+    const Place last_x = (n_columns_ << fraction_bits) - 1, last_y = (n_rows_ << fraction_bits) - 1;
+    std::array<std::size_t, n> number;
+    std::array<double, n> in_x, in_y, side;
+    for (std::size_t l = 0; l < n; ++l) {
+      const Place place_x = std::clamp(static_cast<Place>(lane(scaled_x, l)), Place{0}, last_x);
+      const Place place_y = std::clamp(static_cast<Place>(lane(scaled_y, l)), Place{0}, last_y);
+      const Leaf leaf = find(place_x, place_y);
+      const Place in_leaf = (Place{1} << leaf.side_bits) - 1;
+      number[l] = static_cast<std::size_t>(leaf.number);
+      in_x[l] = static_cast<double>(place_x & in_leaf);
+      in_y[l] = static_cast<double>(place_y & in_leaf);
+      side[l] = power_of_two(-leaf.side_bits);
+    }
+    const Number per_side = number_of<Number>(side);
+    return {number, number_of<Number>(in_x) * per_side, number_of<Number>(in_y) * per_side, unit * per_side};
+  }
+
+  static double power_of_two(int n) { return std::bit_cast<double>(static_cast<std::uint64_t>(1023 + n) << 52); }
 
   /// Cuts the leaf around a place in four: the lower left one keeps its number, and the lower right, upper left and
   /// upper right ones are numbered on from the last. The leaf has been cut less than `most_cuts` times.

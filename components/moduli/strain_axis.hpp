@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "components/lanes.hpp"
 #include "components/portable_math.hpp"
 
 namespace tamp::components
@@ -34,12 +35,24 @@ class StrainAxis
     }
   }
 
-  const Section& section_of(double strain) const
+  /// Strains between the first line and the last, in squares.
+  template <class Number>
+  struct SquareAt {
+    Number square, squares_per_strain;
+  };
+  template <class Number>
+  SquareAt<Number> square_at(const Number& strain) const
   {
-    const Section* section = sections_.data();
-    while (section != &sections_.back() && strain >= section[1].start) ++section;
-    return *section;
+    Number start = sections_[0].start, per_strain = sections_[0].squares_per_strain, first = sections_[0].first_square;
+    for (std::size_t i = 1; i < sections_.size(); ++i) {
+      const Mask<Number> there = strain >= sections_[i].start;
+      start = select(there, Number(sections_[i].start), start);
+      per_strain = select(there, Number(sections_[i].squares_per_strain), per_strain);
+      first = select(there, Number(sections_[i].first_square), first);
+    }
+    return {first + (strain - start) * per_strain, per_strain};
   }
+
   const Section& section_of_square(double square) const
   {
     const Section* section = sections_.data();

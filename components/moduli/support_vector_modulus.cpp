@@ -1,6 +1,7 @@
 #include "components/moduli/support_vector_modulus.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <string>
 
@@ -159,14 +160,14 @@ void SupportVectorModulus::find_trusted(Interval total)
 /// From elastic strain zero towards an end of the box, the total strain as far as K is stiff enough.
 double SupportVectorModulus::trusted_end(double plastic, double box_end) const
 {
-  const double unstrained = pressure_.at(plastic, plastic).by_x;
+  const double unstrained = pressure_.by_x_at(plastic, plastic);
   if (!(unstrained > 0)) {
     throw BadValue("bulk modulus " + std::to_string(unstrained) + " Pa at elastic strain 0, plastic strain " +
                        std::to_string(plastic),
                    "a positive modulus at elastic strain 0");
   }
   const auto is_stiff = [&](double total) {
-    return pressure_.at(total, plastic).by_x >= least_share_of_modulus * unstrained;
+    return pressure_.by_x_at(total, plastic) >= least_share_of_modulus * unstrained;
   };
 
   constexpr int n_steps = 128;
@@ -184,50 +185,75 @@ double SupportVectorModulus::trusted_end(double plastic, double box_end) const
   return stiff;
 }
 
-[[gnu::always_inline]] inline SupportVectorModulus::Place SupportVectorModulus::place_of(double elastic,
-                                                                                         double plastic) const
+template <class Number>
+[[gnu::always_inline]] inline SupportVectorModulus::Place<Number> SupportVectorModulus::place_of(
+    const Number& elastic, const Number& plastic) const
 {
-  const double ep = std::min(std::max(range_.least_plastic, plastic), range_.most_plastic);
-  const double nodes = (ep - range_.least_plastic) * nodes_per_strain_;
-  const std::size_t i = std::min(static_cast<std::size_t>(nodes), trusted_.size() - 2);
-  const double fraction = nodes - static_cast<double>(i);
-  const Interval &a = trusted_[i], &b = trusted_[i + 1];
-  const Interval change{b.low - a.low, b.high - a.high};
+  // In this order a plastic strain that is not a number counts as the least.
+  const Number ep = lesser_of<Number>(greater_of<Number>(range_.least_plastic, plastic), range_.most_plastic);
+  const Number nodes = (ep - range_.least_plastic) * nodes_per_strain_;
+  const Number node = lesser_of<Number>(truncated(nodes), static_cast<double>(trusted_.size() - 2));
+  const Number fraction = nodes - node;
+  std::array<const double*, n_lanes_of<Number>> places;
+  const auto i = whole_parts(node);
+  for (std::size_t l = 0; l < places.size(); ++l) places[l] = &trusted_[static_cast<std::size_t>(i[l])].low;
+  const auto [low_here, high_here, low_next, high_next] = side_by_side<4>(places);
+  const Number low_change = low_next - low_here, high_change = high_next - high_here;
 
-  const double total = elastic + ep;
-  const double low = a.low + fraction * change.low, high = a.high + fraction * change.high;
-  const double trusted = std::min(std::max(low, total), high);
-  const double by_plastic =
-      total < low ? change.low * nodes_per_strain_ : (total > high ? change.high * nodes_per_strain_ : 1);
+  const Number total = elastic + ep;
+  const Number low = low_here + fraction * low_change, high = high_here + fraction * high_change;
+  const Number trusted = lesser_of(greater_of(low, total), high);
+  const Number by_plastic = select(total < low, low_change * nodes_per_strain_,
+                                   select(total > high, high_change * nodes_per_strain_, Number(1.0)));
   return {trusted, ep, total - trusted, by_plastic, plastic != ep};
+}
+
+template <class Number>
+ElasticPointOf<Number> SupportVectorModulus::point_at(const Number& elastic, const Number& plastic) const
+{
+  const Place<Number> place = place_of(elastic, plastic);
+  const GaussianSum::Values<Number> p = pressure_.at(place.total, place.plastic);
+  // At an edge in total strain, T, p = f(T) + f_T (total - T), and T moves with the plastic strain.
+  const Number modulus_by_plastic = p.by_xx * place.total_by_plastic + p.by_xy;
+  const Number coupling = p.by_x + p.by_y + place.beyond * modulus_by_plastic;
+  return {p.f + p.by_x * place.beyond, p.by_x, select(place.held, Number(0.0), coupling)};
+}
+
+template <class Number>
+Number SupportVectorModulus::modulus_at(const Number& elastic, const Number& plastic) const
+{
+  const Place<Number> place = place_of(elastic, plastic);
+  return pressure_.by_x_at(place.total, place.plastic);
 }
 
 ElasticPoint SupportVectorModulus::at(double elastic, double plastic) const
 {
-  const Place place = place_of(elastic, plastic);
-  const GaussianSum::Values p = pressure_.at(place.total, place.plastic);
-  // At an edge in total strain, T, p = f(T) + f_T (total - T), and T moves with the plastic strain.
-  const double modulus_by_plastic = p.by_xx * place.total_by_plastic + p.by_xy;
-  const double coupling = p.by_x + p.by_y + place.beyond * modulus_by_plastic;
-  return {p.f + p.by_x * place.beyond, p.by_x, place.held ? 0 : coupling};
+  return point_at(elastic, plastic);
+}
+ElasticPointOf<Lanes> SupportVectorModulus::at(const Lanes& elastic, const Lanes& plastic) const
+{
+  return point_at(elastic, plastic);
 }
 
-double SupportVectorModulus::rate_modulus(double, double elastic, double plastic) const
+double SupportVectorModulus::rate_modulus(double /*pressure*/, double elastic, double plastic) const
 {
-  const Place place = place_of(elastic, plastic);
-  return pressure_.at(place.total, place.plastic).by_x;
+  return modulus_at(elastic, plastic);
+}
+Lanes SupportVectorModulus::rate_modulus(const Lanes& /*pressure*/, const Lanes& elastic, const Lanes& plastic) const
+{
+  return modulus_at(elastic, plastic);
 }
 
 double SupportVectorModulus::modulus_by_plastic(double elastic, double plastic) const
 {
-  const Place place = place_of(elastic, plastic);
-  const GaussianSum::Values p = pressure_.at(place.total, place.plastic);
+  const Place<double> place = place_of(elastic, plastic);
+  const GaussianSum::Values<double> p = pressure_.at(place.total, place.plastic);
   return place.held ? 0 : p.by_xx * place.total_by_plastic + p.by_xy;
 }
 
 bool SupportVectorModulus::in_range(double elastic, double plastic) const
 {
-  const Place place = place_of(elastic, plastic);
+  const Place<double> place = place_of(elastic, plastic);
   return place.beyond == 0 && !place.held;
 }
 

@@ -34,7 +34,9 @@ class SupportVectorModulus
   SupportVectorModulus(const SupportVectorFit& fit, ZeroPressure zero);
 
   ElasticPoint at(double elastic, double plastic) const;
+  ElasticPointOf<Lanes> at(const Lanes& elastic, const Lanes& plastic) const;
   double rate_modulus(double pressure, double elastic, double plastic) const;
+  Lanes rate_modulus(const Lanes& pressure, const Lanes& elastic, const Lanes& plastic) const;
   double modulus_by_plastic(double elastic, double plastic) const;
   bool in_range(double elastic, double plastic) const;
   bool rate_in_range(double /*pressure*/, double elastic, double plastic) const { return in_range(elastic, plastic); }
@@ -44,14 +46,20 @@ class SupportVectorModulus
 
  private:
   /// The trusted state for a given one.
+  template <class Number>
   struct Place {
-    double total, plastic;
-    double beyond;            // the elastic strain that is left over
-    double total_by_plastic;  // as the plastic strain changes at equal elastic strain
-    bool held;                // in plastic strain
+    Number total, plastic;
+    Number beyond;            // the elastic strain that is left over
+    Number total_by_plastic;  // as the plastic strain changes at equal elastic strain
+    Mask<Number> held;        // in plastic strain
   };
 
-  Place place_of(double elastic, double plastic) const;
+  template <class Number>
+  Place<Number> place_of(const Number& elastic, const Number& plastic) const;
+  template <class Number>
+  ElasticPointOf<Number> point_at(const Number& elastic, const Number& plastic) const;
+  template <class Number>
+  Number modulus_at(const Number& elastic, const Number& plastic) const;
   void find_trusted(Interval total);
   double trusted_end(double plastic, double box_end) const;
 

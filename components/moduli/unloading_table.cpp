@@ -146,6 +146,7 @@ void UnloadingTable::make_surface_grid()
   const std::size_t n_lines = (n_curves - 1) * n_lines_a_curve + 1;
   for (const MonotoneCubic& curve : extended_) last_elastic_ = std::max(last_elastic_, curve.y().back());
   n_elastic_ = n_elastic_cells + 1;
+  last_cell_ = n_elastic_cells - 1;
   const double spacing = last_elastic_ / static_cast<double>(n_elastic_cells);
   elastic_per_spacing_ = 1 / spacing;
   nodes_.resize(n_lines * n_elastic_);

@@ -1,12 +1,13 @@
 #pragma once
 
-#include <algorithm>
+#include <array>
 #include <cstddef>
 #include <optional>
 #include <span>
 #include <vector>
 
 #include "components/curves/monotone_cubic.hpp"
+#include "components/lanes.hpp"
 #include "components/moduli/elastic_model.hpp"
 #include "components/moduli/pressure_modulus.hpp"
 
@@ -41,11 +42,11 @@ class UnloadingTable
 
   ElasticPoint at(double elastic_volumetric, double plastic_volumetric) const
   {
-    const Located here = locate(elastic_volumetric, plastic_volumetric);
-    const CubicValue &p = here.pressure, &c = here.coupling;
-    // `beyond` is not zero in tension and beyond the grid's end: straight on.
-    return {p.value + p.slope * here.beyond, p.slope * elastic_per_spacing_,
-            here.held ? 0 : c.value + c.slope * here.beyond};
+    return point_at(elastic_volumetric, plastic_volumetric);
+  }
+  ElasticPointOf<Lanes> at(const Lanes& elastic_volumetric, const Lanes& plastic_volumetric) const
+  {
+    return point_at(elastic_volumetric, plastic_volumetric);
   }
 
   double rate_modulus(double pressure, double /*elastic*/, double plastic_volumetric) const
@@ -56,7 +57,7 @@ class UnloadingTable
 
   double modulus_by_plastic(double elastic_volumetric, double plastic_volumetric) const
   {
-    const Located here = locate(elastic_volumetric, plastic_volumetric);
+    const Located<double> here = locate(elastic_volumetric, plastic_volumetric);
     return here.held ? 0 : here.coupling.slope * elastic_per_spacing_;
   }
 
@@ -110,18 +111,21 @@ class UnloadingTable
   // State form: nodes [plastic line][elastic], lines evenly spaced between each two curves. Derivatives by elastic
   // strain are per elastic spacing, the coupling is per unit of plastic strain.
   static constexpr std::size_t n_lines_a_curve = 16;  // from one curve to the next
-  struct alignas(32) Node {
-    double pressure, by_elastic, coupling, coupling_by_elastic;
+  template <class Number>
+  struct NodeOf {
+    Number pressure, by_elastic, coupling, coupling_by_elastic;
   };
+  using Node = NodeOf<double>;
 
   /// Interpolates nodes from one line to the next: cubic in the plastic strain, with the coupling as slope.
+  template <class Number>
   struct Across {
-    double low, high, low_slope, high_slope;  // weights of values and couplings in a value
-    double change, low_change, high_change;   // weights in its derivative by plastic strain
+    Number low, high, low_slope, high_slope;  // weights of values and couplings in a value
+    Number change, low_change, high_change;   // weights in its derivative by plastic strain
 
-    Across(double t, double lines_per_strain)
+    Across(const Number& t, const Number& lines_per_strain)
     {
-      const double s = 1 - t, spacing = 1 / lines_per_strain;
+      const Number s = 1 - t, spacing = 1 / lines_per_strain;
       high = t * t * (3 - 2 * t);
       low = 1 - high;
       low_slope = spacing * t * s * s;
@@ -131,7 +135,7 @@ class UnloadingTable
       high_change = t * (3 * t - 2);
     }
 
-    Node operator()(const Node& a, const Node& b) const
+    NodeOf<Number> operator()(const NodeOf<Number>& a, const NodeOf<Number>& b) const
     {
       return {low * a.pressure + high * b.pressure + low_slope * a.coupling + high_slope * b.coupling,
               low * a.by_elastic + high * b.by_elastic + low_slope * a.coupling_by_elastic +
@@ -142,36 +146,77 @@ class UnloadingTable
     }
   };
 
-  /// Cubics in the elastic strain, per spacing, at one plastic strain, which is `held` where it is outside the curves'.
-  struct Located {
-    CubicValue pressure, coupling;
-    double beyond;  // spacings outside the grid
-    bool held;
+  /// The gap between two curves that holds a plastic strain, which is not below the first curve's.
+  template <class Number>
+  struct Gap {
+    Number curve, start, lines_per_strain;
   };
-  Located locate(double elastic_volumetric, double plastic_volumetric) const
+  template <class Number>
+  Gap<Number> gap_at(const Number& plastic) const
   {
-    const double ep = std::min(std::max(plastic_volumetric, 0.0), curve_plastic_.back());
-    const std::size_t k = curve_below(ep);
-    const double line = (ep - curve_plastic_[k]) * lines_per_strain_[k];
-    const std::size_t j = std::min(static_cast<std::size_t>(line), n_lines_a_curve - 1);
+    Number curve = 0.0, start = curve_plastic_[0], lines_per_strain = lines_per_strain_[0];
+    for (std::size_t k = 1; k + 1 < curve_plastic_.size(); ++k) {
+      const Mask<Number> there = plastic >= curve_plastic_[k];
+      curve = select(there, Number(static_cast<double>(k)), curve);
+      start = select(there, Number(curve_plastic_[k]), start);
+      lines_per_strain = select(there, Number(lines_per_strain_[k]), lines_per_strain);
+    }
+    return {curve, start, lines_per_strain};
+  }
 
-    const double ee = std::min(std::max(elastic_volumetric, 0.0), last_elastic_);
-    const double cell = ee * elastic_per_spacing_;
-    const std::size_t i = std::min(static_cast<std::size_t>(cell), n_elastic_ - 2);
+  /// Cubics in the elastic strain, per spacing, at one plastic strain, which is `held` where it is outside the curves'.
+  template <class Number>
+  struct Located {
+    CubicValueOf<Number> pressure, coupling;
+    Number beyond;  // spacings outside the grid
+    Mask<Number> held;
+  };
+  template <class Number>
+  Located<Number> locate(const Number& elastic_volumetric, const Number& plastic_volumetric) const
+  {
+    // In this order a strain that is not a number counts as zero, and ends up in `beyond`.
+    const Number ep = lesser_of<Number>(greater_of<Number>(0.0, plastic_volumetric), curve_plastic_.back());
+    const Gap<Number> gap = gap_at(ep);
+    const Number lines = (ep - gap.start) * gap.lines_per_strain;
+    const Number line = lesser_of<Number>(truncated(lines), n_lines_a_curve - 1.0);
 
-    const Node* const low = &nodes_[(k * n_lines_a_curve + j) * n_elastic_ + i];
-    const Node* const high = low + n_elastic_;
-    const Across across(line - static_cast<double>(j), lines_per_strain_[k]);
-    const Node left = across(low[0], high[0]), right = across(low[1], high[1]);
+    const Number ee = lesser_of<Number>(greater_of<Number>(0.0, elastic_volumetric), last_elastic_);
+    const Number cells = ee * elastic_per_spacing_;
+    const Number cell = lesser_of<Number>(truncated(cells), last_cell_);
 
-    const double t = cell - static_cast<double>(i);
-    return {cubic(1, left.pressure, left.by_elastic, right.pressure, right.by_elastic, t),
-            cubic(1, left.coupling, left.coupling_by_elastic, right.coupling, right.coupling_by_elastic, t),
+    const Number n_elastic = last_cell_ + 2;
+    const auto first = whole_parts((gap.curve * static_cast<double>(n_lines_a_curve) + line) * n_elastic + cell);
+    std::array<const double*, n_lanes_of<Number>> low, high;
+    for (std::size_t l = 0; l < low.size(); ++l) {
+      const Node* const node = &nodes_[static_cast<std::size_t>(first[l])];
+      low[l] = &node->pressure;
+      high[l] = &node[n_elastic_].pressure;
+    }
+    // Two nodes of each line, which follow on each other.
+    const auto [a0, a1, a2, a3, b0, b1, b2, b3] = side_by_side<8>(low);
+    const auto [c0, c1, c2, c3, d0, d1, d2, d3] = side_by_side<8>(high);
+    const Across<Number> across(lines - line, gap.lines_per_strain);
+    const NodeOf<Number> left = across({a0, a1, a2, a3}, {c0, c1, c2, c3});
+    const NodeOf<Number> right = across({b0, b1, b2, b3}, {d0, d1, d2, d3});
+
+    const Number t = cells - cell;
+    return {cubic<Number>(1.0, left.pressure, left.by_elastic, right.pressure, right.by_elastic, t),
+            cubic<Number>(1.0, left.coupling, left.coupling_by_elastic, right.coupling, right.coupling_by_elastic, t),
             (elastic_volumetric - ee) * elastic_per_spacing_, plastic_volumetric != ep};
+  }
+
+  template <class Number>
+  ElasticPointOf<Number> point_at(const Number& elastic_volumetric, const Number& plastic_volumetric) const
+  {
+    const auto [p, c, beyond, held] = locate(elastic_volumetric, plastic_volumetric);
+    // `beyond` is not zero in tension and beyond the grid's end: straight on.
+    const Number coupling = c.value + c.slope * beyond;
+    return {p.value + p.slope * beyond, p.slope * elastic_per_spacing_, select(held, Number(0.0), coupling)};
   }
 
   std::vector<Node> nodes_;
   std::size_t n_elastic_ = 0;  // nodes a line
+  double last_cell_ = 0;       // from one of them to the next, counted from zero
   double last_elastic_ = 0;
   double elastic_per_spacing_ = 0;  // spacings per unit of elastic strain
   std::vector<double> lines_per_strain_;

@@ -4,9 +4,9 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <limits>
-#include <random>
 
 #include "components/errors.hpp"
+#include "tests/components/moduli/jittered_fit.hpp"
 
 using tamp::components::BadValue;
 using tamp::components::ElasticPoint;
@@ -17,23 +17,6 @@ using tamp::components::ZeroPressure;
 
 namespace
 {
-
-/// A fit with vectors on a jittered grid around the box, total strains -10 to 45 % and plastic ones 0 to 32 %. Its
-/// pressure rises about as the square of the scaled total strain's distance from where it turns.
-SupportVectorFit fit_of(double gamma, double turns_at = -0.5)
-{
-  SupportVectorFit fit{{0.01, -10, 45, 1 / 55.0}, {0.01, 0, 32, 1 / 32.0}, 1e6, 2e-2, -10, gamma, -0.4, {}, {}};
-  std::mt19937 random(7);
-  std::uniform_real_distribution<double> jitter(-0.02, 0.02);
-  for (int i = 0; i < 18; ++i) {
-    for (int j = 0; j < 17; ++j) {
-      const double total = -0.4 + 0.1 * i + jitter(random), plastic = -0.4 + 0.11 * j + jitter(random);
-      fit.vectors.push_back({total, plastic});
-      fit.coefficients.push_back((total - turns_at) * (total - turns_at) * (1 + plastic) * (1 + jitter(random)));
-    }
-  }
-  return fit;
-}
 
 struct Derivatives {
   double pressure, by_total, by_plastic, by_total_total, by_total_plastic;
@@ -108,7 +91,7 @@ BadValue refusal(const SupportVectorFit& fit)
 TEST_CASE("the expanded pressure is the direct sum over the support vectors to 1e-12 of its range")
 {
   for (const double gamma : {0.5, 4.7, 40.0}) {
-    const SupportVectorFit fit = fit_of(gamma);
+    const SupportVectorFit fit = jittered_fit(gamma);
     const SupportVectorModulus model(fit, ZeroPressure::as_fitted);
     const std::vector<State> states = trusted_states(model);
 
@@ -123,7 +106,7 @@ TEST_CASE("the expanded pressure is the direct sum over the support vectors to 1
 TEST_CASE("modulus and coupling are the derivatives of the direct sum over the support vectors")
 {
   for (const double gamma : {0.5, 4.7, 40.0}) {
-    const SupportVectorFit fit = fit_of(gamma);
+    const SupportVectorFit fit = jittered_fit(gamma);
     const SupportVectorModulus model(fit, ZeroPressure::as_fitted);
 
     Comparison modulus, coupling, modulus_by_plastic;
@@ -144,7 +127,7 @@ TEST_CASE("modulus and coupling are the derivatives of the direct sum over the s
 TEST_CASE("coupling and modulus by plastic strain are slopes of what the SVR answers, trusted or beyond")
 {
   const double h = 1e-6;
-  const SupportVectorFit soft_in_tension = fit_of(4.7, 0.2), soft_in_compression = fit_of(0.5);
+  const SupportVectorFit soft_in_tension = jittered_fit(4.7, 0.2), soft_in_compression = jittered_fit(0.5);
 
   for (const SupportVectorModulus& model :
        {SupportVectorModulus(soft_in_tension, ZeroPressure::as_fitted),
@@ -165,7 +148,7 @@ TEST_CASE("coupling and modulus by plastic strain are slopes of what the SVR ans
 
 TEST_CASE("a fit whose pressure is zero at elastic strain zero keeps its moduli")
 {
-  const SupportVectorFit fit = fit_of(4.7);
+  const SupportVectorFit fit = jittered_fit(4.7);
   const SupportVectorModulus as_fitted(fit, ZeroPressure::as_fitted);
   const SupportVectorModulus anchored(fit, ZeroPressure::at_zero_elastic_strain);
 
@@ -182,7 +165,7 @@ TEST_CASE("a fit whose pressure is zero at elastic strain zero keeps its moduli"
 
 TEST_CASE("the rate form has the modulus of the state form, whatever the pressure")
 {
-  const SupportVectorModulus model(fit_of(4.7), ZeroPressure::at_zero_elastic_strain);
+  const SupportVectorModulus model(jittered_fit(4.7), ZeroPressure::at_zero_elastic_strain);
 
   for (const double ee : {-0.2, 0.05, 0.4}) {
     CHECK(model.rate_modulus(1e9, ee, 0.1) == model.at(ee, 0.1).bulk_modulus);
@@ -192,7 +175,7 @@ TEST_CASE("the rate form has the modulus of the state form, whatever the pressur
 
 TEST_CASE("beyond the box of a fit the pressure goes straight on, without a kink at its edge")
 {
-  const SupportVectorModulus model(fit_of(40), ZeroPressure::as_fitted);
+  const SupportVectorModulus model(jittered_fit(40), ZeroPressure::as_fitted);
   const double ep = 0.15;
 
   for (const double edge : {-0.1 - ep, 0.45 - ep}) {
@@ -211,7 +194,7 @@ TEST_CASE("beyond the box of a fit the pressure goes straight on, without a kink
 
 TEST_CASE("a fit that softens to a negative modulus in tension is not followed there")
 {
-  const SupportVectorFit fit = fit_of(4.7, 0.2);
+  const SupportVectorFit fit = jittered_fit(4.7, 0.2);
   const SupportVectorModulus model(fit, ZeroPressure::at_zero_elastic_strain);
 
   for (int i = 0; i <= 100; ++i) {
@@ -227,7 +210,7 @@ TEST_CASE("a fit that softens to a negative modulus in tension is not followed t
 
 TEST_CASE("plastic strain beyond a fit is held at its end, and dilated sand counts as uncompacted")
 {
-  const SupportVectorModulus model(fit_of(4.7), ZeroPressure::at_zero_elastic_strain);
+  const SupportVectorModulus model(jittered_fit(4.7), ZeroPressure::at_zero_elastic_strain);
 
   CHECK(model.at(0.05, -0.2).pressure == model.at(0.05, 0).pressure);
   CHECK(model.at(0.05, 0.5).pressure == model.at(0.05, 0.32).pressure);
@@ -240,7 +223,7 @@ TEST_CASE("plastic strain beyond a fit is held at its end, and dilated sand coun
 
 TEST_CASE("the range of a fit is trusted all over, and no wider one is")
 {
-  const SupportVectorModulus model(fit_of(4.7, 0.2), ZeroPressure::at_zero_elastic_strain);
+  const SupportVectorModulus model(jittered_fit(4.7, 0.2), ZeroPressure::at_zero_elastic_strain);
   const StrainRange range = model.range();
 
   const auto n_trusted = [&](double elastic) {
@@ -259,7 +242,7 @@ TEST_CASE("the range of a fit is trusted all over, and no wider one is")
 
 TEST_CASE("a strain that is not a number has no pressure and is not in range")
 {
-  const SupportVectorModulus model(fit_of(4.7), ZeroPressure::as_fitted);
+  const SupportVectorModulus model(jittered_fit(4.7), ZeroPressure::as_fitted);
   const double nan = std::numeric_limits<double>::quiet_NaN();
 
   CHECK(std::isnan(model.at(nan, 0.1).pressure));
@@ -269,7 +252,7 @@ TEST_CASE("a strain that is not a number has no pressure and is not in range")
 
 TEST_CASE("a fit without vectors, or with other than one coefficient each, is refused")
 {
-  SupportVectorFit empty = fit_of(4.7), short_of_one = empty;
+  SupportVectorFit empty = jittered_fit(4.7), short_of_one = empty;
   empty.vectors.clear();
   empty.coefficients.clear();
   short_of_one.coefficients.pop_back();
@@ -281,7 +264,7 @@ TEST_CASE("a fit without vectors, or with other than one coefficient each, is re
 TEST_CASE("a fit with numbers that are not finite is refused with the vector's row")
 {
   const double nan = std::numeric_limits<double>::quiet_NaN();
-  SupportVectorFit vector = fit_of(4.7), coefficient = vector, intercept = vector;
+  SupportVectorFit vector = jittered_fit(4.7), coefficient = vector, intercept = vector;
   vector.vectors[5][1] = nan;
   coefficient.coefficients[9] = std::numeric_limits<double>::infinity();
   intercept.intercept = nan;
@@ -293,13 +276,13 @@ TEST_CASE("a fit with numbers that are not finite is refused with the vector's r
 
 TEST_CASE("a fit with widths or scales that are not positive is refused")
 {
-  SupportVectorFit no_scale = fit_of(4.7), no_unit = no_scale, no_pressure_scale = no_scale, reversed = no_scale;
+  SupportVectorFit no_scale = jittered_fit(4.7), no_unit = no_scale, no_pressure_scale = no_scale, reversed = no_scale;
   no_scale.total.scale = 0;
   no_unit.plastic.unit = -0.01;
   no_pressure_scale.pressure_scale = 0;
   reversed.total.upper = -20;
 
-  CHECK(refusal(fit_of(0)).found == "gamma 0.000000");
+  CHECK(refusal(jittered_fit(0)).found == "gamma 0.000000");
   CHECK(refusal(no_scale).found == "scale of total strain 0.000000");
   CHECK(refusal(no_unit).found == "unit of plastic strain -0.010000");
   CHECK(refusal(no_pressure_scale).found == "scale of pressure 0.000000");
@@ -308,12 +291,12 @@ TEST_CASE("a fit with widths or scales that are not positive is refused")
 
 TEST_CASE("a fit with a kernel too narrow to be expanded is refused")
 {
-  CHECK(refusal(fit_of(401)).expected == "at most 20 times");
+  CHECK(refusal(jittered_fit(401)).expected == "at most 20 times");
 }
 
 TEST_CASE("a fit that has no positive modulus at elastic strain zero is refused")
 {
-  SupportVectorFit softening = fit_of(4.7), short_box = softening, no_plastic = softening;
+  SupportVectorFit softening = jittered_fit(4.7), short_box = softening, no_plastic = softening;
   for (double& coefficient : softening.coefficients) coefficient = -coefficient;
   short_box.total.upper = 20;
   no_plastic.plastic.lower = -32, no_plastic.plastic.upper = 0;
