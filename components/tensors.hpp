@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <Eigen/LU>
+#include <type_traits>
 
 /// Small tensors of the mechanics. D is the dimension of the method: 2 is plane strain, 3 is space.
 namespace tamp
@@ -19,8 +20,8 @@ inline constexpr int n_symmetric = D == 2 ? 4 : 6;
 
 /// A symmetric tensor as (xx, yy, zz, xy) in plane strain and (xx, yy, zz, xy, yz, xz) in space; shear components
 /// are tensor components (half the engineering strain). Tension positive.
-template <int D>
-using SymmetricTensor = Eigen::Matrix<double, n_symmetric<D>, 1>;
+template <int D, class Number = double>
+using SymmetricTensor = Eigen::Matrix<Number, n_symmetric<D>, 1>;
 
 template <class Number, int Size>
 Number trace(const Eigen::Matrix<Number, Size, 1>& a)
@@ -38,17 +39,17 @@ Number double_dot(const Eigen::Matrix<Number, Size, 1>& a, const Eigen::Matrix<N
   return diagonal + 2.0 * shear;
 }
 
-template <int Size>
-Eigen::Matrix<double, Size, 1> deviator(Eigen::Matrix<double, Size, 1> a)
+template <class Number, int Size>
+Eigen::Matrix<Number, Size, 1> deviator(Eigen::Matrix<Number, Size, 1> a)
 {
   a.template head<3>().array() -= trace(a) / 3;
   return a;
 }
 
-template <int Size>
-Eigen::Matrix<double, Size, 1> isotropic(double value)
+template <int Size, class Number = double>
+Eigen::Matrix<Number, Size, 1> isotropic(const std::type_identity_t<Number>& value)
 {
-  Eigen::Matrix<double, Size, 1> a = Eigen::Matrix<double, Size, 1>::Zero();
+  Eigen::Matrix<Number, Size, 1> a = Eigen::Matrix<Number, Size, 1>::Zero();
   a.template head<3>().setConstant(value);
   return a;
 }
@@ -60,21 +61,22 @@ inline Matrix<3> cross_matrix(const Vector<3>& a)
 }
 
 /// The in-plane (D x D) part of a symmetric tensor as a matrix; plane strain leaves zz out.
-template <int D>
-Matrix<D> plane_part(const SymmetricTensor<D>& a)
+template <int D, class Number = double>
+Matrix<D, Number> plane_part(const std::type_identity_t<SymmetricTensor<D, Number>>& a)
 {
   if constexpr (D == 2) {
-    return (Matrix<2>() << a[0], a[3], a[3], a[1]).finished();
+    return (Matrix<2, Number>() << a[0], a[3], a[3], a[1]).finished();
   } else {
-    return (Matrix<3>() << a[0], a[3], a[5], a[3], a[1], a[4], a[5], a[4], a[2]).finished();
+    return (Matrix<3, Number>() << a[0], a[3], a[5], a[3], a[1], a[4], a[5], a[4], a[2]).finished();
   }
 }
 
 /// The symmetric tensor with the symmetric part of `m` in the plane and `zz` out of it (ignored in space).
-template <int D>
-SymmetricTensor<D> symmetric_part(const Matrix<D>& m, double zz = 0)
+template <int D, class Number = double>
+SymmetricTensor<D, Number> symmetric_part(const std::type_identity_t<Matrix<D, Number>>& m,
+                                          const std::type_identity_t<Number>& zz = 0.0)
 {
-  SymmetricTensor<D> a;
+  SymmetricTensor<D, Number> a;
   if constexpr (D == 2) {
     a << m(0, 0), m(1, 1), zz, 0.5 * (m(0, 1) + m(1, 0));
   } else {

@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "components/portable_math.hpp"
+#include "components/tensor_lanes.hpp"
 
 namespace tamp::components
 {
@@ -28,7 +29,11 @@ struct Cone {
   {
   }
 
-  double strength(double pressure) const { return k + alpha * pressure; }
+  template <class Number>
+  Number strength(const Number& pressure) const
+  {
+    return k + alpha * pressure;
+  }
 
  private:
   static double radians(double degrees) { return degrees * std::numbers::pi / 180; }
@@ -40,27 +45,36 @@ struct Cone {
 };
 
 /// Where a trial stress ends, and how it flowed.
+template <class Number>
 struct Returned {
-  double pressure;
-  double sqrt_j2;
-  double plastic_shear = 0;      ///< times s / (2 sqrt(J2)) it is the deviator of the plastic strain
-  double plastic_expansion = 0;  ///< volumetric
+  Number pressure;
+  Number sqrt_j2;
+  Number plastic_shear;      ///< times s / (2 sqrt(J2)) it is the deviator of the plastic strain
+  Number plastic_expansion;  ///< volumetric
 };
 
-Returned returned(const DruckerPrager& soil, const Cone& cone, const Invariants& trial)
+/// Without a branch, so that `Number` may be Lanes. `tau` is the trial's sqrt(J2).
+template <class Number>
+Returned<Number> returned(const DruckerPrager& soil, const Cone& cone, const Number& trial_pressure, const Number& tau)
 {
-  const double K = soil.bulk_modulus, G = soil.shear_modulus, tau = trial.sqrt_j2();
-  const double beyond_cone = tau - cone.strength(trial.pressure);
-  if (beyond_cone <= 0 && trial.pressure >= -cone.tension) return {trial.pressure, tau};
-  if (beyond_cone > 0) {
-    const double shear = beyond_cone / (G + cone.alpha * cone.beta * K);
-    const double pressure = trial.pressure + K * cone.beta * shear;
-    // Below the cut-off there is shear left; where it is next to nothing, round-off may say less.
-    if (pressure >= -cone.tension) return {pressure, std::max(tau - shear * G, 0.0), shear, cone.beta * shear};
-  }
+  const double K = soil.bulk_modulus, G = soil.shear_modulus;
+  const Number zero = 0.0, cut_off = -cone.tension;
+  const Number beyond_cone = tau - cone.strength(trial_pressure);
+  const Mask<Number> is_elastic = beyond_cone <= 0.0 && trial_pressure >= cut_off;
+
+  const Number shear = beyond_cone / (G + cone.alpha * cone.beta * K);
+  const Number pressure = trial_pressure + K * cone.beta * shear;
+  const Mask<Number> is_on_cone = beyond_cone > 0.0 && pressure >= cut_off;
+  // Below the cut-off there is shear left; where it is next to nothing, round-off may say less.
+  const Number left = greater_of<Number>(tau - shear * G, zero);
   // At the cut-off, where the cone may hold the shear.
-  const double held = std::min(tau, std::max(cone.strength(-cone.tension), 0.0));
-  return {-cone.tension, held, (tau - held) / G, (-cone.tension - trial.pressure) / K};
+  const Number held = lesser_of<Number>(tau, greater_of<Number>(cone.strength(cut_off), zero));
+
+  const auto chosen = [&](const Number& elastic, const Number& on_cone, const Number& at_cut_off) {
+    return select(is_elastic, elastic, select(is_on_cone, on_cone, at_cut_off));
+  };
+  return {chosen(trial_pressure, pressure, cut_off), chosen(tau, left, held), chosen(zero, shear, (tau - held) / G),
+          chosen(zero, cone.beta * shear, (cut_off - trial_pressure) / K)};
 }
 
 constexpr Range angle{.lower = 0, .upper = 90, .holds_upper = false};
@@ -130,28 +144,39 @@ template <int D>
 BatchFailure update(const DruckerPrager& soil, const MaterialBatch<D, DruckerPragerState>& batch, UpdateCounts& counts)
 {
   const Cone cone(soil);
+  std::ranges::fill(batch.bulk_modulus, soil.bulk_modulus);
+  std::ranges::fill(batch.shear_modulus, soil.shear_modulus);
   BatchFailure first_failure;
-  for (std::size_t i = 0; i < batch.stress.size(); ++i) {
-    batch.bulk_modulus[i] = soil.bulk_modulus;
-    batch.shear_modulus[i] = soil.shear_modulus;
-    batch.plastic_work[i] = 0;
-    batch.state[i] = batch.old_state[i];
-    const SymmetricTensor<D>& strain = batch.strain_increment[i];
-    const SymmetricTensor<D> trial = batch.stress[i] + 2 * soil.shear_modulus * deviator(strain) +
-                                     isotropic<n_symmetric<D>>(soil.bulk_modulus * trace(strain));
-    if (!trial.allFinite()) {
-      if (!first_failure) first_failure = UpdateFailure{i, UpdateFault::not_finite};
-      ++counts.failures;
-      continue;
+  for (std::size_t i = 0; i < batch.stress.size(); i += n_lanes) {
+    const SymmetricTensor<D, Lanes> strain = lanes_at(batch.strain_increment, i);
+    const SymmetricTensor<D, Lanes> old = lanes_at(std::span<const SymmetricTensor<D>>(batch.stress), i);
+    const SymmetricTensor<D, Lanes> trial = old + Lanes(2 * soil.shear_modulus) * deviator(strain) +
+                                            isotropic<n_symmetric<D>, Lanes>(soil.bulk_modulus * trace(strain));
+    const SymmetricTensor<D, Lanes> shearing = deviator(trial);
+    const Lanes j2 = 0.5 * double_dot(shearing, shearing), tau = sqrt(j2);
+    const Returned<Lanes> now = returned<Lanes>(soil, cone, -trace(trial) / 3, tau);
+    const Lanes kept = select(j2 > 0.0, now.sqrt_j2 / tau, Lanes(1.0));
+    const SymmetricTensor<D, Lanes> stress = kept * shearing - isotropic<n_symmetric<D>, Lanes>(now.pressure);
+    const Lanes work = now.sqrt_j2 * now.plastic_shear - now.pressure * now.plastic_expansion;
+
+    Lanes::mask_type finite = is_finite(trial[0]);
+    for (int k = 1; k < n_symmetric<D>; ++k) finite = finite && is_finite(trial[k]);
+    set_lanes<n_symmetric<D>, 1>(batch.stress, i, stress.binaryExpr(old, [&](const Lanes& to, const Lanes& from) {
+      return select(finite, to, from);
+    }));
+    set_lanes(batch.plastic_work, i, select(finite, work, Lanes(0.0)));
+    const Lanes expansion = select(finite, now.plastic_expansion, Lanes(0.0));
+    const Lanes equivalent = select(finite, now.plastic_shear / std::numbers::sqrt3, Lanes(0.0));
+    for (std::size_t l = 0; l < n_lanes && i + l < batch.state.size(); ++l) {
+      const auto& [plastic_volumetric, equivalent_plastic] = batch.old_state[i + l];
+      batch.state[i + l] = {plastic_volumetric - expansion[l], equivalent_plastic + equivalent[l]};
+      if (finite[l]) {
+        ++counts.substeps;
+      } else {
+        if (!first_failure) first_failure = UpdateFailure{i + l, UpdateFault::not_finite};
+        ++counts.failures;
+      }
     }
-    const Invariants before = invariants(trial);
-    const Returned now = returned(soil, cone, before);
-    const double kept = before.j2 > 0 ? now.sqrt_j2 / before.sqrt_j2() : 1;
-    batch.stress[i] = kept * deviator(trial) - isotropic<n_symmetric<D>>(now.pressure);
-    batch.state[i].plastic_volumetric -= now.plastic_expansion;
-    batch.state[i].equivalent_plastic += now.plastic_shear / std::numbers::sqrt3;
-    batch.plastic_work[i] = now.sqrt_j2 * now.plastic_shear - now.pressure * now.plastic_expansion;
-    ++counts.substeps;
   }
   return first_failure;
 }

@@ -3,16 +3,20 @@
 #include <algorithm>
 #include <cstddef>
 
+#include "components/tensor_lanes.hpp"
+
 namespace tamp::components
 {
 
 template <int D>
 BatchFailure update(const Hypoelastic& solid, const MaterialBatch<D, NoState>& batch, UpdateCounts&)
 {
-  for (std::size_t i = 0; i < batch.stress.size(); ++i) {
-    const SymmetricTensor<D>& strain = batch.strain_increment[i];
-    batch.stress[i] +=
-        2 * solid.shear_modulus * deviator(strain) + isotropic<n_symmetric<D>>(solid.bulk_modulus * trace(strain));
+  using Strain = SymmetricTensor<D>;
+  for (std::size_t i = 0; i < batch.stress.size(); i += n_lanes) {
+    const SymmetricTensor<D, Lanes> strain = lanes_at(batch.strain_increment, i);
+    const SymmetricTensor<D, Lanes> change = Lanes(2 * solid.shear_modulus) * deviator(strain) +
+                                             isotropic<n_symmetric<D>, Lanes>(solid.bulk_modulus * trace(strain));
+    set_lanes<n_symmetric<D>, 1>(batch.stress, i, lanes_at(std::span<const Strain>(batch.stress), i) + change);
   }
   std::ranges::fill(batch.bulk_modulus, solid.bulk_modulus);
   std::ranges::fill(batch.shear_modulus, solid.shear_modulus);
