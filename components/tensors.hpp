@@ -42,7 +42,8 @@ Number double_dot(const Eigen::Matrix<Number, Size, 1>& a, const Eigen::Matrix<N
 template <class Number, int Size>
 Eigen::Matrix<Number, Size, 1> deviator(Eigen::Matrix<Number, Size, 1> a)
 {
-  a.template head<3>().array() -= trace(a) / 3;
+  const Number mean = trace(a) / 3.0;
+  for (int i = 0; i < 3; ++i) a[i] -= mean;
   return a;
 }
 

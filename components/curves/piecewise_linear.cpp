@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <string>
 
 #include "components/errors.hpp"
@@ -37,24 +38,68 @@ PiecewiseLinear::PiecewiseLinear(std::vector<double> x, std::vector<double> y) :
     }
   }
 
-  for (std::size_t i = 0; i + 1 < x_.size(); ++i) {
-    segments_.push_back({x_[i], y_[i], (y_[i + 1] - y_[i]) / (x_[i + 1] - x_[i])});
-  }
+  for (std::size_t i = 0; i + 1 < x_.size(); ++i) slopes_.push_back((y_[i + 1] - y_[i]) / (x_[i + 1] - x_[i]));
+  for (std::size_t i = 1; i < slopes_.size(); ++i) kinks_.push_back({x_[i], y_[i], slopes_[i - 1], slopes_[i]});
+  if (kinks_.empty()) kinks_.push_back({x_[0], y_[0], slopes_[0], slopes_[0]});
+  cut_into_buckets();
+}
 
-  const std::size_t n_buckets = 2 * segments_.size();
-  const double width = (x_.back() - x_.front()) / static_cast<double>(n_buckets);
-  buckets_per_x_ = 1 / width;
-  last_bucket_ = static_cast<double>(n_buckets - 1);
-  const auto last = static_cast<std::ptrdiff_t>(segments_.size()) - 1;
-  const auto segment_at = [&](std::size_t edge) {
-    const double x_edge = x_.front() + width * static_cast<double>(edge);
-    return std::upper_bound(x_.begin(), x_.end(), x_edge) - x_.begin() - 1;
-  };
-  // One segment of slack on either side, so that round-off in a bucket's number cannot matter.
-  for (std::size_t b = 0; b < n_buckets; ++b) {
-    buckets_.push_back({static_cast<std::uint32_t>(std::clamp<std::ptrdiff_t>(segment_at(b) - 1, 0, last)),
-                        static_cast<std::uint32_t>(std::clamp<std::ptrdiff_t>(segment_at(b + 1) + 1, 0, last))});
+namespace
+{
+
+bool has_two_in_a_bucket(const OctaveBuckets& buckets, std::span<const double> points)
+{
+  for (std::size_t i = 1; i < points.size(); ++i) {
+    if (buckets.of(points[i]) == buckets.of(points[i - 1])) return true;
   }
+  return false;
+}
+
+}  // namespace
+
+void PiecewiseLinear::cut_into_buckets()
+{
+  constexpr std::size_t most_buckets = 1 << 14;
+  if (kinks_.size() > std::numeric_limits<std::uint16_t>::max()) return;
+  const double width = x_.back() - x_.front();
+  const std::span inner = std::span(x_).subspan(1, x_.size() - 2);
+  for (int octaves = 0; octaves <= 32; ++octaves) {
+    for (int bits = 0; bits <= 14; ++bits) {
+      const OctaveBuckets buckets(x_.front(), x_.back(), std::ldexp(width, -octaves), bits);
+      if (buckets.size() > (buckets_ ? buckets_->size() - 1 : most_buckets)) break;
+      if (!has_two_in_a_bucket(buckets, inner)) buckets_ = buckets;
+    }
+  }
+  if (!buckets_) return;
+
+  for (std::size_t b = 0, k = 0; b < buckets_->size(); ++b) {
+    const double middle = 0.5 * (buckets_->start(b) + buckets_->start(b + 1));
+    const auto distance = [&](std::size_t i) { return std::abs(kinks_[i].x - middle); };
+    while (k + 1 < kinks_.size() && distance(k + 1) < distance(k)) ++k;
+    kink_of_bucket_.push_back(static_cast<std::uint16_t>(k));
+  }
+  // The point within a bucket comes before one nearer to its middle beyond its end.
+  for (std::size_t k = 0; k < kinks_.size(); ++k) {
+    kink_of_bucket_[buckets_->of(kinks_[k].x)] = static_cast<std::uint16_t>(k);
+  }
+}
+
+std::size_t PiecewiseLinear::segment_of(double x) const
+{
+  const auto inner = std::span(x_).subspan(1, x_.size() - 2);
+  return static_cast<std::size_t>(std::upper_bound(inner.begin(), inner.end(), x) - inner.begin());
+}
+
+std::size_t PiecewiseLinear::last_kink_before(double x) const
+{
+  const std::size_t segment = segment_of(x);
+  return segment == 0 ? 0 : segment - 1;
+}
+
+std::pair<double, double> PiecewiseLinear::slopes_beside_kink(double x) const
+{
+  const Kink& kink = kink_near(x);
+  return {kink.left_slope, kink.right_slope};
 }
 
 }  // namespace tamp::components

@@ -2,73 +2,85 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
+
+#include "components/curves/octave_buckets.hpp"
+#include "components/lanes.hpp"
 
 namespace tamp::components
 {
 
 /// A curve y(x) through tabulated points: straight between them, and beyond both ends straight on along the end
-/// segments. At a point the segment to its right counts (the last point: the last segment).
+/// segments. At a point the slope to its right counts (the last point: that to its left).
 class PiecewiseLinear
 {
  public:
-  struct Value {
-    double value;
-    double slope;
-    std::size_t segment;
+  template <class Number>
+  struct ValueOf {
+    Number value;
+    Number slope;
+    Number from_kink;  ///< distance in x from an inner point nearby, positive to its right
   };
+  using Value = ValueOf<double>;
 
   /// Throws BadValue, with the row, unless there are at least two points, all finite, with `x` strictly increasing.
   PiecewiseLinear(std::vector<double> x, std::vector<double> y);
 
-  /// Value, slope and segment; constant time for evenly spread points, O(log n) for any.
-  Value at(double x) const
+  /// Constant time for points that are spread with some evenness, O(log n) for any.
+  template <class Number>
+  ValueOf<Number> at(const Number& x) const
   {
-    const std::size_t i = segment_of(x);
-    const Segment& s = segments_[i];
-    return {s.y + s.slope * (x - s.x), s.slope, i};
+    const KinkOf<Number> kink = kink_near(x);
+    const Number slope = select(x < kink.x, kink.left_slope, kink.right_slope), from_kink = x - kink.x;
+    return {kink.y + slope * from_kink, slope, from_kink};
   }
-
   double operator()(double x) const { return at(x).value; }
+
+  /// The slopes to the left and right of the inner point that `at` measures from.
+  std::pair<double, double> slopes_beside_kink(double x) const;
 
   std::span<const double> x() const { return x_; }
   std::span<const double> y() const { return y_; }
-  std::size_t n_segments() const { return segments_.size(); }
-  double slope_of_segment(std::size_t i) const { return segments_[i].slope; }
+  std::size_t n_segments() const { return slopes_.size(); }
+  double slope_of_segment(std::size_t i) const { return slopes_[i]; }
+  std::size_t segment_of(double x) const;
 
  private:
-  struct Segment {
-    double x, y, slope;
+  /// An inner point. (Of a curve with one segment: its first point.)
+  template <class Number>
+  struct alignas(4 * sizeof(double)) KinkOf {
+    Number x, y, left_slope, right_slope;
   };
+  using Kink = KinkOf<double>;
 
-  /// The segments that may hold an x in one of the equal intervals into which the range of x is cut.
-  struct Bucket {
-    std::uint32_t first, last;
-  };
+  void cut_into_buckets();
 
-  std::size_t segment_of(double x) const
+  /// One between which and x there is no other.
+  const Kink& kink_near(double x) const
   {
-    const double scaled = (x - x_.front()) * buckets_per_x_;
-    // Written so that a NaN falls in the first bucket.
-    const std::size_t bucket = !(scaled > 0)           ? 0
-                               : scaled < last_bucket_ ? static_cast<std::size_t>(scaled)
-                                                       : static_cast<std::size_t>(last_bucket_);
-    std::size_t low = buckets_[bucket].first;
-    std::size_t high = buckets_[bucket].last;
-    while (high - low > 4) {
-      const std::size_t middle = low + (high - low) / 2;
-      (segments_[middle].x <= x ? low : high) = middle;
-    }
-    while (low < high && segments_[low + 1].x <= x) ++low;
-    return low;
+    return kinks_[buckets_ ? kink_of_bucket_[buckets_->of(x)] : last_kink_before(x)];
   }
+  KinkOf<Lanes> kink_near(const Lanes& x) const
+  {
+    std::array<const double*, n_lanes> near;
+    if (buckets_) {
+      const auto bucket = buckets_->of(x);
+      for (std::size_t l = 0; l < n_lanes; ++l) near[l] = &kinks_[kink_of_bucket_[bucket[l]]].x;
+    } else {
+      for (std::size_t l = 0; l < n_lanes; ++l) near[l] = &kinks_[last_kink_before(x[l])].x;
+    }
+    const auto [kink_x, kink_y, left_slope, right_slope] = side_by_side<4>(near);
+    return {kink_x, kink_y, left_slope, right_slope};
+  }
+  std::size_t last_kink_before(double x) const;
 
-  std::vector<double> x_, y_;
-  std::vector<Segment> segments_;
-  std::vector<Bucket> buckets_;
-  double buckets_per_x_ = 0;
-  double last_bucket_ = 0;
+  std::vector<double> x_, y_, slopes_;
+  std::vector<Kink> kinks_;
+  /// With at most one inner point in each; none where the points are too uneven for that.
+  std::optional<OctaveBuckets> buckets_;
+  std::vector<std::uint16_t> kink_of_bucket_;
 };
 
 /// Throws BadValue, with the row, unless the numbers are finite and each is greater than the one before.

@@ -186,9 +186,11 @@ class Bracketed
   /// If one kink of the envelope lies between the ends and its normal cone holds the trial: the point there, value 0.
   std::optional<Residual> kink_between(const Residual& a, const Residual& b)
   {
-    if (!a.segment || !b.segment || *a.segment == *b.segment) return std::nullopt;
-    const std::size_t right = std::max(*a.segment, *b.segment);
-    if (right - std::min(*a.segment, *b.segment) != 1) return std::nullopt;
+    if (std::min(a.at.pressure, b.at.pressure) < surface_.vertex_pressure()) return std::nullopt;
+    const std::size_t of_a = surface_.hull().segment_of(a.at.pressure),
+                      of_b = surface_.hull().segment_of(b.at.pressure);
+    const std::size_t right = std::max(of_a, of_b);
+    if (right != std::min(of_a, of_b) + 1) return std::nullopt;
     const double knot = surface_.hull().x()[right];
     double d = a.d + (knot - a.at.pressure) / (b.at.pressure - a.at.pressure) * (b.d - a.d);
     PathPoint at = path_(d);

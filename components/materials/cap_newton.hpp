@@ -9,6 +9,121 @@
 namespace tamp::components::cap_return
 {
 
+/// A path whose shear modulus and trial sqrt(J2) do not change along it.
+template <class Path>
+inline constexpr bool has_constant_moduli = requires
+{
+  Path::constant_moduli;
+};
+
+/// What a path does not give: the derivatives of G and of the trial sqrt(J2), by secants from the evaluation before.
+template <class Path, class Number>
+struct BeforeOf {
+  PathPointOf<Number> at;
+  Number d;
+
+  struct Slopes {
+    Number shear_d, trial_d;
+  };
+  Slopes slopes(const PathPointOf<Number>& now, const Number& d_now) const
+  {
+    if constexpr (has_constant_moduli<Path>) {
+      return {0.0, 0.0};
+    } else {
+      const Number change = select(d_now == d, Number(0.0), 1.0 / (d_now - d));
+      return {(now.shear_modulus - at.shear_modulus) * change, (now.trial_sqrt_j2 - at.trial_sqrt_j2) * change};
+    }
+  }
+};
+
+/// One step of Newton's method on the cone, for phi(d) = d + (qt - g)/G g'.
+template <class Number, class Strength>
+Number step_on_cone(const Strength& g, const PathPointOf<Number>& at, const Number& shear_d, const Number& trial_d,
+                    const Number& d)
+{
+  const Number compliance = 1.0 / at.shear_modulus, multiplier = (at.trial_sqrt_j2 - g.value) * compliance;
+  const Number multiplier_d = (trial_d - g.slope * at.pressure_slope - multiplier * shear_d) * compliance;
+  return -(d + multiplier * g.slope) / (1.0 + multiplier_d * g.slope);
+}
+
+/// Whether a return on the cone ends on the segment of the envelope that it was solved for.
+template <class Number>
+Mask<Number> is_on_segment(const YieldSurface& surface, const ResidualOf<Number>& end, const Number& slope)
+{
+  return end.envelope_slope == slope && end.at.pressure >= surface.vertex_pressure() && end.normal.sine == 1.0 &&
+         end.at.trial_sqrt_j2 >= end.limit;
+}
+
+/// One on the cap, for (d, t), t the tangent of half the cap's angle: sin = 2t/(1+t^2), cos = (1-t^2)/(1+t^2). Then the
+/// apex is no singular point. The equations are p(d) = kappa + a cos and phi sin = 0.
+template <class Number>
+struct StepOnCap {
+  Number d, t;
+  Number multiplier;  ///< dl before the step
+};
+template <class Number>
+StepOnCap<Number> step_on_cap(const YieldSurface& surface, const PathPointOf<Number>& at, const Number& shear_d,
+                              const Number& trial_d, const Number& d, const Number& t)
+{
+  const double r = surface.cap_ellipticity(), vertex = surface.vertex_pressure();
+  const Number kappa = vertex + r * (at.crush_pressure - vertex), half_axis = at.crush_pressure - kappa;
+  const Number unit = 1.0 / (1.0 + t * t), sine = 2.0 * t * unit, cosine = (1.0 - t * t) * unit;
+  const Number sine_t = 2.0 * cosine * unit, cosine_t = -2.0 * sine * unit;
+  const auto g = surface.strength(Number(kappa + half_axis * cosine));
+  const Number g_t = g.slope * half_axis * cosine_t;
+  const Number pressure_d = (r + (1.0 - r) * cosine) * at.crush_slope, g_d = g.slope * pressure_d;
+
+  const Number compliance = 1.0 / at.shear_modulus, per_axis = 1.0 / half_axis;
+  const Number multiplier = (at.trial_sqrt_j2 - g.value * sine) * compliance;
+  const Number slope = g.slope * sine * sine - g.value * cosine * per_axis;  // h_p sin
+  const Number off_cap = at.pressure - kappa - half_axis * cosine;
+  const Number phi = d * sine + multiplier * slope;
+
+  const Number off_cap_d = at.pressure_slope - pressure_d, off_cap_t = -half_axis * cosine_t;
+  const Number multiplier_t = -(g_t * sine + g.value * sine_t) * compliance;
+  const Number multiplier_d = (trial_d - g_d * sine - multiplier * shear_d) * compliance;
+  const Number slope_t = 2.0 * g.slope * sine * sine_t - (g_t * cosine + g.value * cosine_t) * per_axis;
+  const Number slope_d = (g.value * (1.0 - r) * at.crush_slope * per_axis - g_d) * cosine * per_axis;
+  const Number phi_t = d * sine_t + multiplier_t * slope + multiplier * slope_t;
+  const Number phi_d = sine + multiplier_d * slope + multiplier * slope_d;
+
+  const Number per_off_cap = 1.0 / off_cap_d, ratio = phi_d * per_off_cap;
+  const Number free_step = (ratio * off_cap - phi) / (phi_t - ratio * off_cap_t);
+  const Number t_step = clamped<Number>(free_step, -0.75 * t, 0.5 * (1.0 - t));
+  return {-(off_cap + off_cap_t * t_step) * per_off_cap, t_step, multiplier};
+}
+
+/// Whether both steps are so small that the next ones would be round-off.
+template <class Number>
+Mask<Number> has_converged(const Number& d_step, const Number& d)
+{
+  return abs(d_step) <= strain_tolerance + newton_tolerance * abs(d);
+}
+template <class Number>
+Mask<Number> has_converged(const StepOnCap<Number>& step, const Number& d, const Number& t)
+{
+  return has_converged(step.d, d) && abs(step.t) <= 10.0 * newton_tolerance * t;
+}
+
+/// The last step, taken along the path's tangent: what that leaves out is of the order of the step squared.
+template <class Number>
+ResidualOf<Number> stepped(const YieldSurface& surface, PathPointOf<Number> at, const Number& d, const Number& step,
+                           const Number& shear_d, const Number& trial_d)
+{
+  at.pressure += at.pressure_slope * step;
+  at.crush_pressure += at.crush_slope * step;
+  at.shear_modulus += shear_d * step;
+  at.trial_sqrt_j2 += trial_d * step;
+  return evaluate<Number>(surface, d + step, at);
+}
+
+/// tan(theta / 2)
+template <class Number>
+Number half_tangent(const Number& sine, const Number& cosine)
+{
+  return sine / (1.0 + cosine);
+}
+
 /// Newton's method for the return, on the cone in d alone and on the cap in d and the cap's angle. It mostly settles in
 /// two or three evaluations of the path. Nothing where it strays or does not settle: the bracketed solution follows.
 template <class Path>
@@ -21,87 +136,51 @@ class Newton
   {
   }
 
-  /// On the cone, phi(d) = d + (qt - g)/G g'. It is straight where path and envelope are.
+  /// On the cone phi is straight where path and envelope are: with constant moduli its first root may do.
   std::optional<ReturnPoint> on_cone(const PathPoint& trial, double d)
   {
     Before before{trial, 0};
     PathPoint at = path_at(d);
     for (int i = 0; i < max_newton; ++i) {
-      const YieldSurface::Strength g = surface_.strength(at.pressure);
-      if (!g.segment) return std::nullopt;
+      if (at.pressure < surface_.vertex_pressure()) return std::nullopt;
+      const auto g = surface_.strength(at.pressure);
       const auto [shear_d, trial_d] = before.slopes(at, d);
-      const double compliance = 1 / at.shear_modulus, multiplier = (at.trial_sqrt_j2 - g.value) * compliance;
-      const double multiplier_d = (trial_d - g.slope * at.pressure_slope - multiplier * shear_d) * compliance;
-      const double step = -(d + multiplier * g.slope) / (1 + multiplier_d * g.slope);
-      // On one segment a path with constant moduli has a linear phi.
-      constexpr bool linear = requires
-      {
-        Path::constant_moduli;
-      };
-      const bool settled = std::abs(step) <= strain_tolerance + newton_tolerance * std::abs(d);
-      if (settled || linear) {
-        const Residual end =
-            settled ? stepped(at, d, step, shear_d, trial_d) : evaluate(surface_, d + step, path_at(d + step));
-        const bool valid = end.segment == g.segment && end.normal.sine == 1 && end.at.trial_sqrt_j2 >= end.limit;
-        if (valid) return surface_point(end, n_evaluations_);
-        if (settled) return std::nullopt;
-      }
+      const double step = step_on_cone(g, at, shear_d, trial_d, d);
+      const bool settled = has_converged(step, d);
       before = {at, d};
       d += step;
       if (!std::isfinite(d)) return std::nullopt;
-      at = path_at(d);
+      if (!settled || has_constant_moduli<Path>) at = path_at(d);
+      if (settled || has_constant_moduli<Path>) {
+        const Residual end = has_constant_moduli<Path> ? evaluate(surface_, d, at)
+                                                       : stepped(surface_, at, before.d, step, shear_d, trial_d);
+        if (is_on_segment(surface_, end, g.slope)) return surface_point(end, n_evaluations_);
+        if (settled) return std::nullopt;
+      }
     }
     return std::nullopt;
   }
 
-  /// On the cap, for (d, t), t the tangent of half the cap's angle: sin = 2t/(1+t^2), cos = (1-t^2)/(1+t^2). Then the
-  /// apex is no singular point. The equations are p(d) = kappa + a cos and phi sin = 0.
   struct OnCap {
     double d, t;
   };
   std::optional<ReturnPoint> on_cap(const PathPoint& trial, const OnCap& guess)
   {
     auto [d, t] = guess;
-    const double r = surface_.cap_ellipticity(), vertex = surface_.vertex_pressure();
     Before before{trial, 0};
     PathPoint at = d == 0 ? trial : path_at(d);
     for (int i = 0; i < max_newton; ++i) {
-      const double kappa = vertex + r * (at.crush_pressure - vertex), half_axis = at.crush_pressure - kappa;
-      const double unit = 1 / (1 + t * t), sine = 2 * t * unit, cosine = (1 - t * t) * unit;
-      const double sine_t = 2 * cosine * unit, cosine_t = -2 * sine * unit;
-      const YieldSurface::Strength g = surface_.strength(kappa + half_axis * cosine);
-      const double g_t = g.slope * half_axis * cosine_t;
-      const double pressure_d = (r + (1 - r) * cosine) * at.crush_slope, g_d = g.slope * pressure_d;
       const auto [shear_d, trial_d] = before.slopes(at, d);
-
-      const double compliance = 1 / at.shear_modulus, per_axis = 1 / half_axis;
-      const double multiplier = (at.trial_sqrt_j2 - g.value * sine) * compliance;
-      const double slope = g.slope * sine * sine - g.value * cosine * per_axis;  // h_p sin
-      const double off_cap = at.pressure - kappa - half_axis * cosine;
-      const double phi = d * sine + multiplier * slope;
-
-      const double off_cap_d = at.pressure_slope - pressure_d, off_cap_t = -half_axis * cosine_t;
-      const double multiplier_t = -(g_t * sine + g.value * sine_t) * compliance;
-      const double multiplier_d = (trial_d - g_d * sine - multiplier * shear_d) * compliance;
-      const double slope_t = 2 * g.slope * sine * sine_t - (g_t * cosine + g.value * cosine_t) * per_axis;
-      const double slope_d = (g.value * (1 - r) * at.crush_slope * per_axis - g_d) * cosine * per_axis;
-      const double phi_t = d * sine_t + multiplier_t * slope + multiplier * slope_t;
-      const double phi_d = sine + multiplier_d * slope + multiplier * slope_d;
-
-      const double per_off_cap = 1 / off_cap_d, ratio = phi_d * per_off_cap;
-      double t_step = (ratio * off_cap - phi) / (phi_t - ratio * off_cap_t);
-      t_step = std::clamp(t_step, -0.75 * t, 0.5 * (1 - t));
-      const double d_step = -(off_cap + off_cap_t * t_step) * per_off_cap;
-      if (std::abs(d_step) <= strain_tolerance + newton_tolerance * std::abs(d) &&
-          std::abs(t_step) <= 10 * newton_tolerance * t) {
-        if (!(multiplier >= 0)) return std::nullopt;
-        const Residual end = stepped(at, d, d_step, shear_d, trial_d);
+      const StepOnCap<double> step = step_on_cap(surface_, at, shear_d, trial_d, d, t);
+      if (has_converged(step, d, t)) {
+        if (!(step.multiplier >= 0)) return std::nullopt;
+        const Residual end = stepped(surface_, at, d, step.d, shear_d, trial_d);
         const bool valid = end.at.pressure <= end.at.crush_pressure && end.normal.sine < 1;
         return valid ? std::optional(surface_point(end, n_evaluations_)) : std::nullopt;
       }
       before = {at, d};
-      d += d_step;
-      t += t_step;
+      d += step.d;
+      t += step.t;
       if (!std::isfinite(d + t)) return std::nullopt;
       at = path_at(d);
     }
@@ -135,38 +214,12 @@ class Newton
   }
 
  private:
-  /// tan(theta / 2)
-  static double half_tangent(double sine, double cosine) { return sine / (1 + cosine); }
-
-  /// The path gives no derivatives of G and of the trial sqrt(J2): secants from the evaluation before do.
-  struct Before {
-    PathPoint at;
-    double d;
-
-    struct Slopes {
-      double shear_d, trial_d;
-    };
-    Slopes slopes(const PathPoint& now, double d_now) const
-    {
-      const double change = d_now == d ? 0 : 1 / (d_now - d);
-      return {(now.shear_modulus - at.shear_modulus) * change, (now.trial_sqrt_j2 - at.trial_sqrt_j2) * change};
-    }
-  };
+  using Before = BeforeOf<Path, double>;
 
   PathPoint path_at(double d)
   {
     ++n_evaluations_;
     return path_(d);
-  }
-
-  /// The last step, taken along the path's tangent: what that leaves out is of the order of the step squared.
-  Residual stepped(PathPoint at, double d, double step, double shear_d, double trial_d) const
-  {
-    at.pressure += at.pressure_slope * step;
-    at.crush_pressure += at.crush_slope * step;
-    at.shear_modulus += shear_d * step;
-    at.trial_sqrt_j2 += trial_d * step;
-    return evaluate(surface_, d + step, at);
   }
 
   const YieldSurface& surface_;

@@ -37,7 +37,7 @@ ReturnPoint return_to_surface(const YieldSurface& surface, const Path& path, con
     if (const std::optional<ReturnPoint> point = newton.from_guess(trial, *guess)) return *point;
   }
 
-  const Residual start = evaluate(surface, 0, trial);
+  const Residual start = evaluate(surface, 0.0, trial);
   const bool beyond = trial.pressure > trial.crush_pressure;
   if (trial.pressure >= vertex && !beyond && trial.trial_sqrt_j2 <= start.limit) {
     return {ReturnStatus::elastic, 0, trial, trial.trial_sqrt_j2, 0, start.normal, 0, n_evaluations};

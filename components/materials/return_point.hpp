@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cstddef>
 #include <optional>
+#include <tuple>
+#include <utility>
 
 #include "components/materials/yield_surface.hpp"
 
@@ -13,44 +15,59 @@ namespace tamp::components
 /// volumetric strains are compression positive.
 
 /// The state after a plastic volumetric strain d.
-struct PathPoint {
-  double pressure;
-  double pressure_slope;  ///< dp/dd, negative
-  double crush_pressure;
-  double crush_slope;  ///< dX/dd, not negative
-  double bulk_modulus;
-  double shear_modulus;
-  double trial_sqrt_j2;
+template <class Number>
+struct PathPointOf {
+  Number pressure;
+  Number pressure_slope;  ///< dp/dd, negative
+  Number crush_pressure;
+  Number crush_slope;  ///< dX/dd, not negative
+  Number bulk_modulus;
+  Number shear_modulus;
+  Number trial_sqrt_j2;
+
+  static constexpr auto fields = std::tuple(
+      &PathPointOf::pressure, &PathPointOf::pressure_slope, &PathPointOf::crush_pressure, &PathPointOf::crush_slope,
+      &PathPointOf::bulk_modulus, &PathPointOf::shear_modulus, &PathPointOf::trial_sqrt_j2);
 };
+using PathPoint = PathPointOf<double>;
 
 /// The outward normal of the surface, (-h_p, 1) in pressure and sqrt(J2), times the cap's sine: that stays bounded at
 /// the apex, where h_p -> -infinity.
-struct SurfaceNormal {
-  double slope_sine;  ///< h_p sin(theta)
-  double sine;        ///< Fc
+template <class Number>
+struct SurfaceNormalOf {
+  Number slope_sine;  ///< h_p sin(theta)
+  Number sine;        ///< Fc
+
+  static constexpr auto fields = std::tuple(&SurfaceNormalOf::slope_sine, &SurfaceNormalOf::sine);
 };
+using SurfaceNormal = SurfaceNormalOf<double>;
 
 enum class ReturnStatus { elastic, cone_or_cap, apex, tension_vertex, failed };
 
-struct ReturnPoint {
+template <class Number>
+struct ReturnPointOf {
   ReturnStatus status;
-  double plastic_volumetric;  ///< d, compression positive
-  PathPoint at;               ///< the path there
-  double sqrt_j2;
-  double multiplier;     ///< dl, not negative
-  SurfaceNormal normal;  ///< there
-  double residual;       ///< what is left of the equation solved, a strain
-  int n_evaluations;     ///< of the path
+  Number plastic_volumetric;  ///< d, compression positive
+  PathPointOf<Number> at;     ///< the path there
+  Number sqrt_j2;
+  Number multiplier;               ///< dl, not negative
+  SurfaceNormalOf<Number> normal;  ///< there
+  Number residual;                 ///< what is left of the equation solved, a strain
+  int n_evaluations;               ///< of the path
 };
+using ReturnPoint = ReturnPointOf<double>;
 
 /// A first guess of the return, where the caller has one.
-struct ReturnGuess {
-  double plastic_volumetric;
-  double sine;  ///< of the cap, positive; 1 on the cone
+template <class Number>
+struct ReturnGuessOf {
+  Number plastic_volumetric;
+  Number sine;  ///< of the cap, positive; 1 on the cone
 };
+using ReturnGuess = ReturnGuessOf<double>;
 
 /// Whether a trial needs no return.
-inline bool inside(const YieldSurface& surface, const PathPoint& trial)
+template <class Number>
+Mask<Number> inside(const YieldSurface& surface, const PathPointOf<Number>& trial)
 {
   return trial.pressure >= surface.vertex_pressure() && trial.pressure <= trial.crush_pressure &&
          trial.trial_sqrt_j2 <= surface.limit(trial.pressure, trial.crush_pressure);
@@ -67,33 +84,42 @@ inline constexpr int max_newton = 10;
 inline constexpr int max_evaluations = 200;
 
 /// phi(d) sin(theta), with h and its slope at one point. With f < 0 (inside the surface) there is no flow: phi = d.
-struct Residual {
-  double d;
-  PathPoint at;
-  double limit;  // h
-  SurfaceNormal normal;
-  std::optional<std::size_t> segment;
-  double value;
+template <class Number>
+struct ResidualOf {
+  Number d;
+  PathPointOf<Number> at;
+  Number limit;           // h
+  Number envelope_slope;  // dg/dp
+  SurfaceNormalOf<Number> normal;
+  Number value;
+
+  static constexpr auto fields = std::tuple(&ResidualOf::d, &ResidualOf::at, &ResidualOf::limit,
+                                            &ResidualOf::envelope_slope, &ResidualOf::normal, &ResidualOf::value);
 };
+using Residual = ResidualOf<double>;
 
-inline double residual_value(double d, const PathPoint& at, double limit, const SurfaceNormal& normal)
+template <class Number>
+Number residual_value(const Number& d, const PathPointOf<Number>& at, const Number& limit,
+                      const SurfaceNormalOf<Number>& normal)
 {
-  return d * normal.sine + std::max(at.trial_sqrt_j2 - limit, 0.0) / at.shear_modulus * normal.slope_sine;
+  return d * normal.sine + greater_of<Number>(at.trial_sqrt_j2 - limit, 0.0) / at.shear_modulus * normal.slope_sine;
 }
 
-inline Residual evaluate(const YieldSurface& surface, double d, const PathPoint& at)
+template <class Number>
+ResidualOf<Number> evaluate(const YieldSurface& surface, const Number& d, const PathPointOf<Number>& at)
 {
-  const YieldSurface::Strength g = surface.strength(at.pressure);
-  const YieldSurface::Cap cap = surface.cap(at.pressure, at.crush_pressure);
-  const double limit = g.value * cap.sine;
-  const SurfaceNormal normal{cap_slope_sine(g.value, g.slope, cap), cap.sine};
-  return {d, at, limit, normal, g.segment, residual_value(d, at, limit, normal)};
+  const auto g = surface.strength(at.pressure);
+  const YieldSurface::CapOf<Number> cap = surface.cap(at.pressure, at.crush_pressure);
+  const Number limit = g.value * cap.sine;
+  const SurfaceNormalOf<Number> normal{cap_slope_sine(g.value, g.slope, cap), cap.sine};
+  return {d, at, limit, g.slope, normal, residual_value(d, at, limit, normal)};
 }
 
-inline ReturnPoint surface_point(const Residual& r, int n_evaluations)
+template <class Number>
+ReturnPointOf<Number> surface_point(const ResidualOf<Number>& r, int n_evaluations)
 {
-  const double q = std::min(r.limit, r.at.trial_sqrt_j2);
-  const double multiplier = (r.at.trial_sqrt_j2 - q) / r.at.shear_modulus;
+  const Number q = lesser_of(r.limit, r.at.trial_sqrt_j2);
+  const Number multiplier = (r.at.trial_sqrt_j2 - q) / r.at.shear_modulus;
   return {ReturnStatus::cone_or_cap, r.d, r.at, q, multiplier, r.normal, r.value, n_evaluations};
 }
 

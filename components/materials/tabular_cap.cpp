@@ -4,7 +4,8 @@
 #include <cmath>
 #include <string>
 
-#include "components/materials/cap_integrator.hpp"
+#include "components/materials/cap_tile.hpp"
+#include "components/tensor_lanes.hpp"
 
 namespace tamp::components
 {
@@ -112,18 +113,6 @@ constexpr std::array<StateExtreme, 3> cap_extremes{{{.column = 2}, {.column = 1}
 /// A strain increment larger than this in one step is no step of a sound simulation, and is refused.
 constexpr double largest_increment = 0.2;
 
-/// What makes an update impossible from the start. A sum is finite if its terms are (and one that overflows is no
-/// better).
-template <int D>
-std::optional<UpdateFault> fault_of(const SymmetricTensor<D>& strain, const SymmetricTensor<D>& stress,
-                                    const CapState& state)
-{
-  const double sum = strain.sum() + stress.sum() + state.elastic_volumetric + state.plastic_volumetric;
-  if (!std::isfinite(sum)) return UpdateFault::not_finite;
-  if (double_dot(strain, strain) > largest_increment * largest_increment) return UpdateFault::too_large;
-  return std::nullopt;
-}
-
 }  // namespace
 
 std::span<const StateColumn<TabularCap>, 6> TabularCap::columns()
@@ -136,44 +125,145 @@ std::span<const StateExtreme, 3> TabularCap::extremes()
   return cap_extremes;
 }
 
+namespace
+{
+
+/// A batch on its way through a tile.
+template <int D, class Model>
+class CapBatch
+{
+ public:
+  CapBatch(const TabularCap& sand, const Model& model, const MaterialBatch<D, CapState>& batch)
+      : sand_(sand), model_(model), batch_(batch), integrator_(sand, model), tile_(integrator_)
+  {
+  }
+
+  BatchFailure update(UpdateCounts& counts)
+  {
+    for (std::size_t first = 0; first < batch_.stress.size(); first += tile_.size) {
+      const std::size_t n = std::min(tile_.size, batch_.stress.size() - first);
+      for_each_pack(n, [&](const Pack& pack) { take_in(first, pack); });
+      tile_.advance();
+      for_each_pack(n, [&](const Pack& pack) { give_back(first, pack); });
+    }
+    counts.add(counts_);
+    counts.add(integrator_.counts());
+    return failure_;
+  }
+
+ private:
+  using Tensors = SymmetricTensor<D, Lanes>;
+  using Stresses = std::span<const SymmetricTensor<D>>;
+
+  /// From particle `first`, number 0 of the tile, on.
+  void take_in(std::size_t first, const Pack& pack)
+  {
+    const std::size_t begin = first + pack.of[0];
+    const Tensors strain = lanes_at(batch_.strain_increment, begin), stress = lanes_at(Stresses(batch_.stress), begin);
+    const auto state = [&](double CapState::*member) {
+      return each_lane([&](std::size_t l) { return batch_.old_state[first + pack.of[l]].*member; });
+    };
+    const Tensors e = deviator(strain), s = deviator(stress);
+    const Lanes e_j2 = 0.5 * double_dot(e, e), pressure = trace(stress) / -3.0;
+    CapParticleOf<Lanes> particles{.pressure = pressure,
+                                   .j2 = 0.5 * double_dot(s, s),
+                                   .mixed = double_dot(s, e),
+                                   .elastic_volumetric = state(&CapState::elastic_volumetric),
+                                   .plastic_volumetric = state(&CapState::plastic_volumetric),
+                                   .equivalent_plastic = state(&CapState::equivalent_plastic),
+                                   .bulk_modulus = state(&CapState::bulk_modulus)};
+    const Mask<Lanes> fresh = !(particles.bulk_modulus > 0.0);
+    if (any(fresh)) {
+      particles.bulk_modulus = select(fresh, modulus(particles), particles.bulk_modulus);
+      for (std::size_t l = 0; l < pack.n; ++l) counts_.modulus_evaluations += fresh[l] ? 1 : 0;
+    }
+    // A sum is finite if its terms are, and one that overflows is no better.
+    const Lanes sum = strain.sum() + stress.sum() + particles.elastic_volumetric + particles.plastic_volumetric;
+    const Mask<Lanes> sound = is_finite(sum) && double_dot(strain, strain) <= largest_increment * largest_increment;
+    tile_.put(pack, particles, {-trace(strain), e_j2, sqrt(e_j2)}, sound);
+  }
+
+  Lanes modulus(const CapParticleOf<Lanes>& at) const
+  {
+    return sand_.parameters().elastic_update == ElasticUpdate::state
+               ? model_.at(at.elastic_volumetric, at.plastic_volumetric).bulk_modulus
+               : model_.rate_modulus(at.pressure, at.elastic_volumetric, at.plastic_volumetric);
+  }
+
+  void give_back(std::size_t first, const Pack& pack)
+  {
+    const std::size_t begin = first + pack.of[0];
+    const auto [now, error] = tile_.at(pack);
+    const Mask<Lanes> found = is_finite(error), within = is_in_range(now);
+    const Tensors e = deviator(lanes_at(batch_.strain_increment, begin));
+    const Tensors old = lanes_at(Stresses(batch_.stress), begin), s = deviator(old);
+    Tensors stress = now.of_stress * s + now.of_strain * e;
+    for (int k = 0; k < n_symmetric<D>; ++k) {
+      stress[k] = select(found, k < 3 ? stress[k] - now.pressure : stress[k], old[k]);
+    }
+    set_lanes(batch_.stress, begin, stress);
+    set_lanes(batch_.bulk_modulus, begin, now.bulk_modulus);
+    set_lanes(batch_.shear_modulus, begin, sand_.shear_ratio() * now.bulk_modulus);
+    set_lanes(batch_.plastic_work, begin, now.plastic_work);
+    for (std::size_t l = 0; l < pack.n; ++l) {
+      const std::size_t i = begin + l;
+      counts_.extrapolated += within[l] ? 0 : 1;
+      if (found[l]) {
+        batch_.state[i] = {now.elastic_volumetric[l], now.plastic_volumetric[l], now.equivalent_plastic[l],
+                           now.bulk_modulus[l], batch_.old_state[i].n_failures};
+      } else {
+        fail(i);
+      }
+    }
+  }
+
+  Mask<Lanes> is_in_range(const CapParticleOf<Lanes>& at) const
+  {
+    return sand_.parameters().elastic_update == ElasticUpdate::state
+               ? in_range(model_, at.elastic_volumetric, at.plastic_volumetric)
+               : rate_in_range(model_, at.pressure, at.elastic_volumetric, at.plastic_volumetric);
+  }
+
+  /// Leaves the particle as it was, and marks it.
+  void fail(std::size_t i)
+  {
+    const CapState& old = batch_.old_state[i];
+    if (!failure_) failure_ = UpdateFailure{i, fault_of(i)};
+    ++counts_.failures;
+    const double last = old.bulk_modulus, bulk = last > 0 ? last : sand_.initial_moduli().bulk_modulus;
+    batch_.state[i] = old;
+    ++batch_.state[i].n_failures;
+    batch_.bulk_modulus[i] = bulk;
+    batch_.shear_modulus[i] = sand_.shear_ratio() * bulk;
+    batch_.plastic_work[i] = 0;
+  }
+
+  UpdateFault fault_of(std::size_t i) const
+  {
+    const SymmetricTensor<D>& strain = batch_.strain_increment[i];
+    const CapState& old = batch_.old_state[i];
+    const double sum = strain.sum() + batch_.stress[i].sum() + old.elastic_volumetric + old.plastic_volumetric;
+    if (!std::isfinite(sum)) return UpdateFault::not_finite;
+    return double_dot(strain, strain) <= largest_increment * largest_increment ? UpdateFault::no_return
+                                                                               : UpdateFault::too_large;
+  }
+
+  const TabularCap& sand_;
+  const Model& model_;
+  const MaterialBatch<D, CapState>& batch_;
+  CapIntegrator<Model> integrator_;
+  CapTile<Model> tile_;
+  UpdateCounts counts_;
+  BatchFailure failure_;
+};
+
+}  // namespace
+
 template <int D>
 BatchFailure update(const TabularCap& sand, const MaterialBatch<D, CapState>& batch, UpdateCounts& counts)
 {
-  BatchFailure first_failure;
-  const auto fail = [&](std::size_t i, UpdateFault fault) {
-    if (!first_failure) first_failure = UpdateFailure{i, fault};
-    ++counts.failures;
-    batch.state[i] = batch.old_state[i];
-    ++batch.state[i].n_failures;
-    const double last = batch.state[i].bulk_modulus;
-    batch.bulk_modulus[i] = last > 0 ? last : sand.initial_moduli().bulk_modulus;
-    batch.plastic_work[i] = 0;
-  };
-  std::visit(
-      [&]<class Model>(const Model& model) {
-        CapIntegrator<D, Model> integrator(sand, model);
-        for (std::size_t i = 0; i < batch.stress.size(); ++i) {
-          if (const auto fault = fault_of<D>(batch.strain_increment[i], batch.stress[i], batch.old_state[i])) {
-            fail(i, *fault);
-            continue;
-          }
-          const CapParticle<D> now = integrator.advance(batch.stress[i], batch.old_state[i], batch.strain_increment[i]);
-          if (!now.returned) {
-            fail(i, UpdateFault::no_return);
-            continue;
-          }
-          batch.bulk_modulus[i] = now.state.bulk_modulus;
-          batch.stress[i] = now.deviator - isotropic<n_symmetric<D>>(now.pressure);
-          batch.state[i] = now.state;
-          batch.plastic_work[i] = now.plastic_work;
-        }
-        counts.add(integrator.counts());
-      },
-      sand.parameters().modulus);
-  for (std::size_t i = 0; i < batch.stress.size(); ++i) {
-    batch.shear_modulus[i] = sand.shear_ratio() * batch.bulk_modulus[i];
-  }
-  return first_failure;
+  return std::visit([&](const auto& model) { return CapBatch(sand, model, batch).update(counts); },
+                    sand.parameters().modulus);
 }
 
 template BatchFailure update<2>(const TabularCap&, const MaterialBatch<2, CapState>&, UpdateCounts&);

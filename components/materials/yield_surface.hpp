@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
 #include <span>
 #include <utility>
 #include <vector>
@@ -26,45 +25,50 @@ class YieldSurface
   /// Throws BadValue, with the row where there is one.
   YieldSurface(std::span<const double> pressure, std::span<const double> sqrt_j2, double cap_ellipticity);
 
-  /// g and its slope; `segment` is that of the hull, empty below the vertex.
-  struct Strength {
-    double value;
-    double slope;
-    std::optional<std::size_t> segment;
-  };
-  Strength strength(double pressure) const
+  /// g and its slope.
+  template <class Number>
+  PiecewiseLinear::ValueOf<Number> strength(const Number& pressure) const
   {
-    if (pressure < vertex_pressure_) return {0, hull_.slope_of_segment(0), std::nullopt};
-    const PiecewiseLinear::Value g = hull_.at(pressure);
-    return {g.value, g.slope, g.segment};
+    PiecewiseLinear::ValueOf<Number> g = hull_.at(pressure);
+    g.value = select(pressure < vertex_pressure_, Number(0.0), g.value);
+    return g;
   }
 
-  /// The slopes to the left and right of a kink of g, where the pressure is at one but for round-off.
-  std::optional<std::pair<double, double>> slopes_at_kink(double pressure) const
+  /// Whether the pressure whose strength was asked is at a kink of g, but for round-off.
+  template <class Number>
+  Mask<Number> is_kink(const Number& pressure, const PiecewiseLinear::ValueOf<Number>& strength) const
   {
-    const double width = 1e-7 * std::abs(pressure);
-    const std::size_t left = hull_.at(pressure - width).segment, right = hull_.at(pressure + width).segment;
-    if (left == right) return std::nullopt;
-    return std::pair{hull_.slope_of_segment(left), hull_.slope_of_segment(right)};
+    constexpr double width = 1e-7;
+    return abs(strength.from_kink) <= width * abs(pressure);
+  }
+
+  /// Where the cap begins.
+  template <class Number>
+  Number kappa(const Number& crush_pressure) const
+  {
+    return vertex_pressure_ + cap_ellipticity_ * (crush_pressure - vertex_pressure_);
   }
 
   /// The cap of one crush pressure. `sine` is Fc, 1 on the cone, 0 at and beyond the apex; `rho` is 0 on the cone.
-  struct Cap {
-    double kappa;
-    double half_axis;  ///< X - kappa
-    double rho;
-    double sine;
+  template <class Number>
+  struct CapOf {
+    Number kappa;
+    Number half_axis;  ///< X - kappa
+    Number rho;
+    Number sine;
   };
-  Cap cap(double pressure, double crush_pressure) const
+  using Cap = CapOf<double>;
+  template <class Number>
+  CapOf<Number> cap(const Number& pressure, const Number& crush_pressure) const
   {
-    const double kappa = vertex_pressure_ + cap_ellipticity_ * (crush_pressure - vertex_pressure_);
-    const double half_axis = crush_pressure - kappa;
-    const double rho = std::max((pressure - kappa) / half_axis, 0.0);
-    return {kappa, half_axis, rho, rho < 1 ? std::sqrt((1 - rho) * (1 + rho)) : 0.0};
+    const Number start = kappa(crush_pressure), half_axis = crush_pressure - start;
+    const Number rho = greater_of<Number>((pressure - start) / half_axis, 0.0);
+    return {start, half_axis, rho, select(rho < 1.0, sqrt((1.0 - rho) * (1.0 + rho)), Number(0.0))};
   }
 
   /// h(p, X); zero outside [p_min, X].
-  double limit(double pressure, double crush_pressure) const
+  template <class Number>
+  Number limit(const Number& pressure, const Number& crush_pressure) const
   {
     return strength(pressure).value * cap(pressure, crush_pressure).sine;
   }
@@ -82,9 +86,10 @@ class YieldSurface
 
 /// h_p times the sine, from g, its slope and the cap: g' sin^2 - g rho / (X - kappa), bounded everywhere. At the apex
 /// and beyond it has its value at the apex.
-inline double cap_slope_sine(double strength, double slope, const YieldSurface::Cap& cap)
+template <class Number>
+Number cap_slope_sine(const Number& strength, const Number& slope, const YieldSurface::CapOf<Number>& cap)
 {
-  return slope * cap.sine * cap.sine - strength * std::min(cap.rho, 1.0) / cap.half_axis;
+  return slope * cap.sine * cap.sine - strength * lesser_of<Number>(cap.rho, 1.0) / cap.half_axis;
 }
 
 }  // namespace tamp::components

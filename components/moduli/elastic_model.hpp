@@ -45,11 +45,30 @@ concept ElasticModel = requires(const Model& model, double pressure, double elas
   ElasticPoint(model.at(elastic, plastic));
   ElasticPointOf<Lanes>(model.at(strains, strains));
   double(model.rate_modulus(pressure, elastic, plastic));
+  Lanes(model.rate_modulus(strains, strains, strains));
   double(model.modulus_by_plastic(elastic, plastic));
   bool(model.in_range(elastic, plastic));
   bool(model.rate_in_range(pressure, elastic, plastic));
   StrainRange(model.range());
 };
+
+/// `in_range` and `rate_in_range` for lanes: one by one where the model has no lanes of its own.
+template <ElasticModel Model>
+Mask<Lanes> in_range(const Model& model, const Lanes& elastic, const Lanes& plastic)
+{
+  return each_lane([&](std::size_t l) { return model.in_range(elastic[l], plastic[l]) ? 1.0 : 0.0; }) > 0.0;
+}
+template <ElasticModel Model>
+Mask<Lanes> rate_in_range(const Model& model, const Lanes& pressure, const Lanes& elastic, const Lanes& plastic)
+{
+  if constexpr (requires { Mask<Lanes>(model.rate_in_range(pressure, elastic, plastic)); }) {
+    return model.rate_in_range(pressure, elastic, plastic);
+  } else {
+    return each_lane([&](std::size_t l) {
+             return model.rate_in_range(pressure[l], elastic[l], plastic[l]) ? 1.0 : 0.0;
+           }) > 0.0;
+  }
+}
 
 /// The state form of a batch: spans of equal length.
 template <ElasticModel Model>
@@ -71,11 +90,7 @@ void evaluate_rate(const Model& model, std::span<const double> pressure, std::sp
 {
   for (std::size_t i = 0; i < bulk_modulus.size(); i += n_lanes) {
     const Lanes p = lanes_at(pressure, i), e = lanes_at(elastic, i), ep = lanes_at(plastic, i);
-    if constexpr (requires { model.rate_modulus(p, e, ep); }) {
-      set_lanes(bulk_modulus, i, model.rate_modulus(p, e, ep));
-    } else {
-      set_lanes(bulk_modulus, i, each_lane([&](std::size_t l) { return model.rate_modulus(p[l], e[l], ep[l]); }));
-    }
+    set_lanes(bulk_modulus, i, model.rate_modulus(p, e, ep));
   }
 }
 

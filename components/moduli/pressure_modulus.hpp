@@ -1,13 +1,13 @@
 #pragma once
 
-#include <algorithm>
-#include <bit>
+#include <array>
 #include <cstddef>
-#include <cstdint>
 #include <span>
 #include <vector>
 
 #include "components/curves/monotone_cubic.hpp"
+#include "components/curves/octave_buckets.hpp"
+#include "components/lanes.hpp"
 
 namespace tamp::components
 {
@@ -21,53 +21,73 @@ class PressureModulus
   /// One curve for each plastic strain (ascending, the first 0): elastic strain as a function of pressure.
   PressureModulus(std::span<const double> curve_plastic, std::span<const MonotoneCubic> curves);
 
-  double operator()(double pressure, double plastic_volumetric) const
+  template <class Number>
+  Number operator()(const Number& pressure, const Number& plastic_volumetric) const
   {
-    const double shifted = std::min(std::max(pressure, 0.0), last_pressure_) + pressure_shift_;
-    const OctaveCell cell = octave_cell(shifted);
-    const auto [k, s] = between(plastic_volumetric);
-
-    const double* const low = &modulus_[(cell.number - first_octave_cell_) * curve_plastic_.size() + k];
-    const double* const high = low + curve_plastic_.size();
-    const double at_low = low[0] + s * (low[1] - low[0]), at_high = high[0] + s * (high[1] - high[0]);
-    return at_low + cell.fraction * (at_high - at_low);
+    const BetweenOf<Number> curves = between(plastic_volumetric);
+    const auto [low, low_next, high, high_next] = moduli_around(pressure, curves.number);
+    const Number at_low = low + curves.fraction * (low_next - low);
+    const Number at_high = high + curves.fraction * (high_next - high);
+    return at_low + nodes_.place(pressure) * (at_high - at_low);
   }
 
   /// On or between the curves: not beyond their ends, and no more than 0.1 % of strain in tension.
-  bool in_range(double pressure, double plastic_volumetric) const
+  template <class Number>
+  Mask<Number> in_range(const Number& pressure, const Number& plastic_volumetric) const
   {
-    if (!(plastic_volumetric >= 0 && plastic_volumetric <= curve_plastic_.back())) return false;
-    const auto [k, s] = between(plastic_volumetric);
-    return pressure <= (1 - s) * end_pressure_[k] + s * end_pressure_[k + 1] && pressure >= least_pressure_;
+    const auto [curve, s] = between(plastic_volumetric);
+    const Number end = (1.0 - s) * end_pressure(curve) + s * end_pressure(Number(curve + 1.0));
+    return plastic_volumetric >= 0.0 && plastic_volumetric <= curve_plastic_.back() && pressure >= least_pressure_ &&
+           pressure <= end;
   }
 
  private:
-  struct Between {
-    std::size_t curve;
-    double fraction;  // of the way to the next one
+  /// The curve below a plastic strain, and how far that is on the way to the next one.
+  template <class Number>
+  struct BetweenOf {
+    Number number, fraction;
   };
-  Between between(double plastic_volumetric) const
+  template <class Number>
+  BetweenOf<Number> between(const Number& plastic_volumetric) const
   {
-    const double ep = std::min(std::max(plastic_volumetric, 0.0), curve_plastic_.back());
-    std::size_t k = 0;
-    while (k + 2 < curve_plastic_.size() && ep >= curve_plastic_[k + 1]) ++k;
-    return {k, (ep - curve_plastic_[k]) * per_width_[k]};
+    const Number ep = clamped<Number>(plastic_volumetric, 0.0, curve_plastic_.back());
+    BetweenOf<Number> at{0.0, ep * per_width_[0]};
+    for (std::size_t k = 1; k + 1 < curve_plastic_.size(); ++k) {
+      const Mask<Number> beyond = ep >= curve_plastic_[k];
+      at.number = select(beyond, Number(static_cast<double>(k)), at.number);
+      at.fraction = select(beyond, Number((ep - curve_plastic_[k]) * per_width_[k]), at.fraction);
+    }
+    return at;
   }
 
-  // Pressure nodes are evenly spaced in each octave of (pressure + shift): the leading bits of that number are the
-  // cell, the others the place in it.
-  static constexpr int octave_bits = 6;  // 64 cells in each octave
-  static constexpr int place_bits = 52 - octave_bits;
-  struct OctaveCell {
-    std::size_t number;
-    double fraction;
+  /// At the pressure nodes below and above, on the curves below and above.
+  template <class Number>
+  struct Moduli {
+    Number low, low_next, high, high_next;
   };
-  static OctaveCell octave_cell(double shifted_pressure)
+  Moduli<double> moduli_around(double pressure, double curve) const
   {
-    const auto bits = std::bit_cast<std::uint64_t>(shifted_pressure);
-    const std::uint64_t place = bits & ((std::uint64_t{1} << place_bits) - 1);
-    return {static_cast<std::size_t>(bits >> place_bits),
-            static_cast<double>(place) * (1.0 / static_cast<double>(std::uint64_t{1} << place_bits))};
+    const std::size_t n = curve_plastic_.size();
+    const double* const low = &modulus_[nodes_.of(pressure) * n + static_cast<std::size_t>(curve)];
+    return {low[0], low[1], low[n], low[n + 1]};
+  }
+  Moduli<Lanes> moduli_around(const Lanes& pressure, const Lanes& curve) const
+  {
+    const std::size_t n = curve_plastic_.size();
+    const auto node = nodes_.of(pressure);
+    const auto number = whole_parts(curve);
+    std::array<const double*, n_lanes> low;
+    for (std::size_t l = 0; l < n_lanes; ++l) low[l] = &modulus_[node[l] * n + static_cast<std::size_t>(number[l])];
+    return {each_lane([&](std::size_t l) { return low[l][0]; }), each_lane([&](std::size_t l) { return low[l][1]; }),
+            each_lane([&](std::size_t l) { return low[l][n]; }),
+            each_lane([&](std::size_t l) { return low[l][n + 1]; })};
+  }
+
+  double end_pressure(double curve) const { return end_pressure_[static_cast<std::size_t>(curve)]; }
+  Lanes end_pressure(const Lanes& curve) const
+  {
+    const auto number = whole_parts(curve);
+    return each_lane([&](std::size_t l) { return end_pressure_[static_cast<std::size_t>(number[l])]; });
   }
 
   std::vector<double> curve_plastic_;
@@ -75,9 +95,7 @@ class PressureModulus
   std::vector<double> modulus_;       // [pressure node][curve]
   std::vector<double> end_pressure_;  // of each curve
   double least_pressure_ = 0;
-  double last_pressure_ = 0;
-  double pressure_shift_ = 0;
-  std::size_t first_octave_cell_ = 0;
+  OctaveBuckets nodes_;  // a pressure node at the start of each
 };
 
 }  // namespace tamp::components

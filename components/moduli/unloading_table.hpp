@@ -53,6 +53,10 @@ class UnloadingTable
   {
     return pressure_modulus()(pressure, plastic_volumetric);
   }
+  Lanes rate_modulus(const Lanes& pressure, const Lanes& /*elastic*/, const Lanes& plastic_volumetric) const
+  {
+    return pressure_modulus()(pressure, plastic_volumetric);
+  }
   const PressureModulus& pressure_modulus() const { return *pressure_modulus_; }
 
   double modulus_by_plastic(double elastic_volumetric, double plastic_volumetric) const
@@ -65,6 +69,10 @@ class UnloadingTable
   /// measured.
   bool in_range(double elastic_volumetric, double plastic_volumetric) const;
   bool rate_in_range(double pressure, double /*elastic*/, double plastic_volumetric) const
+  {
+    return pressure_modulus().in_range(pressure, plastic_volumetric);
+  }
+  Mask<Lanes> rate_in_range(const Lanes& pressure, const Lanes& /*elastic*/, const Lanes& plastic_volumetric) const
   {
     return pressure_modulus().in_range(pressure, plastic_volumetric);
   }

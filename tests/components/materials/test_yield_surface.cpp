@@ -31,9 +31,9 @@ TEST_CASE("the cap joins the cone with equal slope and closes at the crush press
 
   CHECK(surface.limit(kappa, crush) == surface.strength(kappa).value);
   CHECK(surface.limit(kappa + 1e-4, crush) == Approx(surface.strength(kappa + 1e-4).value).epsilon(1e-9));
-  CHECK(surface.limit(16, crush) == Approx(surface.strength(16).value * std::sqrt(0.75)));
+  CHECK(surface.limit(16.0, crush) == Approx(surface.strength(16.0).value * std::sqrt(0.75)));
   CHECK(surface.limit(crush, crush) == 0);
-  CHECK(surface.limit(25, crush) == 0);
+  CHECK(surface.limit(25.0, crush) == 0);
 }
 
 TEST_CASE("a yield table without a vertex, or with a strength that is no number, is refused with its row")

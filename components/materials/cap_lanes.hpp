@@ -1,0 +1,179 @@
+#pragma once
+
+#include <tuple>
+
+#include "components/materials/cap_newton.hpp"
+#include "components/materials/cap_step.hpp"
+#include "components/numbers.hpp"
+
+namespace tamp::components
+{
+
+/// A substep of as many particles of sand side by side as a register holds, on the ways that most of them go: elastic,
+/// or on the cone or the cap by Newton's method from the flow at the start. The formulas are CapIntegrator's, and so
+/// are the bits. A particle that leaves these ways is `left` to it.
+template <class Model>
+class CapLanes
+{
+ public:
+  using Particles = CapParticleOf<Lanes>;
+  using Strains = CapStrainOf<Lanes>;
+  using Point = PathPointOf<Lanes>;
+  using Some = Mask<Lanes>;
+
+  explicit CapLanes(const CapStep<Model>& step) : step_(step) {}
+
+  /// Where a particle stands, and so where it likely flows.
+  Some is_on_cap(const Particles& at) const
+  {
+    return at.pressure > step_.yield().kappa(step_.crush_pressure(at.plastic_volumetric));
+  }
+
+  struct Outcome {
+    CapOutcomeOf<Lanes> end;
+    Some left;
+    Lanes n_evaluations;  ///< of the elastic model, where it was not left
+  };
+  [[gnu::flatten]] Outcome substep(const Particles& old, const Strains& strain, const Lanes& size) const
+  {
+    const Lanes compaction = size * strain.compaction;
+    if (step_.form() == ElasticUpdate::state) {
+      return substep_along(old, strain, size, [&](const Deviatoric& deviatoric, const Lanes& d) {
+        return step_.state_path(old, compaction, deviatoric, d);
+      });
+    }
+    return substep_along(old, strain, size, [&](const Deviatoric& deviatoric, const Lanes& d) {
+      return step_.rate_path(old, compaction, deviatoric, d, d);
+    });
+  }
+
+ private:
+  using Deviatoric = DeviatoricTrialOf<Lanes>;
+
+  /// `path(deviatoric, d)` is the path that is left after a plastic volumetric strain d.
+  template <class MakePath>
+  Outcome substep_along(const Particles& old, const Strains& strain, const Lanes& size, const MakePath& path) const
+  {
+    const Deviatoric deviatoric = step_.deviatoric(old, strain, size);
+    const Point trial = path(deviatoric, Lanes(0.0))(Lanes(0.0));
+    const Some elastic = inside(step_.yield(), trial);
+    Outcome outcome{step_.after_elastic(old, strain, size, trial), Some(false), 1.0};
+    if (!all_of(elastic)) flow(path, old, strain, size, deviatoric, trial, !elastic, outcome);
+    return outcome;
+  }
+
+  template <class MakePath>
+  void flow(const MakePath& path, const Particles& old, const Strains& strain, const Lanes& size,
+            const Deviatoric& deviatoric, const Point& trial, const Some& flowing, Outcome& outcome) const
+  {
+    const YieldSurface& yield = step_.yield();
+    const FlowStartOf<Lanes> start = flow_start(yield, old, deviatoric, trial);
+    const CombinationOf<Lanes> along = start.along(trial.shear_modulus), left = start.left(along);
+    const auto rest = path(left.trial(deviatoric), start.plastic_volumetric);
+    const Point rest_trial = rest(Lanes(0.0));
+
+    const Some returns = flowing && start.multiplier > 0.0 && trial.pressure >= yield.vertex_pressure() &&
+                         rest_trial.pressure >= yield.vertex_pressure();
+    const Some on_cone = start.guess.sine >= 1.0;
+    Return back;
+    return_on_cone(rest, rest_trial, start.guess, returns && on_cone, back);
+    return_on_cap(rest, rest_trial, start.guess, returns && !on_cone, back);
+    const ReturnPointOf<Lanes> point = cap_return::surface_point(back.end, 0);
+    assign_where(flowing, step_.after_flow(old, strain, size, start, along, left, point), outcome.end);
+    outcome.left = flowing && !back.found;
+    where(flowing, outcome.n_evaluations) = step_.form() == ElasticUpdate::state ? back.n_evaluations : Lanes(2.0);
+  }
+
+  struct Return {
+    cap_return::ResidualOf<Lanes> end{};
+    Some found{false};
+    Lanes n_evaluations = 2.0;
+  };
+
+  /// Newton's method for the lanes that are `active`, each until it has converged.
+  template <class Path>
+  void return_on_cone(const Path& path, const Point& trial, const ReturnGuessOf<Lanes>& guess, Some active,
+                      Return& back) const
+  {
+    using namespace cap_return;
+    const YieldSurface& yield = step_.yield();
+    Lanes d = guess.plastic_volumetric;
+    BeforeOf<Path, Lanes> before{trial, 0.0};
+    if (!any(active)) return;
+    Point at = path(d);
+    where(active, back.n_evaluations) += 1.0;
+    for (int i = 0; i < max_newton; ++i) {
+      const auto g = yield.strength(at.pressure);
+      const auto [shear_d, trial_d] = before.slopes(at, d);
+      const Lanes step = step_on_cone(g, at, shear_d, trial_d, d);
+      const Some settled = has_converged(step, d);
+      active = active && at.pressure >= yield.vertex_pressure() && is_finite(Lanes(d + step));
+      before = {at, d};
+      d = d + step;
+      if constexpr (has_constant_moduli<Path>) {
+        at = path(d);
+        take(active, evaluate(yield, d, at), g.slope, back);
+      } else {
+        take(active && settled, stepped(yield, at, before.d, step, shear_d, trial_d), g.slope, back);
+      }
+      active = active && !settled && !back.found;
+      if (!any(active)) return;
+      if constexpr (!has_constant_moduli<Path>) at = path(d);
+      where(active, back.n_evaluations) += 1.0;
+    }
+  }
+  void take(const Some& ends, const cap_return::ResidualOf<Lanes>& end, const Lanes& slope, Return& back) const
+  {
+    const Some valid = ends && cap_return::is_on_segment(step_.yield(), end, slope);
+    assign_where(valid, end, back.end);
+    back.found = back.found || valid;
+  }
+
+  /// Where a lane has converged: the last step is still to be taken.
+  struct Settled {
+    Point at;
+    Lanes d, step, shear_d, trial_d, multiplier;
+
+    static constexpr auto fields = std::tuple(&Settled::at, &Settled::d, &Settled::step, &Settled::shear_d,
+                                              &Settled::trial_d, &Settled::multiplier);
+  };
+
+  template <class Path>
+  void return_on_cap(const Path& path, const Point& trial, const ReturnGuessOf<Lanes>& guess, Some active,
+                     Return& back) const
+  {
+    using namespace cap_return;
+    const YieldSurface& yield = step_.yield();
+    const Lanes sine = guess.sine;
+    Lanes d = guess.plastic_volumetric, t = half_tangent(sine, Lanes(sqrt((1.0 - sine) * (1.0 + sine))));
+    BeforeOf<Path, Lanes> before{trial, 0.0};
+    if (!any(active)) return;
+    Point at = path(d);
+    where(active && d != 0.0, back.n_evaluations) += 1.0;
+    Settled last{};
+    Some settled{false};
+    for (int i = 0; i < max_newton; ++i) {
+      const auto [shear_d, trial_d] = before.slopes(at, d);
+      const StepOnCap<Lanes> step = step_on_cap(yield, at, shear_d, trial_d, d, t);
+      const Some settles = active && has_converged(step, d, t);
+      assign_where(settles, Settled{at, d, step.d, shear_d, trial_d, step.multiplier}, last);
+      settled = settled || settles;
+      before = {at, d};
+      d = d + step.d;
+      t = t + step.t;
+      active = active && !settles && is_finite(Lanes(d + t));
+      if (!any(active)) break;
+      at = path(d);
+      where(active, back.n_evaluations) += 1.0;
+    }
+    const ResidualOf<Lanes> end = stepped(yield, last.at, last.d, last.step, last.shear_d, last.trial_d);
+    const Some valid =
+        settled && last.multiplier >= 0.0 && end.at.pressure <= end.at.crush_pressure && end.normal.sine < 1.0;
+    assign_where(valid, end, back.end);
+    back.found = back.found || valid;
+  }
+
+  const CapStep<Model>& step_;
+};
+
+}  // namespace tamp::components
