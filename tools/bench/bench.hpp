@@ -21,8 +21,9 @@ struct Result {
 /// needs at least, and what recording costs.
 Result punch(const std::filesystem::path& scene);
 
-/// Time for p and K of one state, in a batch of 4096 spread over the data: Table, SVR, MLP, and SVR and MLP compiled,
-/// each against its definition evaluated plainly. The plain network gives K alone.
+/// Time for K of one state (rate form) and for p and K (state form), in a batch of 4096 spread over the data, in lanes
+/// and one by one: Table, SVR, MLP, and SVR and MLP compiled, each against its definition evaluated plainly, and against
+/// its multiplications and additions at the processor's best. The plain network gives K alone.
 Result moduli(const std::filesystem::path& material);
 
 struct TaskOptions {

@@ -1,11 +1,14 @@
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <ctime>
 #include <functional>
 #include <limits>
 #include <random>
 
+#include "components/lanes.hpp"
 #include "components/moduli/modulus_surface.hpp"
 #include "components/moduli/network_modulus.hpp"
 #include "components/moduli/support_vector_modulus.hpp"
@@ -34,7 +37,7 @@ constexpr int moduli_rounds = 15;
 constexpr double least_seconds = 2e-3;  // of one measurement
 
 struct States {
-  std::vector<double> elastic, plastic;
+  std::vector<double> pressure, elastic, plastic;
 };
 
 /// In compression, where the tests measured.
@@ -48,6 +51,7 @@ States states_of(const UnloadingTable& table)
   while (states.elastic.size() < n_states) {
     const double e = elastic(random), ep = plastic(random);
     if (!table.in_range(e, ep)) continue;
+    states.pressure.push_back(table.at(e, ep).pressure);
     states.elastic.push_back(e);
     states.plastic.push_back(ep);
   }
@@ -57,6 +61,22 @@ States states_of(const UnloadingTable& table)
 using Points = std::vector<ElasticPoint>;
 using EvaluationLoop = std::function<void(const States&, Points&)>;
 
+template <class Function>
+EvaluationLoop loop_of(const Function& point_at)
+{
+  return [point_at](const States& states, Points& points) {
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      points[i] = point_at(states.pressure[i], states.elastic[i], states.plastic[i]);
+    }
+  };
+}
+
+/// The state form: one state after the other, and lanes of them.
+template <components::ElasticModel Model>
+EvaluationLoop single_of(const Model& model)
+{
+  return loop_of([&model](double, double e, double ep) { return model.at(e, ep); });
+}
 template <components::ElasticModel Model>
 EvaluationLoop batch_of(const Model& model)
 {
@@ -65,11 +85,19 @@ EvaluationLoop batch_of(const Model& model)
   };
 }
 
-template <class Function>
-EvaluationLoop loop_of(const Function& point_at)
+/// The rate form, which gives K alone.
+template <components::ElasticModel Model>
+EvaluationLoop single_rate_of(const Model& model)
 {
-  return [point_at](const States& states, Points& points) {
-    for (std::size_t i = 0; i < points.size(); ++i) points[i] = point_at(states.elastic[i], states.plastic[i]);
+  return loop_of([&model](double p, double e, double ep) { return ElasticPoint{0, model.rate_modulus(p, e, ep), 0}; });
+}
+template <components::ElasticModel Model>
+EvaluationLoop batch_rate_of(const Model& model)
+{
+  return [&model, moduli = std::vector<double>(n_states)](const States& states, Points& points) mutable {
+    components::evaluate_rate(model, std::span(states.pressure), std::span(states.elastic), std::span(states.plastic),
+                              std::span(moduli));
+    for (std::size_t i = 0; i < points.size(); ++i) points[i] = {0, moduli[i], 0};
   };
 }
 
@@ -95,20 +123,41 @@ double measured(const EvaluationLoop& loop, const States& states, Points& points
   return seconds / n / static_cast<double>(points.size()) * 1e9;
 }
 
-/// One model: as it is used, and by its definition.
+/// Nanoseconds that a multiplication and an addition take of one of many numbers, as fast as the processor goes: in
+/// lanes, enough of them under way that none waits.
+double multiply_add_ns()
+{
+  constexpr std::size_t n_under_way = 10;
+  constexpr int n = 200'000;
+  std::array<Lanes, n_under_way> x;
+  x.fill(1.0);
+  volatile double unknown = 1 - 1e-9;
+  const Lanes factor = unknown, summand = 1 - unknown;
+  const double start = seconds_now();
+  for (int i = 0; i < n; ++i) {
+    unrolled<n_under_way>([&](auto k) { x[k] = x[k] * factor + summand; });
+  }
+  const double seconds = seconds_now() - start;
+  for (const Lanes& sum : x) unknown = unknown + sum[0];
+  return seconds / (static_cast<double>(n) * n_under_way * n_lanes) * 1e9;
+}
+
+/// One form of a model: as it is used, and by its definition. `multiply_adds` is about what one state needs.
 struct Contest {
-  std::string model;
-  EvaluationLoop batch, plain;
-  std::vector<double> batch_ns{}, plain_ns{};
+  std::string model, form;
+  int multiply_adds;
+  EvaluationLoop batch, single, plain;
+  std::vector<double> batch_ns{}, single_ns{}, plain_ns{};
   double max_error = 0;
 
   void measure(const States& states)
   {
     Points points(n_states), expected(n_states);
+    single_ns.push_back(measured(single, states, points));
     batch_ns.push_back(measured(batch, states, points));
     plain_ns.push_back(measured(plain, states, expected));
-    max_error = std::max(error(points, expected, &ElasticPoint::pressure),
-                         error(points, expected, &ElasticPoint::bulk_modulus));
+    max_error = error(points, expected, &ElasticPoint::bulk_modulus);
+    if (form == "state") max_error = std::max(max_error, error(points, expected, &ElasticPoint::pressure));
   }
 
   /// The largest difference, of the largest number. A loop that has no pressure leaves it at none.
@@ -124,20 +173,30 @@ struct Contest {
   }
 };
 
-Result result_of(const std::vector<Contest>& contests)
+Result result_of(const std::vector<Contest>& contests, double arithmetic_ns)
 {
   Result result;
   result.json = nlohmann::ordered_json::array();
-  result.text =
-      fmt::format("moduli: p and K of {} states, median of {} rounds\n  {:<14}{:>10}{:>12}{:>14}{:>12}{:>12}\n",
-                  n_states, moduli_rounds, "model", "batch ns", "plain ns", "plain/batch", "of table", "max error");
-  const double table_ns = median(contests.front().batch_ns);
+  result.text = fmt::format(
+      "moduli: {} states, {} at once, median of {} rounds; a multiplication and an addition {:.3f} ns at best\n"
+      "  {:<14}{:<6}{:>9}{:>10}{:>10}{:>10}{:>14}{:>10}{:>11}\n",
+      n_states, n_lanes, moduli_rounds, arithmetic_ns, "model", "form", "batch ns", "single ns", "plain ns", "of table",
+      "multiply-adds", "of bound", "max error");
   for (const Contest& contest : contests) {
-    const double batch_ns = median(contest.batch_ns), plain_ns = median(contest.plain_ns);
-    result.json.push_back(
-        {{"model", contest.model}, {"batch_ns", batch_ns}, {"scalar_ns", plain_ns}, {"max_error", contest.max_error}});
-    result.text += fmt::format("  {:<14}{:>10.1f}{:>12.1f}{:>14.1f}{:>12.2f}{:>12.1e}\n", contest.model, batch_ns,
-                               plain_ns, plain_ns / batch_ns, batch_ns / table_ns, contest.max_error);
+    const auto& table = *std::ranges::find(contests, contest.form, &Contest::form);
+    const double batch_ns = median(contest.batch_ns), single_ns = median(contest.single_ns);
+    const double plain_ns = median(contest.plain_ns), of_bound = batch_ns / (contest.multiply_adds * arithmetic_ns);
+    result.json.push_back({{"model", contest.model},
+                           {"form", contest.form},
+                           {"batch_ns", batch_ns},
+                           {"single_ns", single_ns},
+                           {"scalar_ns", plain_ns},
+                           {"multiply_adds", contest.multiply_adds},
+                           {"of_bound", of_bound},
+                           {"max_error", contest.max_error}});
+    result.text += fmt::format("  {:<14}{:<6}{:>9.1f}{:>10.1f}{:>10.1f}{:>10.2f}{:>14}{:>10.1f}{:>11.1e}\n",
+                               contest.model, contest.form, batch_ns, single_ns, plain_ns,
+                               batch_ns / median(table.batch_ns), contest.multiply_adds, of_bound, contest.max_error);
   }
   return result;
 }
@@ -155,22 +214,34 @@ Result moduli(const std::filesystem::path& material)
   const NetworkModulus mlp(network);
   const ModulusSurface compiled_svr(svr, 1e-4), compiled_mlp(mlp, 1e-2);
 
-  const EvaluationLoop plain_table = loop_of([&](double e, double ep) { return table.defined_at(e, ep); });
-  const EvaluationLoop plain_svr = loop_of([&](double e, double ep) { return plain_support_vectors(vectors, e, ep); });
-  const EvaluationLoop plain_mlp = loop_of([&](double e, double ep) {
+  const auto plain_table = loop_of([&](double, double e, double ep) { return table.defined_at(e, ep); });
+  const auto plain_table_rate = loop_of([&](double p, double e, double ep) {
+    return ElasticPoint{0, table.rate_modulus(p, e, ep), 0};
+  });
+  const auto plain_svr = loop_of([&](double, double e, double ep) { return plain_support_vectors(vectors, e, ep); });
+  const auto plain_mlp = loop_of([&](double, double e, double ep) {
     return ElasticPoint{std::numeric_limits<double>::quiet_NaN(), plain_network(network, e, ep), 0};
   });
-  std::vector<Contest> contests{{"table", batch_of(table), plain_table},
-                                {"svr", batch_of(svr), plain_svr},
-                                {"mlp", batch_of(mlp), plain_mlp},
-                                {"compiled svr", batch_of(compiled_svr), plain_svr},
-                                {"compiled mlp", batch_of(compiled_mlp), plain_mlp}};
+  // Counted in: polynomials of a tile, neurons that switch, bicubic patches; what finds them is not.
+  std::vector<Contest> contests;
+  const auto add = [&](const std::string& name, const auto& model, int rate, int state,
+                       const EvaluationLoop& plain_rate, const EvaluationLoop& plain) {
+    contests.push_back({name, "rate", rate, batch_rate_of(model), single_rate_of(model), plain_rate});
+    contests.push_back({name, "state", state, batch_of(model), single_of(model), plain});
+  };
+  add("table", table, 3, 56, plain_table_rate, plain_table);
+  add("svr", svr, 101, 203, plain_svr, plain_svr);
+  add("mlp", mlp, 17, 85, plain_mlp, plain_mlp);
+  add("compiled svr", compiled_svr, 68, 68, plain_svr, plain_svr);
+  add("compiled mlp", compiled_mlp, 68, 68, plain_mlp, plain_mlp);
 
   const States states = states_of(table);
+  std::vector<double> arithmetic_ns;
   for (int round = 0; round < moduli_rounds; ++round) {
+    arithmetic_ns.push_back(multiply_add_ns());
     for (Contest& contest : contests) contest.measure(states);
   }
-  return result_of(contests);
+  return result_of(contests, median(arithmetic_ns));
 }
 
 }  // namespace tamp::tools::bench
