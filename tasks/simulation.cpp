@@ -10,6 +10,7 @@
 #include "components/materials/wave_speed.hpp"
 #include "runtime/data/byte_stream.hpp"
 #include "runtime/execute/move_patches.hpp"
+#include "runtime/execute/on_workers.hpp"
 #include "runtime/grid/curve_order.hpp"
 #include "runtime/ranks/deal_patches.hpp"
 #include "runtime/ranks/load_balance.hpp"
@@ -122,30 +123,27 @@ class SimulationOf : public Simulation
   {
     return communicator_.sum(engine_->warehouse().n_particles(material));
   }
-  std::vector<runtime::ParticleBlock> particle_columns(const FieldChoice& choice) override
+  runtime::FieldCopy fields(const FieldChoice& choice, bool with_nodes) override
   {
-    return columns_.particles(method_, choice, engine_->warehouse(), communicator_);
-  }
-  runtime::NodeBlock node_columns(const FieldChoice& choice) override
-  {
-    return columns_.nodes(method_, choice, engine_->warehouse());
+    return copy_of_fields(method_, choice, with_nodes, engine_->warehouse(), *executor_, communicator_);
   }
   void write_checkpoint(const std::filesystem::path& folder, const std::string& fingerprint,
                         std::span<const std::byte> host, int keep) override
   {
-    runtime::ByteWriter own;
-    own.add(last_step_size_);
-    own.add(totals_);
-    own.add(grid_totals_);
-    own.add(contact_);
-    own.add(contact_since_);
-    own.add(loads_);
-    own.add(loads_since_);
-    lost_->share(engine_->layout(), communicator_);
-    lost_->write(own);
-    own.add_bytes(host);
-    runtime::write_checkpoint(folder, {n_steps_, time_, fingerprint}, own.bytes(), engine_->warehouse(),
+    runtime::write_checkpoint(folder, header(fingerprint), own_bytes(host), engine_->warehouse(),
                               material_names(scene_), keep, communicator_);
+  }
+
+  runtime::CheckpointCopy copy_checkpoint(const std::string& fingerprint, std::span<const std::byte> host) override
+  {
+    // The workers' run has a watch of its own; what follows it is messages.
+    std::unique_ptr<runtime::Watchdog::Watch> watch;
+    const auto for_all = [&](int n, const auto& work) {
+      runtime::on_workers(*executor_, n, work);
+      watch.reset(new runtime::Watchdog::Watch(executor_->watch("gathering the state")));
+    };
+    return runtime::copy_checkpoint(header(fingerprint), own_bytes(host), engine_->warehouse(), material_names(scene_),
+                                    for_all, communicator_);
   }
 
   std::vector<std::byte> restart(const runtime::FoundCheckpoint& found) override
@@ -182,6 +180,25 @@ class SimulationOf : public Simulation
     return std::make_unique<runtime::Engine>(
         layout, material_names(scene_), graphs_of(method_, [this](const StepTotals& step) { return accepts(step); }),
         n_threads(), communicator_);
+  }
+
+  runtime::CheckpointHeader header(const std::string& fingerprint) const { return {n_steps_, time_, fingerprint}; }
+
+  /// What a checkpoint keeps of this object and of the host.
+  std::vector<std::byte> own_bytes(std::span<const std::byte> host)
+  {
+    runtime::ByteWriter own;
+    own.add(last_step_size_);
+    own.add(totals_);
+    own.add(grid_totals_);
+    own.add(contact_);
+    own.add(contact_since_);
+    own.add(loads_);
+    own.add(loads_since_);
+    lost_->share(engine_->layout(), communicator_);
+    lost_->write(own);
+    own.add_bytes(host);
+    return own.bytes();
   }
 
   void make_rigid_bodies(const BodyParticles<D>& particles)
@@ -345,7 +362,6 @@ class SimulationOf : public Simulation
   runtime::Communicator after_failure_ = communicator_.duplicate();
   std::unique_ptr<runtime::Engine> engine_;
   std::optional<runtime::Profiler> profiler_;
-  FieldColumns<D> columns_;
   std::size_t forecast_bytes_ = 0;
   std::optional<LostByPatch> lost_;
 };

@@ -12,7 +12,7 @@
 #include "runtime/profile/profiler.hpp"
 #include "runtime/ranks/communicator.hpp"
 #include "runtime/storage/checkpoints/checkpoint.hpp"
-#include "runtime/storage/fields/field_columns.hpp"
+#include "runtime/storage/fields/field_copy.hpp"
 #include "tasks/report/lost_particles.hpp"
 #include "tasks/report/report.hpp"
 #include "tasks/rigid_body.hpp"
@@ -97,16 +97,19 @@ class Simulation
   /// Off only to measure what recording costs.
   virtual void record(bool on) = 0;
 
-  /// Particles of a material now, on all ranks; and chosen fields of them and of the nodes, this rank's part.
+  /// Particles of a material now, on all ranks.
   virtual std::size_t n_particles(int material) const = 0;
-  virtual std::vector<runtime::ParticleBlock> particle_columns(const FieldChoice& choice) = 0;
-  virtual runtime::NodeBlock node_columns(const FieldChoice& choice) = 0;
-  std::vector<runtime::ParticleBlock> particle_columns() { return particle_columns({}); }
-  runtime::NodeBlock node_columns() { return node_columns({}); }
+  /// A copy of the chosen fields of particles, and if asked for of nodes, this rank's part.
+  virtual runtime::FieldCopy fields(const FieldChoice& choice, bool with_nodes) = 0;
+  /// All fields, this rank's part, valid until they are asked for again.
+  std::vector<runtime::ParticleBlock> particle_columns() { return (particles_ = fields({}, false)).particles; }
+  runtime::NodeBlock node_columns() { return (nodes_ = fields({}, true)).nodes.value(); }
   /// Keeps the state in a folder, with bytes of the host's own, which are the same on all ranks; see
   /// runtime::write_checkpoint. Throws FileError.
   virtual void write_checkpoint(const std::filesystem::path& folder, const std::string& fingerprint,
                                 std::span<const std::byte> host, int keep) = 0;
+  /// The same in two parts: a copy, on the first rank, which that rank may write when and in which thread it likes.
+  virtual runtime::CheckpointCopy copy_checkpoint(const std::string& fingerprint, std::span<const std::byte> host) = 0;
   /// Goes on where a checkpoint of the same scene was written, on any ranks; returns the host's bytes.
   virtual std::vector<std::byte> restart(const runtime::FoundCheckpoint& found) = 0;
   /// A hash of every particle's state in the order of their ids, for all materials; 16 hexadecimal digits.
@@ -139,6 +142,9 @@ class Simulation
   /// Since the forces of loads were last taken.
   LoadTotals loads_;
   double loads_since_ = 0;
+  /// Last asked for.
+  runtime::FieldCopy particles_;
+  runtime::FieldCopy nodes_;
 };
 
 }  // namespace tamp::tasks

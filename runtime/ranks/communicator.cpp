@@ -47,6 +47,16 @@ std::vector<std::vector<std::byte>> cut(const std::vector<std::byte>& together, 
   return pieces;
 }
 
+/// MPI counts in ints: what is longer travels in pieces, of which this visits the first byte and the length of each.
+template <class Visit>
+void for_each_piece(std::size_t n, const Visit& visit)
+{
+  constexpr std::size_t longest = std::size_t{1} << 30;
+  for (std::size_t first = 0; first < n; first += longest) visit(first, static_cast<int>(std::min(longest, n - first)));
+}
+
+constexpr int tag_of_bytes = 0;
+
 }  // namespace
 
 void wait_for(MPI_Request& request)
@@ -196,6 +206,26 @@ double Communicator::max(double own) const
 {
   reduce(&own, 1, MPI_DOUBLE, MPI_MAX);
   return own;
+}
+
+void Communicator::send(int rank, std::span<const std::byte> bytes) const
+{
+  for_each_piece(bytes.size(), [&](std::size_t first, int n) {
+    MPI_Request request = MPI_REQUEST_NULL;
+    MPI_Isend(bytes.data() + first, n, MPI_BYTE, rank, tag_of_bytes, *handle_, &request);
+    wait_for(request);
+  });
+}
+
+std::vector<std::byte> Communicator::receive(int rank, std::size_t n) const
+{
+  std::vector<std::byte> bytes(n);
+  for_each_piece(n, [&](std::size_t first, int of_piece) {
+    MPI_Request request = MPI_REQUEST_NULL;
+    MPI_Irecv(bytes.data() + first, of_piece, MPI_BYTE, rank, tag_of_bytes, *handle_, &request);
+    wait_for(request);
+  });
+  return bytes;
 }
 
 }  // namespace tamp::runtime

@@ -31,7 +31,8 @@ void wait_for(MPI_Request& request);
 
 /// The ranks that work on one thing together. Without MPI, or by default, this process alone: rank 0 of 1.
 ///
-/// The calls below are collective: all ranks make the same ones in the same order, from one thread.
+/// The calls below are collective unless they say otherwise: all ranks make the same ones in the same order, from one
+/// thread.
 class Communicator
 {
  public:
@@ -77,6 +78,11 @@ class Communicator
   double max(double own) const;
   /// Whether it is so on all ranks.
   bool all(bool own) const { return min(std::uint64_t{own}) == 1; }
+
+  /// Bytes from this rank to another one, which takes as many with `receive`: not collective. Sends of one rank are
+  /// received in their order.
+  void send(int rank, std::span<const std::byte> bytes) const;
+  std::vector<std::byte> receive(int rank, std::size_t n) const;
 
  private:
   void gather_bytes(const void* own, void* all, std::size_t n) const;

@@ -48,7 +48,10 @@ RowShare share_by_patch(std::span<const std::uint64_t> n_rows, IsOwn&& is_own)
   return share;
 }
 
-/// Where this rank's particles of a group stand in a table of those of all ranks, patch after patch. Collective.
-RowShare particle_share(const Warehouse& warehouse, int group, const Communicator& communicator);
+/// How many particles of a group each patch has, whatever rank it is on. Collective.
+std::vector<std::uint64_t> particles_by_patch(const Warehouse& warehouse, int group, const Communicator& communicator);
+
+/// Where this rank's particles stand in a table of those of all ranks, patch after patch.
+RowShare particle_share(const Warehouse& warehouse, std::span<const std::uint64_t> n_particles);
 
 }  // namespace tamp::runtime

@@ -2,7 +2,10 @@
 
 #include <algorithm>
 #include <deque>
+#include <set>
+#include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "runtime/warehouse/warehouse.hpp"
@@ -42,8 +45,25 @@ std::size_t n_output_numbers(const FieldChoice& choice)
   return n;
 }
 
+/// Of a copy of the particles' state, of which there is more than of any other.
+double state_bytes(std::span<const runtime::TaskGraph* const> graphs, const std::vector<std::size_t>& n_particles)
+{
+  std::set<std::pair<const runtime::Label*, int>> state;
+  for (const runtime::TaskGraph* graph : graphs) {
+    for (const runtime::LabelUse& use : graph->label_uses()) {
+      if (use.state && use.label->centring() == runtime::Centring::particle) state.emplace(use.label, use.group);
+    }
+  }
+  double bytes = 0;
+  for (const auto& [label, group] : state) {
+    bytes += static_cast<double>(label->value_bytes() * n_particles[static_cast<std::size_t>(group)]);
+  }
+  return bytes;
+}
+
+/// The memory of fields, and of a copy of the state.
 template <int D>
-double field_bytes(const Scene& scene, const std::vector<std::size_t>& n_particles)
+void add_fields(const Scene& scene, const std::vector<std::size_t>& n_particles, Demand& demand)
 {
   const Method<D> method(scene);
   std::vector<std::string> names;
@@ -54,7 +74,8 @@ double field_bytes(const Scene& scene, const std::vector<std::size_t>& n_particl
   for (auto& [tasks, host] : graphs_of(method, [](const StepTotals&) { return true; })) {
     pointers.push_back(&graphs.emplace_back(tasks, layout, names, host));
   }
-  return runtime::Warehouse::forecast_bytes(pointers, n_particles);
+  demand.fields = runtime::Warehouse::forecast_bytes(pointers, n_particles);
+  demand.checkpoint_file = state_bytes(pointers, n_particles);
 }
 
 }  // namespace
@@ -72,11 +93,9 @@ Demand demand_of(const Scene& scene)
     demand.output_file +=
         bytes_of_number * static_cast<double>(n_output_numbers(scene, scene.materials[m]) * n_particles[m]);
   }
-  demand.fields = scene.grid.dimension == 2 ? field_bytes<2>(scene, n_particles) : field_bytes<3>(scene, n_particles);
+  scene.grid.dimension == 2 ? add_fields<2>(scene, n_particles, demand) : add_fields<3>(scene, n_particles, demand);
   // Vectors that grow as they are filled have room to spare.
   demand.output_room = 1.3 * demand.output_file;
-  // The state, without what the next step makes of it.
-  demand.checkpoint_file = 0.5 * demand.fields;
   return demand;
 }
 

@@ -15,6 +15,7 @@ struct Demand {
   /// What is gathered to write one output, and what that takes on the disk.
   double output_room = 0;
   double output_file = 0;
+  /// What a copy of the state takes, in memory as on the disk.
   double checkpoint_file = 0;
 };
 

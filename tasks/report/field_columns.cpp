@@ -2,9 +2,11 @@
 
 #include <array>
 #include <functional>
+#include <tuple>
 
 #include "components/materials/state_columns.hpp"
 #include "components/portable_math.hpp"
+#include "runtime/execute/on_workers.hpp"
 #include "runtime/storage/row_share.hpp"
 #include "tasks/labels.hpp"
 
@@ -30,33 +32,25 @@ void append(std::vector<double>& all, const T& values)
   all.insert(all.end(), values.data(), values.data() + values.size());
 }
 
-/// One particle, whose data are asked for by label.
-struct ParticleAt {
-  runtime::Warehouse& warehouse;
-  int patch;
-  int group;
-  std::size_t p;
-
-  template <class T>
-  const T& operator[](const runtime::TypedLabel<T, runtime::Centring::particle>& label) const
-  {
-    return warehouse.state(label, patch, group)[p];
-  }
-};
-
-/// A field of particles: its name, and what appends the numbers of one.
+/// A field of particles: its name, and what appends the numbers of all of a patch and group. `value` makes them of what
+/// a particle has under the labels.
 struct ParticleField {
-  template <class Value>
-  ParticleField(std::string field_name, ColumnKind field_kind, const Value& value)
+  template <class Value, class... Labels>
+  ParticleField(std::string field_name, ColumnKind field_kind, const Value& value, const Labels&... labels)
       : name(std::move(field_name)),
         kind(field_kind),
-        add([value](const ParticleAt& at, std::vector<double>& all) { append(all, value(at)); })
+        add([value, &labels...](runtime::Warehouse& warehouse, int patch, int group, std::vector<double>& all) {
+          const std::tuple particles(warehouse.state(labels, patch, group)...);
+          for (std::size_t p = 0; p < warehouse.n_particles(patch, group); ++p) {
+            std::apply([&](const auto&... of_label) { append(all, value(of_label[p]...)); }, particles);
+          }
+        })
   {
   }
 
   std::string name;
   ColumnKind kind;
-  std::function<void(const ParticleAt&, std::vector<double>&)> add;
+  std::function<void(runtime::Warehouse&, int patch, int group, std::vector<double>&)> add;
 };
 
 template <int D, class Model>
@@ -65,36 +59,39 @@ void add_state_fields(const Model& model, std::vector<ParticleField>& fields)
   if constexpr (components::has_state<Model>) {
     for (const components::StateColumn<Model>& column : components::state_columns<Model>()) {
       if (column.shown == components::Shown::by_drive) continue;
-      fields.emplace_back(std::string(column.name), ColumnKind::scalar, [&model, &column](const ParticleAt& at) {
-        return column.value(model, at[particle::state<Model>], components::invariants(at[particle::stress<D>]));
-      });
+      fields.emplace_back(
+          std::string(column.name), ColumnKind::scalar,
+          [&model, &column](const typename Model::State& state, const SymmetricTensor<D>& stress) {
+            return column.value(model, state, components::invariants(stress));
+          },
+          particle::state<Model>, particle::stress<D>);
     }
   }
-}
-
-/// How often a particle has gone around the domain along each axis.
-template <int D>
-Vector<D> laps_of(const ParticleAt& at)
-{
-  const runtime::Index& laps = at[particle::laps];
-  return Eigen::Map<const Eigen::Matrix<int, D, 1>>(laps.data()).template cast<double>();
 }
 
 /// All that can be written of a material's particles, but for id; the material must outlive it.
 template <int D>
 std::vector<ParticleField> particle_fields(const Scene& scene, const SceneMaterial& material)
 {
-  using At = const ParticleAt&;
-  const auto invariants = [](At at) { return components::invariants(at[particle::stress<D>]); };
+  using Stress = SymmetricTensor<D>;
+  const auto as_it_is = [](const auto& value) { return value; };
   std::vector<ParticleField> fields{
-      {position_field, ColumnKind::vector, [](At at) { return at[particle::position<D>]; }},
-      {"velocity", ColumnKind::vector, [](At at) { return at[particle::velocity<D>]; }},
-      {"stress", ColumnKind::tensor, [](At at) { return at[particle::stress<D>]; }},
-      {"p", ColumnKind::scalar, [invariants](At at) { return invariants(at).pressure; }},
-      {"q", ColumnKind::scalar, [invariants](At at) { return invariants(at).q(); }},
-      {"density", ColumnKind::scalar, [](At at) { return at[particle::mass] / at[particle::volume]; }},
-      {"J", ColumnKind::scalar, [](At at) { return at[particle::deformation_gradient<D>].determinant(); }}};
-  if (scene.is_periodic()) fields.emplace_back("laps", ColumnKind::vector, laps_of<D>);
+      {position_field, ColumnKind::vector, as_it_is, particle::position<D>},
+      {"velocity", ColumnKind::vector, as_it_is, particle::velocity<D>},
+      {"stress", ColumnKind::tensor, as_it_is, particle::stress<D>},
+      {"p", ColumnKind::scalar, [](const Stress& s) { return components::invariants(s).pressure; },
+       particle::stress<D>},
+      {"q", ColumnKind::scalar, [](const Stress& s) { return components::invariants(s).q(); }, particle::stress<D>},
+      {"density", ColumnKind::scalar, [](double mass, double volume) { return mass / volume; }, particle::mass,
+       particle::volume},
+      {"J", ColumnKind::scalar, [](const Matrix<D>& f) { return f.determinant(); }, particle::deformation_gradient<D>}};
+  if (scene.is_periodic()) {
+    // How often it has gone around the domain along each axis.
+    const auto along_axes = [](const runtime::Index& laps) -> Vector<D> {
+      return Eigen::Map<const Eigen::Matrix<int, D, 1>>(laps.data()).template cast<double>();
+    };
+    fields.emplace_back("laps", ColumnKind::vector, along_axes, particle::laps);
+  }
   std::visit([&](const auto& model) { add_state_fields<D>(model, fields); }, material.model);
   return fields;
 }
@@ -106,17 +103,34 @@ struct NodeMatter {
   Vector<D> momentum = Vector<D>::Zero();
 };
 
+/// What the materials left on the nodes of a patch.
 template <int D>
-NodeMatter<D> matter_at(runtime::Warehouse& warehouse, int patch, const runtime::Index& i)
+class MatterOfPatch
 {
-  NodeMatter<D> matter;
-  for (int g = 0; g < warehouse.n_groups(); ++g) {
-    const double own = warehouse.grid_result(node::sums<D>, patch, g)[i].mass();
-    matter.mass += own;
-    matter.momentum += own * warehouse.grid_result(node::motion<D>, patch, g)[i].velocity();
+ public:
+  MatterOfPatch(runtime::Warehouse& warehouse, int patch)
+  {
+    for (int g = 0; g < warehouse.n_groups(); ++g) {
+      sums_.push_back(warehouse.grid_result(node::sums<D>, patch, g));
+      motion_.push_back(warehouse.grid_result(node::motion<D>, patch, g));
+    }
   }
-  return matter;
-}
+
+  NodeMatter<D> at(const runtime::Index& i) const
+  {
+    NodeMatter<D> matter;
+    for (std::size_t g = 0; g < sums_.size(); ++g) {
+      const double own = sums_[g][i].mass();
+      matter.mass += own;
+      matter.momentum += own * motion_[g][i].velocity();
+    }
+    return matter;
+  }
+
+ private:
+  std::vector<runtime::GridView<const components::NodeSums<D>>> sums_;
+  std::vector<runtime::GridView<const components::NodeMotion<D>>> motion_;
+};
 
 /// A field of nodes: its name in a FieldChoice and in the file, and what appends the numbers of one.
 template <int D>
@@ -142,16 +156,89 @@ std::vector<NodeField<D>> node_fields()
            }}};
 }
 
+/// Lays out the columns of a copy, and then has workers fill them, a column each.
 template <int D>
-void append_nodes(const Method<D>& method, runtime::Warehouse& warehouse, const NodeField<D>& field,
-                  std::vector<double>& all)
+class FieldCopier
 {
-  for (const runtime::Patch& patch : warehouse.layout()) {
-    if (!warehouse.is_local(patch)) continue;
-    for_each(warehouse.layout().shown_nodes(patch),
-             [&](const runtime::Index& i) { field.add(method, matter_at<D>(warehouse, patch.id, i), all); });
+ public:
+  FieldCopier(const Method<D>& method, const FieldChoice& choice, runtime::Warehouse& warehouse)
+      : method_(method), choice_(choice), warehouse_(warehouse)
+  {
   }
-}
+
+  void add_particles(int group, const runtime::Communicator& communicator)
+  {
+    const SceneMaterial& material = method_.materials[static_cast<std::size_t>(group)];
+    const auto& n_by_patch =
+        copy_.n_particles.emplace_back(runtime::particles_by_patch(warehouse_, group, communicator));
+    auto& block = copy_.particles.emplace_back(runtime::ParticleBlock{
+        material.name, warehouse_.n_particles(group), {}, runtime::particle_share(warehouse_, n_by_patch)});
+    add_column<std::int64_t>(block.columns, "id", ColumnKind::scalar, block.n, [=, this](int patch, auto& ids) {
+      const auto own = warehouse_.state(particle::id, patch, group);
+      ids.insert(ids.end(), own.begin(), own.end());
+    });
+    for (const ParticleField& field : particle_fields<D>(method_.scene, material)) {
+      if (!choice_.has(field.name) && !is_always_written(field.name)) continue;
+      add_column<double>(block.columns, field.name, field.kind, block.n,
+                         [=, this](int patch, auto& numbers) { field.add(warehouse_, patch, group, numbers); });
+    }
+  }
+
+  void add_nodes()
+  {
+    const runtime::PatchLayout& layout = warehouse_.layout();
+    const runtime::Grid& grid = layout.grid();
+    runtime::NodeBlock& block = copy_.nodes.emplace();
+    block.origin = grid.lower;
+    block.spacing = grid.cell_size;
+    runtime::IndexBox all = grid.cells();
+    for (std::size_t k = 0; k < D; ++k) ++all.upper[k];
+    for (std::size_t k = 0; k < 3; ++k) block.n_nodes[k] = all.upper[k];
+    block.boxes.emplace();
+    std::size_t n = 0;
+    for (const runtime::Patch& patch : layout) {
+      if (!warehouse_.is_local(patch)) continue;
+      n += static_cast<std::size_t>(block.boxes->emplace_back(layout.shown_nodes(patch)).size());
+    }
+    for (const NodeField<D>& field : node_fields<D>()) {
+      if (!choice_.has(field.choice())) continue;
+      add_column<double>(block.columns, field.name, field.kind, n, [=, this, &layout](int patch, auto& numbers) {
+        const MatterOfPatch<D> matter(warehouse_, patch);
+        for_each(layout.shown_nodes(layout[patch]),
+                 [&](const runtime::Index& i) { field.add(method_, matter.at(i), numbers); });
+      });
+    }
+  }
+
+  runtime::FieldCopy filled(runtime::Executor& executor)
+  {
+    runtime::on_workers(executor, static_cast<int>(fill_.size()),
+                        [this](int i) { fill_[static_cast<std::size_t>(i)](); });
+    copy_.show_values();
+    return std::move(copy_);
+  }
+
+ private:
+  /// Of `n` items; `add` appends the values of a patch.
+  template <class T, class Add>
+  void add_column(std::vector<Column>& columns, const std::string& name, ColumnKind kind, std::size_t n, const Add& add)
+  {
+    columns.push_back({name, kind, {}});
+    auto& values = copy_.values.emplace_back(std::vector<T>());
+    fill_.push_back([this, add, n_values = n * runtime::n_in_file(kind), &all = std::get<std::vector<T>>(values)] {
+      all.reserve(n_values);
+      for (const runtime::Patch& patch : warehouse_.layout()) {
+        if (warehouse_.is_local(patch)) add(patch.id, all);
+      }
+    });
+  }
+
+  const Method<D>& method_;
+  const FieldChoice& choice_;
+  runtime::Warehouse& warehouse_;
+  runtime::FieldCopy copy_;
+  std::vector<std::function<void()>> fill_;
+};
 
 }  // namespace
 
@@ -176,64 +263,19 @@ bool is_always_written(const std::string& field)
 }
 
 template <int D>
-std::vector<runtime::ParticleBlock> FieldColumns<D>::particles(const Method<D>& method, const FieldChoice& choice,
-                                                               runtime::Warehouse& warehouse,
-                                                               const runtime::Communicator& communicator)
+runtime::FieldCopy copy_of_fields(const Method<D>& method, const FieldChoice& choice, bool with_nodes,
+                                  runtime::Warehouse& warehouse, runtime::Executor& executor,
+                                  const runtime::Communicator& communicator)
 {
-  numbers_.clear();
-  ids_.clear();
-  std::vector<runtime::ParticleBlock> blocks;
-  for (int g = 0; g < warehouse.n_groups(); ++g) {
-    const SceneMaterial& material = method.materials[static_cast<std::size_t>(g)];
-    runtime::ParticleBlock block{
-        material.name, warehouse.n_particles(g), {}, runtime::particle_share(warehouse, g, communicator)};
-    auto& ids = ids_.emplace_back();
-    for (const runtime::Patch& patch : warehouse.layout()) {
-      const auto own = warehouse.state(particle::id, patch.id, g);
-      ids.insert(ids.end(), own.begin(), own.end());
-    }
-    block.columns.push_back({"id", ColumnKind::scalar, std::span<const std::int64_t>(ids)});
-    for (const ParticleField& field : particle_fields<D>(method.scene, material)) {
-      if (!choice.has(field.name) && !is_always_written(field.name)) continue;
-      auto& numbers = numbers_.emplace_back();
-      for (const runtime::Patch& patch : warehouse.layout()) {
-        const std::size_t n = warehouse.n_particles(patch.id, g);
-        for (std::size_t p = 0; p < n; ++p) field.add({warehouse, patch.id, g, p}, numbers);
-      }
-      block.columns.push_back({field.name, field.kind, std::span<const double>(numbers)});
-    }
-    blocks.push_back(std::move(block));
-  }
-  return blocks;
+  FieldCopier<D> copier(method, choice, warehouse);
+  for (int g = 0; g < warehouse.n_groups(); ++g) copier.add_particles(g, communicator);
+  if (with_nodes) copier.add_nodes();
+  return copier.filled(executor);
 }
 
-template <int D>
-runtime::NodeBlock FieldColumns<D>::nodes(const Method<D>& method, const FieldChoice& choice,
-                                          runtime::Warehouse& warehouse)
-{
-  const runtime::PatchLayout& layout = warehouse.layout();
-  const runtime::Grid& grid = layout.grid();
-  runtime::NodeBlock block;
-  block.origin = grid.lower;
-  block.spacing = grid.cell_size;
-  runtime::IndexBox all = grid.cells();
-  for (std::size_t k = 0; k < D; ++k) ++all.upper[k];
-  for (std::size_t k = 0; k < 3; ++k) block.n_nodes[k] = all.upper[k];
-  block.boxes.emplace();
-  std::vector<NodeField<D>> fields = node_fields<D>();
-  std::erase_if(fields, [&](const NodeField<D>& field) { return !choice.has(field.choice()); });
-  for (const runtime::Patch& patch : layout) {
-    if (warehouse.is_local(patch)) block.boxes->push_back(layout.shown_nodes(patch));
-  }
-  for (const NodeField<D>& field : fields) {
-    auto& numbers = numbers_.emplace_back();
-    append_nodes(method, warehouse, field, numbers);
-    block.columns.push_back({field.name, field.kind, std::span<const double>(numbers)});
-  }
-  return block;
-}
-
-template class FieldColumns<2>;
-template class FieldColumns<3>;
+template runtime::FieldCopy copy_of_fields(const Method<2>&, const FieldChoice&, bool, runtime::Warehouse&,
+                                           runtime::Executor&, const runtime::Communicator&);
+template runtime::FieldCopy copy_of_fields(const Method<3>&, const FieldChoice&, bool, runtime::Warehouse&,
+                                           runtime::Executor&, const runtime::Communicator&);
 
 }  // namespace tamp::tasks

@@ -1,11 +1,11 @@
 #pragma once
 
-#include <deque>
 #include <string>
 #include <vector>
 
+#include "runtime/execute/executor.hpp"
 #include "runtime/ranks/communicator.hpp"
-#include "runtime/storage/fields/field_columns.hpp"
+#include "runtime/storage/fields/field_copy.hpp"
 #include "runtime/warehouse/warehouse.hpp"
 #include "tasks/method.hpp"
 
@@ -24,22 +24,12 @@ std::vector<FieldName> node_field_names();
 /// Chosen or not.
 bool is_always_written(const std::string& field);
 
-/// What a run's field file holds of the state: this rank's part, gathered over its patches. The columns point into this
-/// object and are valid until it is asked for the next ones.
+/// What a run's field file holds of the state now, of this rank's patches: for each material id, position, and those of
+/// the chosen fields that it has; and if asked for, the chosen fields of the last step at the nodes, all materials
+/// together. The workers of the executor make it. Collective.
 template <int D>
-class FieldColumns
-{
- public:
-  /// For each material: id, position, and those of the chosen fields that it has. Collective.
-  std::vector<runtime::ParticleBlock> particles(const Method<D>& method, const FieldChoice& choice,
-                                                runtime::Warehouse& warehouse,
-                                                const runtime::Communicator& communicator);
-  /// The chosen fields of the last step at the nodes, all materials together.
-  runtime::NodeBlock nodes(const Method<D>& method, const FieldChoice& choice, runtime::Warehouse& warehouse);
-
- private:
-  std::deque<std::vector<double>> numbers_;
-  std::deque<std::vector<std::int64_t>> ids_;
-};
+runtime::FieldCopy copy_of_fields(const Method<D>& method, const FieldChoice& choice, bool with_nodes,
+                                  runtime::Warehouse& warehouse, runtime::Executor& executor,
+                                  const runtime::Communicator& communicator);
 
 }  // namespace tamp::tasks

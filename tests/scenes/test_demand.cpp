@@ -31,6 +31,9 @@ TEST_CASE("the memory of fields that is forecast from labels is what a simulatio
   CHECK(demand.n_particles == n_particles);
   // Sums over all particles, which are few, are not forecast.
   CHECK(demand.fields == Approx(static_cast<double>(simulation->forecast_bytes())).epsilon(0.03));
+  double copied = 0;
+  for (const auto& bytes : simulation->copy_checkpoint("", {}).bytes) copied += static_cast<double>(bytes.size());
+  CHECK(demand.checkpoint_file == Approx(copied).epsilon(0.03));
 }
 
 TEST_CASE("the steps of the quick punch are forecast within a factor of two, from trials of less than a second")

@@ -1,7 +1,11 @@
 #ifdef TAMP_FAILING_CALLS  // not with a sanitizer
 #  include <catch2/catch.hpp>
+#  include <chrono>
+#  include <csignal>
 #  include <nlohmann/json.hpp>
+#  include <thread>
 
+#  include "tests/tools/background_program.hpp"
 #  include "tests/tools/program.hpp"
 
 /// What the system refuses ends a run with 4 and the place, and the checkpoint before it restarts.
@@ -30,10 +34,18 @@ const std::string run = TAMP_PROGRAM " run " TAMP_SOURCE_DIR "/inputs/punch/quic
 const std::string outputs =
     "--set /output/fields_interval=2e-5 --set /output/history_interval=1e-5 --checkpoint-steps 5 --checkpoint-keep 10 ";
 
+nlohmann::json summary_of(const fs::path& folder)
+{
+  return nlohmann::json::parse(read_text(folder / "summary.json"));
+}
+
 std::string digest_of(const fs::path& folder)
 {
-  return nlohmann::json::parse(read_text(folder / "summary.json"))["state_digest"];
+  return summary_of(folder)["state_digest"];
 }
+
+/// A disk on which a checkpoint takes at least 0.8 s: the file's fsync, and its folder's.
+const std::string slow_disk = "LD_PRELOAD=" TAMP_FAILING_CALLS " TAMP_SLOW_FSYNC=400 ";
 
 std::string straight_digest()
 {
@@ -50,7 +62,7 @@ std::string straight_digest()
 TEST_CASE("a call that fails ends a run with 4 and the place, and its last checkpoint restarts")
 {
   const Fault fault = GENERATE(
-      Fault{"fwrite", 4, "history.csv", "history.csv: No space left"}, Fault{"fflush", 4, "history.csv", "history.csv"},
+      Fault{"fwrite", 2, "history.csv", "history.csv: No space left"}, Fault{"fflush", 2, "history.csv", "history.csv"},
       Fault{"fwrite", 2, "fields.xdmf", "fields.xdmf"}, Fault{"rename", 2, "fields.xdmf", "fields.xdmf: Permission"},
       Fault{"rename", 2, "checkpoints", "checkpoints/step_"}, Fault{"fsync", 3, "checkpoints", "checkpoints"},
       Fault{"fallocate", 2, "fields.h5", "fields.h5: No space left"}, Fault{"pwrite", 100, "fields.h5", "fields.h5"},
@@ -91,5 +103,60 @@ TEST_CASE("a thread that cannot be started ends a run with 4 before it begins")
   CHECK((outcome.exit_code == 4 || outcome.exit_code == 0));
   CHECK((outcome.exit_code == 0 || outcome.err.find("thread") != std::string::npos));
   if (at == 1) CHECK(outcome.exit_code == 4);
+}
+
+TEST_CASE("a run goes on while a checkpoint is written, and waits for it in the end", "[mpiexec]")
+{
+  const int n_ranks = GENERATE(1, 2);
+  const TemporaryFolder folder;
+  const fs::path out = folder.path() / "run";
+  allow_ranks_anywhere();
+  const std::string launcher = n_ranks == 1 ? "" : TAMP_MPIEXEC " -n 2 ";
+
+  const Outcome outcome =
+      outcome_of(slow_disk + launcher + run + "--steps 10 --checkpoint-steps 4 --out " + out.string());
+
+  REQUIRE(outcome.exit_code == 0);
+  const auto output = summary_of(out)["output"];
+  CHECK(output["in_background"] == true);
+  // The checkpoint of step 8 waits for that of step 4, and the end for both.
+  CHECK(output["waited_s"] > 1.2);
+  CHECK(output["checkpoints_s"] < 0.8);
+  CHECK(fs::exists(out / "checkpoints/step_00000004.h5"));
+  CHECK(fs::exists(out / "checkpoints/step_00000008.h5"));
+}
+
+TEST_CASE("a signal that comes while a checkpoint is written leaves that one and its own")
+{
+  const TemporaryFolder folder;
+  const fs::path out = folder.path() / "run", part = out / "checkpoints/step_00000005.h5.part";
+  BackgroundProgram program("/usr/bin/env", slow_disk + run + outputs + "--out " + out.string());
+  for (int n = 0; n < 6000 && !fs::exists(part); ++n) std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  REQUIRE(fs::exists(part));
+
+  program.send(SIGTERM);
+
+  CHECK(program.exit_code() == 128 + SIGTERM);
+  const auto summary = summary_of(out);
+  const long steps = summary["steps"];
+  CHECK(summary["status"] == "interrupted");
+  CHECK(fs::exists(out / "checkpoints/step_00000005.h5"));
+  REQUIRE(outcome_of(run + outputs + "--steps " + std::to_string(steps + 1) + " --restart " + out.string()).exit_code ==
+          0);
+  CHECK(summary_of(out)["restarted_at_step"] == steps);
+}
+
+TEST_CASE("what cannot be written in the background ends a run before its next output")
+{
+  const TemporaryFolder folder;
+  const fs::path out = folder.path() / "run";
+
+  const Outcome outcome = outcome_of(
+      "LD_PRELOAD=" TAMP_FAILING_CALLS " TAMP_FAIL_CALL=fsync TAMP_FAIL_AT=1 TAMP_FAIL_PATH=checkpoints " + run +
+      "--checkpoint-steps 5 --set /output/fields_interval=1 --set /output/history_interval=1 --out " + out.string());
+
+  CHECK(outcome.exit_code == 4);
+  CHECK_THAT(outcome.err, Catch::Contains("step_00000005.h5") && Catch::Contains("No space left on device"));
+  CHECK(fs::is_empty(out / "checkpoints"));
 }
 #endif

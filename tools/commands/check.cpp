@@ -63,6 +63,7 @@ void check(const CheckArguments& options)
   for (const std::string& line : plausibility_warnings(checked)) print_err("tamp: warning: {}\n", line);
   Forecast forecast = tools::forecast(scene);
   expect_room(checked, forecast);
+  add_copies(forecast);
   add_pace(scene, forecast);
   print_err("  {}\n", told(forecast));
 }

@@ -37,6 +37,8 @@ Forecast forecast(const tasks::Scene& scene, int n_ranks)
   Forecast all;
   all.n_particles = demand.n_particles;
   all.memory = n_ranks * (resident_bytes() + of_libraries) + demand.fields + demand.output_room;
+  // A process alone has the fields that it writes anyway.
+  all.copies = demand.checkpoint_file + (n_ranks > 1 ? demand.output_room : 0);
   all.disk = n_outputs * demand.output_file + n_checkpoints * demand.checkpoint_file + of_reports;
   return all;
 }
@@ -56,6 +58,13 @@ void expect_room(const CheckedScene& checked, const Forecast& forecast, int n_ra
                    a_little_more * fitting)});
 }
 
+void add_copies(Forecast& forecast, int n_ranks, int ranks_here)
+{
+  const double without = forecast.memory * ranks_here / n_ranks;
+  forecast.in_background = without + forecast.copies <= memory_room(ranks_here).bytes;
+  if (forecast.in_background) forecast.memory += forecast.copies;
+}
+
 void add_pace(const tasks::Scene& scene, Forecast& forecast)
 {
   constexpr double seconds = 0.7;
@@ -66,6 +75,7 @@ std::string told(const Forecast& forecast)
 {
   std::string text = fmt::format("forecast: {} particles, {} of memory, {} on the disk", forecast.n_particles,
                                  in_bytes(forecast.memory), in_bytes(forecast.disk));
+  if (!forecast.in_background) text += " (no room for copies: steps wait while output is written)";
   if (forecast.pace) {
     text += fmt::format(", about {:.2g} steps, {}", forecast.pace->n_steps, in_time(forecast.pace->core_seconds));
   }

@@ -15,6 +15,9 @@ struct Forecast {
   std::size_t n_particles = 0;
   /// At most, of all ranks [bytes].
   double memory = 0;
+  /// What the first rank takes besides to write output in the background, and whether it does; `memory` then has it.
+  double copies = 0;
+  bool in_background = false;
   /// At the end of a run to the scene's end, with two checkpoints [bytes].
   double disk = 0;
   /// Nothing where it was not asked for, or no coarser grid holds the bodies.
@@ -27,6 +30,10 @@ Forecast forecast(const tasks::Scene& scene, int n_ranks = 1);
 /// Throws InputError, with a cell size that would fit, if the memory of the `ranks_here`, those on this machine, is
 /// more than there is.
 void expect_room(const CheckedScene& checked, const Forecast& forecast, int n_ranks = 1, int ranks_here = 1);
+
+/// Decides that output is written in the background if there is memory for the copies that this takes. Of a forecast
+/// for which there is room.
+void add_copies(Forecast& forecast, int n_ranks = 1, int ranks_here = 1);
 
 /// Tries for less than a second how fast the scene, or a coarser one, goes.
 void add_pace(const tasks::Scene& scene, Forecast& forecast);

@@ -12,7 +12,6 @@
 #include "runtime/file_error.hpp"
 #include "runtime/profile/report.hpp"
 #include "runtime/ranks/on_all_ranks.hpp"
-#include "runtime/storage/fields/field_file.hpp"
 #include "runtime/storage/whole_file.hpp"
 #include "tasks/simulation.hpp"
 #include "tasks/simulation_error.hpp"
@@ -23,6 +22,7 @@
 #include "tools/run/progress.hpp"
 #include "tools/run/run_folder.hpp"
 #include "tools/run/run_history.hpp"
+#include "tools/run/run_output.hpp"
 #include "tools/run/run_summary.hpp"
 #include "tools/run/signals.hpp"
 #include "tools/scene/compiled_moduli.hpp"
@@ -45,6 +45,7 @@ double seconds_since(Clock::time_point start)
 
 /// What one rank may ask of all with a step, as bits.
 constexpr unsigned write_checkpoint = 1;
+constexpr unsigned end_as_output_has_failed = 1U << 1;
 
 /// Why a run stops early, and with the exit code of which signal.
 struct StopReason {
@@ -104,6 +105,7 @@ class Runner
         signals_(*executor_),
         simulation_(simulation_of(checked.scene, executor_, options)),
         history_(*simulation_),
+        output_(*simulation_, *executor_, output_options()),
         field_times_(checked.scene.output.fields_interval),
         history_times_(checked.scene.output.history_interval),
         checkpoint_clock_(options.checkpoints),
@@ -114,13 +116,24 @@ class Runner
     if (options.restart) {
       restart();
     } else {
-      fields_.emplace(options.folder, options.communicator);
+      output_.begin();
       history_.begin(options.folder);
     }
     on_first_rank([&] { runtime::write_whole_file(options_.folder / "scene.json", checked_.resolved.dump(2) + "\n"); });
   }
 
   void run()
+  {
+    try {
+      run_to_end();
+    } catch (const runtime::FileError&) {
+      output_.settle();
+      throw;
+    }
+  }
+
+ private:
+  void run_to_end()
   {
     const std::size_t n = n_particles();
     Progress progress(options_.quiet || !is_first(), end_, options_.max_steps, n);
@@ -143,7 +156,6 @@ class Runner
     complete();
   }
 
- private:
   /// One step, with what is to be written after it.
   void advance()
   {
@@ -151,6 +163,7 @@ class Runner
     ask_for_what_is_wanted();
     simulation_->advance(end_);
     step_seconds_.push_back(static_cast<float>(seconds_since(begin)));
+    if ((simulation_->asked() & end_as_output_has_failed) != 0) output_.finish();
     write_due();
     keep_state();
   }
@@ -180,10 +193,9 @@ class Runner
     written_ = due_;
     restarted_at_ = simulation_->n_steps();
     warn(history_.go_on(options_.folder, due_.history, due_.rows));
-    fields_.emplace(runtime::FieldFile::continued(options_.folder, due_.fields, due_.n_fields, options_.communicator));
-    warn(fields_->notice());
+    warn(output_.go_on(due_.fields, due_.n_fields));
     due_.rows = history_.extent();
-    due_.n_fields = fields_->n_steps();
+    due_.n_fields = output_.n_fields_at_start();
     history_.set_given_from_outside(due_.given_from_outside);
     history_times_.skip_to(simulation_->time());
     field_times_.skip_to(simulation_->time());
@@ -206,6 +218,11 @@ class Runner
       if (!folder->notice().empty()) print_err("tamp: {}\n", folder->notice());
     });
     return folder;
+  }
+
+  RunOutput::Options output_options() const
+  {
+    return {options_.folder, forecast_.in_background, options_.checkpoints.keep, [this] { folder_->expect_own(); }};
   }
 
   /// To be told now and in the summary; nothing if empty.
@@ -245,22 +262,18 @@ class Runner
 
   void write_history()
   {
+    const Clock::time_point begin = Clock::now();
     expect_own_folder();
     history_.write_row();
     written_.history = simulation_->n_steps();
+    history_seconds_ += seconds_since(begin);
   }
 
   void write_fields()
   {
     expect_own_folder();
-    const auto watch = executor_->watch("writing fields");
-    const tasks::FieldChoice& chosen = checked_.scene.output.fields;
-    const auto particles = simulation_->particle_columns(chosen);
     // What is on the grid is no state: after a restart there is nothing there before the first step.
-    std::optional<runtime::NodeBlock> nodes;
-    if (simulation_->n_steps() != restarted_at_) nodes = simulation_->node_columns(chosen);
-    if (nodes && nodes->columns.empty()) nodes.reset();
-    fields_->write_step(simulation_->n_steps(), simulation_->time(), particles, nodes);
+    output_.write_fields(simulation_->n_steps() != restarted_at_);
     written_.fields = simulation_->n_steps();
   }
 
@@ -278,6 +291,7 @@ class Runner
       if (signal == reason.signal && reason.request != wall_limit_reached.request) simulation_->ask(reason.request);
     }
     if (!is_first()) return;
+    if (output_.has_failed()) simulation_->ask(end_as_output_has_failed);
     if (checkpoint_clock_.wall_time_over()) simulation_->ask(write_checkpoint);
     if (seconds_since(start_) > options_.wall_limit) simulation_->ask(wall_limit_reached.request);
   }
@@ -293,11 +307,9 @@ class Runner
     const bool due = checkpoint_clock_.due(simulation_->n_steps(), simulation_->time());
     if (!due && simulation_->asked() == 0) return;
     expect_own_folder();
-    const auto watch = executor_->watch("writing a checkpoint");
     runtime::ByteWriter own;
     own.add(due_);
-    simulation_->write_checkpoint(options_.folder / "checkpoints", fingerprint(checked_), own.bytes(),
-                                  options_.checkpoints.keep);
+    output_.write_checkpoint(fingerprint(checked_), own.bytes());
     checkpoint_clock_.written();
   }
 
@@ -338,13 +350,16 @@ class Runner
 
   void finish(const std::string& status, const std::string& reason)
   {
+    output_.finish();
+    OutputTime output_time = output_.time();
+    output_time.history = history_seconds_;
     history_.measure();
     const runtime::Profile profile = simulation_->profile();
     const nlohmann::json json = to_json(profile, simulation_->ledger(), options_.communicator);
     const nlohmann::ordered_json told =
         run_summary(*simulation_, history_,
                     {status, reason, seconds_since(start_), median({step_seconds_.begin(), step_seconds_.end()}),
-                     restarted_at_, forecast_, checked_.inputs, warnings_});
+                     restarted_at_, output_.in_background(), output_time, forecast_, checked_.inputs, warnings_});
     on_first_rank([&] {
       runtime::write_whole_file(options_.folder / "profile.json", json.dump(1) + "\n");
       runtime::write_whole_file(options_.folder / "trace.json", runtime::trace_to_json(profile).dump() + "\n");
@@ -363,7 +378,7 @@ class Runner
   SignalWatch signals_;
   std::unique_ptr<tasks::Simulation> simulation_;
   RunHistory history_;
-  std::optional<runtime::FieldFile> fields_;
+  RunOutput output_;
   OutputTimes field_times_;
   OutputTimes history_times_;
   CheckpointClock checkpoint_clock_;
@@ -372,6 +387,7 @@ class Runner
   Outputs due_;
   Outputs written_;
   long restarted_at_ = -1;
+  double history_seconds_ = 0;
   std::vector<float> step_seconds_;
   std::vector<std::string> warnings_;
 };
@@ -385,6 +401,7 @@ void run(const CheckedScene& scene, const RunOptions& options)
   runtime::on_first_rank(options.communicator, [&] {
     expected = forecast(scene.scene, options.communicator.size());
     expect_room(scene, expected, options.communicator.size(), ranks_here);
+    add_copies(expected, options.communicator.size(), ranks_here);
     const double free = disk_room(options.folder);
     if (expected.disk > free) {
       print_err("tamp: the run writes about {} by its end, and the disk has {} free\n", in_bytes(expected.disk),
@@ -396,6 +413,7 @@ void run(const CheckedScene& scene, const RunOptions& options)
     for (const std::string& line : compiled_moduli(scene)) print_out("{}\n", line);
     flush_out();
   });
+  expected.in_background = options.communicator.from_first(int{expected.in_background}) != 0;
   Runner(scene, options, expected).run();
 }
 

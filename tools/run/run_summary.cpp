@@ -79,6 +79,16 @@ Json to_json(const Forecast& forecast)
   return json;
 }
 
+Json output(const RunOutcome& outcome)
+{
+  const OutputTime& time = outcome.output;
+  return {{"in_background", outcome.in_background},
+          {"history_s", time.history},
+          {"fields_s", time.fields},
+          {"checkpoints_s", time.checkpoints},
+          {"waited_s", time.waited}};
+}
+
 Json rebalances(const tasks::Simulation& simulation)
 {
   Json all = Json::array();
@@ -118,6 +128,7 @@ Json run_summary(tasks::Simulation& simulation, const RunHistory& history, const
           {"wall_s", outcome.wall},
           {"wall_per_step_s", outcome.wall_per_step},
           {"particle_updates_per_s", outcome.wall_per_step > 0 ? n_total / outcome.wall_per_step : 0},
+          {"output", output(outcome)},
           {"peak_rss_bytes", {{"sum", rss.sum}, {"max", rss.max}}},
           {"forecast_peak_bytes", simulation.forecast_bytes()},
           {"ledger_peak_bytes", ledger.sum},
@@ -164,6 +175,11 @@ std::string summary_text(const Json& summary)
                         r["step"].get<long>(), r["imbalance_before"].get<double>(),
                         r["imbalance_expected"].get<double>(), got > 0 ? fmt::format(", {:.2f} got", got) : "");
   }
+  const Json& output = summary["output"];
+  const auto seconds = [&](const char* name) { return output[name].get<double>(); };
+  text += fmt::format("  for output the steps stood still for {:.2g} s, {:.2g} s of it for the writer\n",
+                      seconds("history_s") + seconds("fields_s") + seconds("checkpoints_s") + seconds("waited_s"),
+                      seconds("waited_s"));
   text += fmt::format("  energy error {:.3g}, momentum error {:.3g}, {} particles lost, state digest {}\n",
                       summary["energy_error"].get<double>(), summary["momentum_error"].get<double>(),
                       summary["particles"]["lost"].get<std::size_t>(), summary["state_digest"].get<std::string>());

@@ -7,6 +7,7 @@
 #include "tasks/simulation.hpp"
 #include "tools/run/forecast.hpp"
 #include "tools/run/run_history.hpp"
+#include "tools/run/run_output.hpp"
 #include "tools/scene/document.hpp"
 
 namespace tamp::tools
@@ -22,6 +23,9 @@ struct RunOutcome {
   double wall_per_step = 0;
   /// Where a restarted run went on; -1 for one from the start.
   long restarted_at = -1;
+  /// Whether fields and checkpoints were written in the background, and what output took of the time.
+  bool in_background = false;
+  OutputTime output;
   Forecast forecast;
   std::vector<InputFile> inputs;
   std::vector<std::string> warnings;

@@ -8,6 +8,7 @@
 #include <stdexcept>
 
 #include "runtime/file_error.hpp"
+#include "runtime/ranks/gather_by_patch.hpp"
 #include "runtime/ranks/on_all_ranks.hpp"
 #include "runtime/storage/checkpoints/checkpoint_file.hpp"
 #include "runtime/storage/checkpoints/sealed_file.hpp"
@@ -86,9 +87,9 @@ FoundCheckpoint looked_at(const fs::path& file, const Communicator& communicator
   return found;
 }
 
-/// Throws unless the file has the tables that the warehouse has.
-void expect_tables(const fs::path& file, std::span<const CheckpointReader::Table> found,
-                   std::span<const StateTable> expected)
+/// Throws unless the file has the tables that are expected: those of a warehouse, or what was to be written.
+template <class Table>
+void expect_tables(const fs::path& file, const std::vector<CheckpointTable>& found, const std::vector<Table>& expected)
 {
   const auto told = [](const auto& tables, std::size_t i) {
     return i < tables.size() ? fmt::format("{} of {} bytes", tables[i].path, tables[i].value_bytes) : "nothing more";
@@ -104,7 +105,7 @@ void read_own(const CheckpointReader& reader, const fs::path& file, Warehouse& w
               std::span<const StateTable> tables)
 {
   for (std::size_t t = 0; t < tables.size(); ++t) {
-    const CheckpointReader::Table& stored = reader.tables()[t];
+    const CheckpointTable& stored = reader.tables()[t];
     for (std::size_t p = 0; p < tables[t].patches.size(); ++p) {
       const PatchState& state = tables[t].patches[p];
       if (state.field == nullptr) continue;
@@ -121,16 +122,14 @@ void read_own(const CheckpointReader& reader, const fs::path& file, Warehouse& w
 }
 
 /// Reads the file back: MPI's file layer does not report every write that the system refuses.
-void check_written(const fs::path& file, std::span<const std::byte> host, Warehouse& warehouse,
-                   std::span<const std::string> group_names, const Communicator& communicator)
+void check_written(const fs::path& file, const CheckpointContents& contents, const Communicator& communicator)
 {
   try {
     const FoundCheckpoint found = looked_at(file, communicator);
-    const std::vector<StateTable> tables = state_tables(warehouse, group_names);
     on_all_ranks(communicator, [&] {
-      expect_tables(file, CheckpointReader(file).tables(), tables);
+      expect_tables(file, CheckpointReader(file).tables(), contents.tables);
       // The first rank's bytes are in the file; those of others may differ in the padding between values.
-      if (communicator.is_first() && !std::equal(host.begin(), host.end(), found.host.begin(), found.host.end())) {
+      if (communicator.is_first() && contents.host != found.host) {
         throw FileError(file.string(), "has other bytes of the host");
       }
     });
@@ -139,27 +138,97 @@ void check_written(const fs::path& file, std::span<const std::byte> host, Wareho
   }
 }
 
-}  // namespace
-
-void write_checkpoint(const fs::path& folder, const CheckpointHeader& header, std::span<const std::byte> host,
-                      Warehouse& warehouse, const std::vector<std::string>& group_names, int keep,
-                      const Communicator& communicator)
+void write_whole(const fs::path& folder, const CheckpointContents& contents,
+                 const std::function<OwnRows(std::size_t table)>& rows_of, int keep, const Communicator& communicator)
 {
   if (keep < 1) throw std::invalid_argument("a checkpoint that is not to be kept");
-  const fs::path file = folder / name_of(header.step);
+  const fs::path file = folder / name_of(contents.header.step);
   fs::path part = file;
   part += ".part";
   on_first_rank(communicator, [&] { prepare(folder); });
   try {
-    write_checkpoint_file(part, header, host, warehouse, group_names, communicator);
-    check_written(part, host, warehouse, group_names, communicator);
+    write_checkpoint_file(part, contents, rows_of, communicator);
+    check_written(part, contents, communicator);
     on_first_rank(communicator, [&] { publish_file(part, file); });
   } catch (...) {
     std::error_code is_gone;
     if (communicator.is_first()) fs::remove(part, is_gone);
     throw;
   }
-  on_first_rank(communicator, [&] { remove_outdated(folder, header.step, keep); });
+  on_first_rank(communicator, [&] { remove_outdated(folder, contents.header.step, keep); });
+}
+
+CheckpointContents contents_of(const CheckpointHeader& header, std::span<const std::byte> host,
+                               const PatchLayout& layout, const std::vector<std::string>& group_names,
+                               std::vector<CheckpointTable> tables)
+{
+  return {header,      {host.begin(), host.end()}, layout.n_patches(), layout.grid().n_cells,
+          group_names, std::move(tables)};
+}
+
+RowShare share_of(const StateTable& table, const CheckpointTable& stored, const Communicator& communicator)
+{
+  std::vector<std::uint64_t> n_values;
+  for (const PatchEntry& entry : stored.entries) n_values.push_back(entry.n_values);
+  return share_by_patch(n_values, [&](std::size_t patch) { return table.is_written_by(communicator, patch); });
+}
+
+/// The values of all ranks on the first one.
+std::vector<std::byte> gathered(std::vector<std::byte> own, const StateTable& table, const CheckpointTable& stored,
+                                const PatchLayout& layout, const Communicator& communicator)
+{
+  if (table.is_global) return own;  // the first rank's
+  std::vector<std::uint64_t> n_bytes;
+  for (const PatchEntry& entry : stored.entries) n_bytes.push_back(entry.n_values * stored.value_bytes);
+  return gather_by_patch(std::move(own), n_bytes, layout, communicator);
+}
+
+}  // namespace
+
+void write_checkpoint(const fs::path& folder, const CheckpointHeader& header, std::span<const std::byte> host,
+                      Warehouse& warehouse, const std::vector<std::string>& group_names, int keep,
+                      const Communicator& communicator)
+{
+  const std::vector<StateTable> tables = state_tables(warehouse, group_names);
+  std::vector<std::vector<PatchEntry>> own;
+  for (const StateTable& table : tables) own.push_back(own_entries(table, communicator));
+  const CheckpointContents contents =
+      contents_of(header, host, warehouse.layout(), group_names, checkpoint_tables(tables, own, communicator));
+  const auto rows_of = [&](std::size_t t) -> OwnRows {
+    return {share_of(tables[t], contents.tables[t], communicator), tables[t].bytes_written_by(communicator)};
+  };
+  write_whole(folder, contents, rows_of, keep, communicator);
+}
+
+CheckpointCopy copy_checkpoint(const CheckpointHeader& header, std::span<const std::byte> host, Warehouse& warehouse,
+                               const std::vector<std::string>& group_names, const ForAll& for_all,
+                               const Communicator& communicator)
+{
+  const std::vector<StateTable> tables = state_tables(warehouse, group_names);
+  std::vector<std::vector<PatchEntry>> own(tables.size());
+  std::vector<std::vector<std::byte>> bytes(tables.size());
+  for_all(static_cast<int>(tables.size()), [&](int i) {
+    const auto t = static_cast<std::size_t>(i);
+    own[t] = own_entries(tables[t], communicator);
+    bytes[t] = tables[t].bytes_written_by(communicator);
+  });
+  CheckpointCopy copy{
+      contents_of(header, host, warehouse.layout(), group_names, checkpoint_tables(tables, own, communicator)),
+      std::move(bytes)};
+  for (std::size_t t = 0; t < tables.size(); ++t) {
+    copy.bytes[t] =
+        gathered(std::move(copy.bytes[t]), tables[t], copy.contents.tables[t], warehouse.layout(), communicator);
+  }
+  return communicator.is_first() ? std::move(copy) : CheckpointCopy();
+}
+
+void write_checkpoint(const fs::path& folder, CheckpointCopy copy, int keep)
+{
+  const auto rows_of = [&](std::size_t t) -> OwnRows {
+    const std::size_t n = copy.bytes[t].size() / copy.contents.tables[t].value_bytes;
+    return {{n, {{0, n}}}, std::move(copy.bytes[t])};
+  };
+  write_whole(folder, copy.contents, rows_of, keep, {});
 }
 
 std::optional<FoundCheckpoint> newest_checkpoint(const fs::path& folder, std::vector<std::string>& refused,

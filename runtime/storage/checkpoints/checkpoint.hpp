@@ -3,12 +3,14 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "runtime/ranks/communicator.hpp"
+#include "runtime/storage/checkpoints/state_tables.hpp"
 #include "runtime/warehouse/warehouse.hpp"
 
 /// A checkpoint is one file of all that a run needs to go on bit for bit, on any number of ranks: the state of every
@@ -25,12 +27,41 @@ struct CheckpointHeader {
   std::string fingerprint;
 };
 
+/// All that a checkpoint says but for the values of its tables.
+struct CheckpointContents {
+  CheckpointHeader header;
+  std::vector<std::byte> host;
+  Index n_patches{1, 1, 1};
+  Index n_cells{1, 1, 1};
+  std::vector<std::string> group_names;
+  std::vector<CheckpointTable> tables;
+};
+
 /// Writes `step_00001234.h5` into the folder, whole or not at all, and on the disk when this returns; then removes all
 /// but the newest `keep` (1 at least). Those of later steps go too: a run that resumed before them writes them again.
 /// `host` is the same on all ranks. Throws FileError, for a full disk too; what was in the folder is then still there.
 void write_checkpoint(const std::filesystem::path& folder, const CheckpointHeader& header,
                       std::span<const std::byte> host, Warehouse& warehouse,
                       const std::vector<std::string>& group_names, int keep, const Communicator& communicator = {});
+
+/// The state of all ranks at one moment, which stays while the simulation goes on; on the first rank, nothing on
+/// others.
+struct CheckpointCopy {
+  CheckpointContents contents;
+  /// The values of each table, patch after patch.
+  std::vector<std::vector<std::byte>> bytes;
+};
+
+/// Calls its second argument once for each number from 0 to below the first, in whatever order and threads.
+using ForAll = std::function<void(int n, const std::function<void(int)>& work)>;
+
+/// `for_all` shares out the copying, by table.
+CheckpointCopy copy_checkpoint(const CheckpointHeader& header, std::span<const std::byte> host, Warehouse& warehouse,
+                               const std::vector<std::string>& group_names, const ForAll& for_all,
+                               const Communicator& communicator = {});
+
+/// Writes the checkpoint that was copied, as above, but by this process alone. The copy is used up.
+void write_checkpoint(const std::filesystem::path& folder, CheckpointCopy copy, int keep);
 
 struct FoundCheckpoint {
   std::filesystem::path file;

@@ -31,83 +31,69 @@ struct RowLayout {
   hsize_t n_columns;
 };
 
-void write_header(const hdf5::OpenFile& file, const CheckpointHeader& header, const PatchLayout& layout,
-                  std::span<const std::string> group_names)
+void write_header(const hdf5::OpenFile& file, const CheckpointContents& contents)
 {
   const auto as_numbers = [](const Index& index) { return std::array<std::int64_t, 3>{index[0], index[1], index[2]}; };
   file.write_attribute("format", std::span(&checkpoint_format, 1));
-  file.write_attribute("step", std::span(&header.step, 1));
-  file.write_attribute("time", std::span(&header.time, 1));
-  file.write_attribute("fingerprint", header.fingerprint);
-  file.write_attribute("patches", as_numbers(layout.n_patches()));
-  file.write_attribute("cells", as_numbers(layout.grid().n_cells));
-  file.write_attribute("groups", fmt::format("{}", fmt::join(group_names, "\n")));
+  file.write_attribute("step", std::span(&contents.header.step, 1));
+  file.write_attribute("time", std::span(&contents.header.time, 1));
+  file.write_attribute("fingerprint", contents.header.fingerprint);
+  file.write_attribute("patches", as_numbers(contents.n_patches));
+  file.write_attribute("cells", as_numbers(contents.n_cells));
+  file.write_attribute("groups", fmt::format("{}", fmt::join(contents.group_names, "\n")));
 }
 
-void write_contents(const hdf5::OpenFile& file, std::span<const StateTable> tables)
+void write_contents(const hdf5::OpenFile& file, std::span<const CheckpointTable> tables)
 {
   std::string text;
-  for (const StateTable& table : tables) text += fmt::format("{} {}\n", table.value_bytes, table.path);
+  for (const CheckpointTable& table : tables) text += fmt::format("{} {}\n", table.value_bytes, table.path);
   file.write_from_first("contents", text);
 }
 
-void write_entries(const hdf5::OpenFile& file, const std::string& table, std::span<const PatchEntry> entries)
+void write_entries(const hdf5::OpenFile& file, const CheckpointTable& table)
 {
   std::vector<std::uint64_t> numbers;
-  for (const PatchEntry& entry : entries) numbers.insert(numbers.end(), {entry.n_values, entry.sum});
-  file.write_from_first("by_patch/" + table, {entries.size(), 2}, hdf5::element_type<std::uint64_t>(), numbers.data());
+  for (const PatchEntry& entry : table.entries) numbers.insert(numbers.end(), {entry.n_values, entry.sum});
+  file.write_from_first("by_patch/" + table.path, {table.entries.size(), 2}, hdf5::element_type<std::uint64_t>(),
+                        numbers.data());
 }
 
-void write_values(const hdf5::OpenFile& file, const StateTable& table, std::span<const PatchEntry> entries)
+void write_values(const hdf5::OpenFile& file, const CheckpointTable& table, const OwnRows& own)
 {
-  const auto is_own = [&](std::size_t p) { return table.is_written_by(file.communicator(), p); };
-  std::vector<std::uint64_t> n_values;
-  std::vector<std::byte> own;
-  for (std::size_t p = 0; p < entries.size(); ++p) {
-    n_values.push_back(entries[p].n_values);
-    if (!is_own(p)) continue;
-    const std::vector<std::byte> values = table.patches[p].bytes();
-    own.insert(own.end(), values.begin(), values.end());
-  }
   const RowLayout rows(table.value_bytes);
-  const RowShare share = share_by_patch(n_values, is_own);
-  hdf5::Share stored{{share.n_total, rows.n_columns}, {}};
-  for (const RowRun& run : share.runs) stored.slabs.push_back({{run.first, 0}, {run.n, rows.n_columns}});
-  file.write(table.path, stored, rows.type, own.data());
+  hdf5::Share stored{{own.share.n_total, rows.n_columns}, {}};
+  for (const RowRun& run : own.share.runs) stored.slabs.push_back({{run.first, 0}, {run.n, rows.n_columns}});
+  file.write(table.path, stored, rows.type, own.bytes.data());
 }
 
 /// No less than the file takes.
-std::int64_t size_of(std::span<const StateTable> tables, std::span<const std::vector<PatchEntry>> entries,
-                     std::size_t n_host)
+std::int64_t size_of(const CheckpointContents& contents)
 {
   constexpr std::size_t of_file = 65536, of_table = 16384;
-  std::size_t n_bytes = of_file + n_host;
-  for (std::size_t t = 0; t < tables.size(); ++t) {
-    n_bytes += of_table + tables[t].path.size() + sizeof(PatchEntry) * entries[t].size();
-    for (const PatchEntry& entry : entries[t]) n_bytes += tables[t].value_bytes * entry.n_values;
+  std::size_t n_bytes = of_file + contents.host.size();
+  for (const CheckpointTable& table : contents.tables) {
+    n_bytes += of_table + table.path.size() + sizeof(PatchEntry) * table.entries.size();
+    for (const PatchEntry& entry : table.entries) n_bytes += table.value_bytes * entry.n_values;
   }
   return static_cast<std::int64_t>(n_bytes);
 }
 
 }  // namespace
 
-void write_checkpoint_file(const std::filesystem::path& file, const CheckpointHeader& header,
-                           std::span<const std::byte> host, Warehouse& warehouse,
-                           std::span<const std::string> group_names, const Communicator& communicator)
+void write_checkpoint_file(const std::filesystem::path& file, const CheckpointContents& contents,
+                           const std::function<OwnRows(std::size_t table)>& rows_of, const Communicator& communicator)
 {
-  const std::vector<StateTable> tables = state_tables(warehouse, group_names);
-  const std::vector<std::vector<PatchEntry>> entries = patch_entries(tables, communicator);
   on_first_rank(communicator, [&] {
     hdf5::create_file(file, seal_bytes);
-    reserve_room(file, size_of(tables, entries, host.size()));
+    reserve_room(file, size_of(contents));
   });
   const hdf5::OpenFile opened(file, hdf5::OpenFile::Access::write, "cannot be written", communicator);
-  write_header(opened, header, warehouse.layout(), group_names);
-  write_contents(opened, tables);
-  opened.write_from_first("host", {host.size()}, hdf5::element_type<std::byte>(), host.data());
-  for (std::size_t t = 0; t < tables.size(); ++t) {
-    write_entries(opened, tables[t].path, entries[t]);
-    write_values(opened, tables[t], entries[t]);
+  write_header(opened, contents);
+  write_contents(opened, contents.tables);
+  opened.write_from_first("host", {contents.host.size()}, hdf5::element_type<std::byte>(), contents.host.data());
+  for (std::size_t t = 0; t < contents.tables.size(); ++t) {
+    write_entries(opened, contents.tables[t]);
+    write_values(opened, contents.tables[t], rows_of(t));
   }
   opened.agree();
   opened.flush();
@@ -158,7 +144,7 @@ void CheckpointReader::expect(const PatchLayout& layout, std::span<const std::st
   compare("groups", file_.text_attribute("groups"), fmt::format("{}", fmt::join(group_names, "\n")));
 }
 
-std::vector<std::byte> CheckpointReader::read(const Table& table, std::size_t patch) const
+std::vector<std::byte> CheckpointReader::read(const CheckpointTable& table, std::size_t patch) const
 {
   const PatchEntry& entry = table.entries[patch];
   const RowLayout rows(table.value_bytes);
@@ -175,18 +161,18 @@ std::vector<std::byte> CheckpointReader::read(const Table& table, std::size_t pa
 void CheckpointReader::check_share(std::size_t share, std::size_t n_shares) const
 {
   std::size_t part = 0;
-  for (const Table& table : tables_) {
+  for (const CheckpointTable& table : tables_) {
     for (std::size_t p = 0; p < table.entries.size(); ++p) {
       if (part++ % n_shares == share) read(table, p);
     }
   }
 }
 
-std::vector<CheckpointReader::Table> CheckpointReader::read_contents() const
+std::vector<CheckpointTable> CheckpointReader::read_contents() const
 {
-  std::vector<Table> tables;
+  std::vector<CheckpointTable> tables;
   std::istringstream lines(file_.read_text("contents"));
-  Table table;
+  CheckpointTable table;
   while (lines >> table.value_bytes && lines.ignore() && std::getline(lines, table.path)) {
     table.entries = read_entries("by_patch/" + table.path);
     tables.push_back(table);

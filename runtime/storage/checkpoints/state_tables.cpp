@@ -49,8 +49,13 @@ std::vector<std::byte> PatchState::bytes() const
 {
   std::vector<std::byte> all;
   all.reserve(n_values() * field->label->value_bytes());
-  for_each_piece(*this, [&](const std::byte* piece, std::size_t n) { all.insert(all.end(), piece, piece + n); });
+  append_bytes(all);
   return all;
+}
+
+void PatchState::append_bytes(std::vector<std::byte>& all) const
+{
+  for_each_piece(*this, [&](const std::byte* piece, std::size_t n) { all.insert(all.end(), piece, piece + n); });
 }
 
 void PatchState::set_bytes(std::span<const std::byte> bytes) const
@@ -90,24 +95,46 @@ std::vector<StateTable> state_tables(Warehouse& warehouse, std::span<const std::
   return tables;
 }
 
-std::vector<std::vector<PatchEntry>> patch_entries(std::span<const StateTable> tables, const Communicator& communicator)
+std::vector<std::byte> StateTable::bytes_written_by(const Communicator& rank) const
 {
-  std::vector<std::uint64_t> numbers;
-  for (const StateTable& table : tables) {
-    for (std::size_t p = 0; p < table.patches.size(); ++p) {
-      const bool is_own = table.is_written_by(communicator, p);
-      numbers.push_back(is_own ? table.patches[p].n_values() : 0);
-      numbers.push_back(is_own ? checksum(table.patches[p].bytes()) : 0);
-    }
+  std::size_t n = 0;
+  for (std::size_t p = 0; p < patches.size(); ++p) {
+    if (is_written_by(rank, p)) n += patches[p].n_values() * value_bytes;
   }
-  numbers = communicator.sum(std::move(numbers));
-  std::vector<std::vector<PatchEntry>> entries;
-  std::size_t at = 0;
-  for (const StateTable& table : tables) {
-    auto& of_table = entries.emplace_back();
-    for (std::size_t p = 0; p < table.patches.size(); ++p, at += 2) of_table.push_back({numbers[at], numbers[at + 1]});
+  std::vector<std::byte> all;
+  all.reserve(n);
+  for (std::size_t p = 0; p < patches.size(); ++p) {
+    if (is_written_by(rank, p)) patches[p].append_bytes(all);
+  }
+  return all;
+}
+
+std::vector<PatchEntry> own_entries(const StateTable& table, const Communicator& communicator)
+{
+  std::vector<PatchEntry> entries(table.patches.size());
+  for (std::size_t p = 0; p < entries.size(); ++p) {
+    const PatchState& state = table.patches[p];
+    if (table.is_written_by(communicator, p)) entries[p] = {state.n_values(), checksum(state.bytes())};
   }
   return entries;
+}
+
+std::vector<CheckpointTable> checkpoint_tables(std::span<const StateTable> tables,
+                                               std::span<const std::vector<PatchEntry>> own,
+                                               const Communicator& communicator)
+{
+  std::vector<std::uint64_t> numbers;
+  for (const std::vector<PatchEntry>& of_table : own) {
+    for (const PatchEntry& entry : of_table) numbers.insert(numbers.end(), {entry.n_values, entry.sum});
+  }
+  numbers = communicator.sum(std::move(numbers));
+  std::vector<CheckpointTable> all;
+  std::size_t at = 0;
+  for (const StateTable& table : tables) {
+    auto& entries = all.emplace_back(CheckpointTable{table.path, table.value_bytes, {}}).entries;
+    for (std::size_t p = 0; p < table.patches.size(); ++p, at += 2) entries.push_back({numbers[at], numbers[at + 1]});
+  }
+  return all;
 }
 
 }  // namespace tamp::runtime

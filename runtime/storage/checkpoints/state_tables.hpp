@@ -21,6 +21,7 @@ struct PatchState {
   std::size_t n_values() const;
   /// The bytes of its values, x fastest, and setting them to others of the same number.
   std::vector<std::byte> bytes() const;
+  void append_bytes(std::vector<std::byte>& all) const;
   void set_bytes(std::span<const std::byte> bytes) const;
 };
 
@@ -39,6 +40,8 @@ struct StateTable {
   {
     return patches[patch].field != nullptr && (!is_global || rank.is_first());
   }
+  /// The bytes of all values that this rank writes, patch after patch.
+  std::vector<std::byte> bytes_written_by(const Communicator& rank) const;
 };
 
 /// All state that a step leaves to the next, the same tables on all ranks. Reductions are none.
@@ -50,8 +53,19 @@ struct PatchEntry {
   std::uint64_t sum = 0;
 };
 
-/// The entries of each table, by patch, from the memory of all ranks. Collective.
-std::vector<std::vector<PatchEntry>> patch_entries(std::span<const StateTable> tables,
-                                                   const Communicator& communicator);
+/// A table of a file, without its values: where it stands, and what it says of each patch.
+struct CheckpointTable {
+  std::string path;
+  std::size_t value_bytes = 0;
+  std::vector<PatchEntry> entries;
+};
+
+/// What a file says of each patch whose values this rank writes, from its memory; nothing of others.
+std::vector<PatchEntry> own_entries(const StateTable& table, const Communicator& communicator);
+
+/// The tables of all ranks, from what each says of its own patches, table by table. Collective.
+std::vector<CheckpointTable> checkpoint_tables(std::span<const StateTable> tables,
+                                               std::span<const std::vector<PatchEntry>> own,
+                                               const Communicator& communicator);
 
 }  // namespace tamp::runtime

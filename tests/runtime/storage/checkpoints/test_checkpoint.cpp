@@ -286,3 +286,27 @@ TEST_CASE("a checkpoint for which there is no room is an error on all ranks", "[
 
   CHECK(names_in(folder.path) == std::vector<std::string>{"step_00000007.h5"});
 }
+
+TEST_CASE("a checkpoint that is written from a copy is of the moment at which the copy was made", "[ranks]")
+{
+  const Communicator world = Communicator::world();
+  const TemporaryFolder folder(world);
+  const auto one_by_one = [](int n, const auto& work) {
+    for (int i = 0; i < n; ++i) work(i);
+  };
+  if (world.is_first()) write(folder.path / "alone", 7, 1);
+  StateScene scene(world);
+  scene.fill(1);
+
+  CheckpointCopy copy =
+      copy_checkpoint({7, 0.1 * 7, "scene"}, as_bytes("host"), scene.warehouse, groups, one_by_one, world);
+  scene.fill(2);
+  if (world.is_first()) write_checkpoint(folder.path / "copied", std::move(copy), 2);
+  world.barrier();
+
+  CHECK(all_datasets(folder.path / "copied" / "step_00000007.h5") ==
+        all_datasets(folder.path / "alone" / "step_00000007.h5"));
+  std::vector<std::string> refused;
+  const FoundCheckpoint found = newest_checkpoint(folder.path / "copied", refused, world).value();
+  CHECK(resumed(found, world, 1) == filled(1, world, 1));
+}

@@ -1,0 +1,135 @@
+#include "tools/run/run_output.hpp"
+
+#include <chrono>
+#include <utility>
+
+#include "runtime/ranks/on_all_ranks.hpp"
+#include "tools/errors.hpp"
+
+namespace tamp::tools
+{
+
+namespace
+{
+
+const std::string fields_kind = "fields";
+const std::string checkpoint_kind = "checkpoint";
+
+}  // namespace
+
+RunOutput::RunOutput(tasks::Simulation& simulation, runtime::Executor& executor, Options options)
+    : simulation_(simulation), executor_(executor), options_(std::move(options))
+{
+  if (!options_.in_background) return;
+  on_first_rank([&] {
+    writer_ = with_resources_for("starting threads", [] { return std::make_unique<runtime::BackgroundWriter>(); });
+  });
+}
+
+template <class Work>
+void RunOutput::on_first_rank(const Work& work) const
+{
+  runtime::on_first_rank(simulation_.communicator(), work);
+}
+
+void RunOutput::begin()
+{
+  if (options_.in_background) {
+    on_first_rank([&] { fields_.emplace(options_.folder); });
+  } else {
+    fields_.emplace(options_.folder, simulation_.communicator());
+  }
+}
+
+std::string RunOutput::go_on(long last_step, std::size_t n_expected)
+{
+  if (options_.in_background) {
+    on_first_rank([&] { fields_ = runtime::FieldFile::continued(options_.folder, last_step, n_expected); });
+  } else {
+    fields_ = runtime::FieldFile::continued(options_.folder, last_step, n_expected, simulation_.communicator());
+  }
+  if (!fields_) return "";
+  n_fields_at_start_ = fields_->n_steps();
+  return fields_->notice();
+}
+
+void RunOutput::write_fields(bool with_nodes)
+{
+  wait_for(fields_kind);
+  timed(time_.fields, [&] {
+    const long step = simulation_.n_steps();
+    const double time = simulation_.time();
+    runtime::FieldCopy own = simulation_.fields(simulation_.scene().output.fields, with_nodes);
+    if (own.nodes && own.nodes->columns.empty()) own.nodes.reset();
+    const auto watch = executor_.watch("writing fields");
+    if (!options_.in_background) return fields_->write_step(step, time, own.particles, own.nodes);
+    const auto all = std::make_shared<runtime::FieldCopy>(
+        gathered(std::move(own), simulation_.graph().layout(), simulation_.communicator()));
+    leave(fields_kind, [this, step, time, all] { fields_->write_step(step, time, all->particles, all->nodes); });
+  });
+}
+
+void RunOutput::write_checkpoint(const std::string& fingerprint, std::span<const std::byte> host)
+{
+  wait_for(checkpoint_kind);
+  timed(time_.checkpoints, [&] {
+    const std::filesystem::path folder = options_.folder / "checkpoints";
+    if (!options_.in_background) {
+      const auto watch = executor_.watch("writing a checkpoint");
+      return simulation_.write_checkpoint(folder, fingerprint, host, options_.keep);
+    }
+    const auto copy = std::make_shared<runtime::CheckpointCopy>(simulation_.copy_checkpoint(fingerprint, host));
+    leave(checkpoint_kind,
+          [this, folder, copy] { runtime::write_checkpoint(folder, std::move(*copy), options_.keep); });
+  });
+}
+
+void RunOutput::finish()
+{
+  if (!options_.in_background) return;
+  const auto watch = executor_.watch("writing what is left to write");
+  on_first_rank([&] { writer_->wait_for_all(); });
+}
+
+void RunOutput::settle()
+{
+  try {
+    finish();
+  } catch (const std::exception&) {
+    return;  // what failed first is what the run tells
+  }
+}
+
+OutputTime RunOutput::time() const
+{
+  OutputTime all = time_;
+  if (writer_ != nullptr) all.waited = writer_->waited();
+  return all;
+}
+
+template <class Work>
+void RunOutput::timed(double& seconds, const Work& work)
+{
+  const auto start = std::chrono::steady_clock::now();
+  work();
+  seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+void RunOutput::wait_for(const std::string& kind)
+{
+  if (!options_.in_background) return;
+  const auto watch = executor_.watch("waiting for the output before to be written");
+  on_first_rank([&] { writer_->wait_for(kind); });
+}
+
+void RunOutput::leave(const std::string& kind, std::function<void()> job)
+{
+  on_first_rank([&] {
+    writer_->add(kind, [this, job = std::move(job)] {
+      options_.expect_own();
+      job();
+    });
+  });
+}
+
+}  // namespace tamp::tools
