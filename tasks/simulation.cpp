@@ -174,6 +174,18 @@ class SimulationOf : public Simulation
     return bytes;
   }
 
+  ParticleBytes particle_bytes(int material) const override
+  {
+    ParticleBytes bytes;
+    for (const runtime::Field* field : engine_->warehouse().particle_fields(0, material)) {
+      const std::size_t once = field->label->value_bytes(), kept = once * (field->state && !field->carried ? 2 : 1);
+      if (field->state) bytes.state += once;
+      if (field->state) bytes.kept_state += kept;
+      bytes.all += kept;
+    }
+    return bytes;
+  }
+
  private:
   std::unique_ptr<runtime::Engine> make_engine(const runtime::PatchLayout& layout)
   {

@@ -31,6 +31,16 @@ struct Rebalance {
   double imbalance_got = 0;
 };
 
+/// Bytes that a particle takes.
+struct ParticleBytes {
+  /// What a step leaves to the next.
+  std::size_t state = 0;
+  /// The same as it is kept: twice where a step makes it anew.
+  std::size_t kept_state = 0;
+  /// All arrays, with those that live within a step.
+  std::size_t all = 0;
+};
+
 /// What contact does to a material: the force [N], and of a rigid body the torque about its centre of mass [N m].
 struct ContactForce {
   Eigen::Vector3d force = Eigen::Vector3d::Zero();
@@ -116,6 +126,8 @@ class Simulation
   virtual std::string digest() = 0;
   /// Bytes of the particle arrays that a step must at least read and write, per particle of a material.
   virtual std::size_t least_bytes_per_particle(int material) const = 0;
+  /// What a particle of a material takes in memory.
+  virtual ParticleBytes particle_bytes(int material) const = 0;
 
  protected:
   Simulation(Scene scene, std::shared_ptr<runtime::Executor> executor, const runtime::Communicator& communicator)

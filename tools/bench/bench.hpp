@@ -17,9 +17,18 @@ struct Result {
   std::string text;
 };
 
-/// The punch's first 200 steps: time per particle and step on one thread and on two, against the time that the memory
-/// needs at least, and what recording costs.
-Result punch(const std::filesystem::path& scene);
+struct WindowOptions {
+  std::filesystem::path scene;
+  /// Of a window; 0: a twentieth of the run, or what takes two seconds if that is less.
+  long n_steps = 0;
+  int n_rounds = 5;
+};
+
+/// What a particle-step of a scene takes, of one thread, over the whole run and in windows at its start, its middle and
+/// its end, phase by phase; beside it what memory and arithmetic need at least at the speed that this machine showed in
+/// the same run. Windows start from checkpoints of the whole run, and are run on two threads too. Besides, what
+/// recording costs, and how many bytes a particle takes. Throws SimulationError, FileError and InputError.
+Result windows(const std::string& name, const WindowOptions& options);
 
 /// Time for K of one state (rate form) and for p and K (state form), in a batch of 4096 spread over the data, in lanes
 /// and one by one: Table, SVR, MLP, and SVR and MLP compiled, each against its definition evaluated plainly, and against

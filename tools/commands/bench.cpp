@@ -23,7 +23,15 @@ struct BenchArguments {
   std::vector<std::string> names;
   std::string json;
   bench::TaskOptions tasks;
+  bench::WindowOptions windows;
 };
+
+/// Of a scene that comes with TAMP, unless another was given.
+bench::Result windows_of(const std::string& name, const char* shipped, bench::WindowOptions options)
+{
+  if (options.scene.empty()) options.scene = shipped_input(shipped);
+  return bench::windows(name, options);
+}
 
 using Benchmark = std::function<bench::Result(const BenchArguments&)>;
 
@@ -31,7 +39,9 @@ const std::map<std::string, Benchmark>& benchmarks()
 {
   static const std::map<std::string, Benchmark> all{
       {"moduli", [](const BenchArguments&) { return bench::moduli(shipped_input("materials/concrete-sand")); }},
-      {"punch", [](const BenchArguments&) { return bench::punch(shipped_input("punch/table.json")); }},
+      {"projectile",
+       [](const BenchArguments& options) { return windows_of("projectile", "uxo/quick.json", options.windows); }},
+      {"punch", [](const BenchArguments& options) { return windows_of("punch", "punch/quick.json", options.windows); }},
       {"tasks", [](const BenchArguments& options) { return bench::tasks(options.tasks); }}};
   return all;
 }
@@ -80,8 +90,20 @@ CLI::App* add_bench_command(CLI::App& app)
   command->add_option("NAME", options->names, "which benchmarks; all without a name")->check(CLI::IsMember(known));
   command->add_option("--json", options->json, "write the results to this file too");
   command
-      ->add_option("--rounds", options->tasks.n_rounds,
-                   "of tasks: how often each is measured, as far as a minute allows")
+      ->add_option_function<int>(
+          "--rounds", [options](int n) { options->tasks.n_rounds = options->windows.n_rounds = n; },
+          "of tasks (15, as far as a minute allows) and of windows of punch and projectile (5): how often each is "
+          "measured")
+      ->check(CLI::PositiveNumber);
+  command
+      ->add_option("--scene", options->windows.scene,
+                   "of punch and projectile: run this scene instead of inputs/punch/quick.json, which takes half a "
+                   "minute, or inputs/uxo/quick.json, which takes four")
+      ->check(CLI::ExistingFile);
+  command
+      ->add_option("--steps", options->windows.n_steps,
+                   "of punch and projectile: steps of a window, instead of a twentieth of the run, or two seconds if "
+                   "that is less")
       ->check(CLI::PositiveNumber);
   command->add_option("--threads", options->tasks.n_threads, "of tasks: numbers of threads, as in 1,2")
       ->delimiter(',')
