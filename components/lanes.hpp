@@ -112,6 +112,12 @@ inline Lanes::mask_type is_finite(const Lanes& x)
   return std::experimental::isfinite(x);
 }
 
+using std::floor;
+inline Lanes floor(const Lanes& x)
+{
+  return std::experimental::floor(x);
+}
+
 using std::abs;
 inline Lanes abs(const Lanes& x)
 {

@@ -8,8 +8,8 @@
 namespace tamp
 {
 
-template <int D>
-using Vector = Eigen::Matrix<double, D, 1>;
+template <int D, class Number = double>
+using Vector = Eigen::Matrix<Number, D, 1>;
 
 template <int D, class Number = double>
 using Matrix = Eigen::Matrix<Number, D, D>;
@@ -62,8 +62,8 @@ inline Matrix<3> cross_matrix(const Vector<3>& a)
 }
 
 /// The in-plane (D x D) part of a symmetric tensor as a matrix; plane strain leaves zz out.
-template <int D, class Number = double>
-Matrix<D, Number> plane_part(const std::type_identity_t<SymmetricTensor<D, Number>>& a)
+template <int D, class Number>
+Matrix<D, Number> plane_part(const Eigen::Matrix<Number, n_symmetric<D>, 1>& a)
 {
   if constexpr (D == 2) {
     return (Matrix<2, Number>() << a[0], a[3], a[3], a[1]).finished();
@@ -73,22 +73,23 @@ Matrix<D, Number> plane_part(const std::type_identity_t<SymmetricTensor<D, Numbe
 }
 
 /// The symmetric tensor with the symmetric part of `m` in the plane and `zz` out of it (ignored in space).
-template <int D, class Number = double>
-SymmetricTensor<D, Number> symmetric_part(const std::type_identity_t<Matrix<D, Number>>& m,
-                                          const std::type_identity_t<Number>& zz = 0.0)
+template <int D, class Expression, class Number = typename Expression::Scalar>
+SymmetricTensor<D, Number> symmetric_part(const Expression& of, const std::type_identity_t<Number>& zz = 0.0)
 {
+  const Matrix<D, Number> m = of;
+  const Number half = 0.5;
   SymmetricTensor<D, Number> a;
   if constexpr (D == 2) {
-    a << m(0, 0), m(1, 1), zz, 0.5 * (m(0, 1) + m(1, 0));
+    a << m(0, 0), m(1, 1), zz, half * (m(0, 1) + m(1, 0));
   } else {
-    a << m(0, 0), m(1, 1), m(2, 2), 0.5 * (m(0, 1) + m(1, 0)), 0.5 * (m(1, 2) + m(2, 1)), 0.5 * (m(0, 2) + m(2, 0));
+    a << m(0, 0), m(1, 1), m(2, 2), half * (m(0, 1) + m(1, 0)), half * (m(1, 2) + m(2, 1)), half * (m(0, 2) + m(2, 0));
   }
   return a;
 }
 
 /// R a R^T for a rotation R of the D-dimensional space.
-template <int D>
-SymmetricTensor<D> rotated(const SymmetricTensor<D>& a, const Matrix<D>& rotation)
+template <int D, class Number>
+SymmetricTensor<D, Number> rotated(const Eigen::Matrix<Number, n_symmetric<D>, 1>& a, const Matrix<D, Number>& rotation)
 {
   return symmetric_part<D>(rotation * plane_part<D>(a) * rotation.transpose(), a[2]);
 }

@@ -18,7 +18,7 @@ namespace
 template <int D, class Number>
 SymmetricTensor<D, Number> left_cauchy_green(const Matrix<D, Number>& f)
 {
-  return symmetric_part<D, Number>(f * f.transpose(), 1.0);
+  return symmetric_part<D>(f * f.transpose(), 1.0);
 }
 
 template <class Number>

@@ -12,8 +12,7 @@ namespace tamp::components
 namespace
 {
 
-/// The kernels with the weights of one interpolator, for particles of one size. Loops take copies of the weights and
-/// the block: as far as a compiler knows, what a loop writes might otherwise change them.
+/// The kernels with the weights of one interpolator, for particles of one size.
 template <class Shape, int D = Shape::dimension>
 class InterpolationBy final : public Interpolation<D>
 {
@@ -46,21 +45,13 @@ class InterpolationBy final : public Interpolation<D>
   void grid_to_particles(const GridBlock<D>& block, std::span<const Vector<D>> position, const NodeMotion<D>* nodes,
                          std::span<ParticleMotion<D>> motion) const override
   {
-    const Shape shape = shape_;
-    const GridBlock<D> own_block = block;
-    for (std::size_t p = 0; p < position.size(); ++p) {
-      motion[p] = grid_to_particle(shape, own_block, position[p], nodes);
-    }
+    components::grid_to_particles(shape_, block, position, nodes, motion);
   }
 
   void own_stiffness(const GridBlock<D>& block, std::span<const Vector<D>> position, std::span<const double> mass,
                      const double* inverse_mass, std::span<double> stiffness) const override
   {
-    const Shape shape = shape_;
-    const GridBlock<D> own_block = block;
-    for (std::size_t p = 0; p < position.size(); ++p) {
-      stiffness[p] = components::own_stiffness(shape, n_per_axis_, own_block, position[p], mass[p], inverse_mass);
-    }
+    components::own_stiffness(shape_, n_per_axis_, block, position, mass, inverse_mass, stiffness);
   }
 
   void add_pressure(const GridBlock<D>& block, std::span<const Vector<D>> position, std::span<const ByFace<D>> pressure,

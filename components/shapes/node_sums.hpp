@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <experimental/simd>
 
 #include "components/tensors.hpp"
@@ -7,19 +8,32 @@
 namespace tamp::components
 {
 
-/// The numbers of a node, with the vectors among them, which begin at `first_of_vectors`. They stand together in whole
-/// vector registers, so that kernels take them with a few wide operations.
+/// Four numbers worked on side by side.
+using Quad = std::experimental::simd<double, std::experimental::simd_abi::deduce_t<double, 4>>;
+
+inline Quad quad(double a, double b, double c, double d)
+{
+  const std::array<double, 4> values{a, b, c, d};
+  return Quad([&](auto i) { return values[i]; });
+}
+
+/// The numbers of a node, with the vectors among them, which begin at `first_of_vectors`. Kernels take them four at a
+/// time: a vector does not reach from one four into the next unless there is no room otherwise.
 template <int D, int n_values, int... first_of_vectors>
 struct alignas(4 * sizeof(double)) NodeValues {
-  using Wide = std::experimental::fixed_size_simd<double, n_values>;
+  static_assert(n_values % 4 == 0);
 
   Eigen::Array<double, n_values, 1> values = Eigen::Array<double, n_values, 1>::Zero();
 
   Vector<D> vector(int first) const { return values.template segment<D>(first).matrix(); }
   void set_vector(int first, const Vector<D>& vector) { values.template segment<D>(first) = vector.array(); }
 
-  Wide wide() const { return Wide(values.data(), std::experimental::element_aligned); }
-  void add(const Wide& share) { (wide() + share).copy_to(values.data(), std::experimental::element_aligned); }
+  /// The values from `first` on.
+  Quad four(int first) const { return Quad(values.data() + first, std::experimental::element_aligned); }
+  void add(int first, const Quad& share)
+  {
+    (four(first) + share).copy_to(values.data() + first, std::experimental::element_aligned);
+  }
 
   /// On a mirror normal to `axis` the image brings the opposite of every normal component.
   void hold_on_mirror(int axis) { ((values[first_of_vectors + axis] = 0), ...); }
@@ -27,20 +41,22 @@ struct alignas(4 * sizeof(double)) NodeValues {
   void mirror(int axis) { ((values[first_of_vectors + axis] *= -1), ...); }
 };
 
-/// What particles give to a node.
+/// What particles give to a node: mass and momentum by their weights, the rest by derivatives of these.
 template <int D>
-struct NodeSums : NodeValues<D, D == 2 ? 8 : 12, 1, 1 + D, 1 + 2 * D> {
+struct NodeSums : NodeValues<D, D == 2 ? 8 : 12, 1, 4, 4 + D> {
+  static constexpr int at_force = 4, at_surface = 4 + D;
+
   /// sum m_p S_ip [kg]
   double mass() const { return this->values[0]; }
   /// sum m_p v_p S_ip [kg m/s]
   Vector<D> momentum() const { return this->vector(1); }
   void add_momentum(const Vector<D>& momentum) { this->set_vector(1, this->vector(1) + momentum); }
   /// -sum V_p (sigma_p - q_p I) . grad S_ip [N], and what loads on the particles add to it.
-  Vector<D> internal_force() const { return this->vector(1 + D); }
-  void add_force(const Vector<D>& force) { this->set_vector(1 + D, internal_force() + force); }
+  Vector<D> internal_force() const { return this->vector(at_force); }
+  void add_force(const Vector<D>& force) { this->set_vector(at_force, internal_force() + force); }
   /// sum V_p grad S_ip [m^(D-1)]: points out of the material at its surface, vanishes within.
-  Vector<D> surface_gradient() const { return this->vector(1 + 2 * D); }
-  void set_surface_gradient(const Vector<D>& gradient) { this->set_vector(1 + 2 * D, gradient); }
+  Vector<D> surface_gradient() const { return this->vector(at_surface); }
+  void set_surface_gradient(const Vector<D>& gradient) { this->set_vector(at_surface, gradient); }
 
   NodeSums& operator+=(const NodeSums& other)
   {
@@ -57,16 +73,18 @@ struct NodeSums : NodeValues<D, D == 2 ? 8 : 12, 1, 1 + D, 1 + 2 * D> {
 
 /// How a node moves through a step.
 template <int D>
-struct NodeMotion : NodeValues<D, D == 2 ? 4 : 8, 0, D> {
+struct NodeMotion : NodeValues<D, D == 2 ? 4 : 8, 0, D == 2 ? 2 : 4> {
+  static constexpr int at_change = D == 2 ? 2 : 4;
+
   /// Velocity at the middle of the step [m/s].
   Vector<D> velocity() const { return this->vector(0); }
   /// Its change from the middle of the step before [m/s]: what particles take from it.
-  Vector<D> velocity_change() const { return this->vector(D); }
+  Vector<D> velocity_change() const { return this->vector(at_change); }
 
   void set(const Vector<D>& velocity, const Vector<D>& change)
   {
     this->set_vector(0, velocity);
-    this->set_vector(D, change);
+    this->set_vector(at_change, change);
   }
   NodeMotion mirrored(int axis) const
   {

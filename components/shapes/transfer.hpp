@@ -1,13 +1,16 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <span>
 
+#include "components/lanes.hpp"
 #include "components/loads/pressure_load.hpp"
 #include "components/shapes/gimp.hpp"
 #include "components/shapes/grid_block.hpp"
 #include "components/shapes/node_sums.hpp"
+#include "components/shapes/stencil.hpp"
 #include "components/tensors.hpp"
 
 namespace tamp::components
@@ -25,42 +28,59 @@ struct ParticleSources {
   std::span<const double> viscous_pressure;
 };
 
+/// What a particle gives to nodes, as fours of NodeSums: times the weight, and times each of its derivatives.
+template <int D>
+struct ParticleShare {
+  Quad by_weight;
+  std::array<Quad, D> by_derivative;
+};
+
+template <int D>
+ParticleShare<D> share_of(const ParticleSources<D>& from, std::size_t p)
+{
+  const double m = from.mass[p], volume = from.volume[p];
+  const Vector<D> momentum = m * from.velocity[p];
+  // Column k of -V (sigma - q I) goes with derivative k of the weight, as does the surface gradient's component k.
+  const Matrix<D> force = -volume * (plane_part<D>(from.stress[p]) - from.viscous_pressure[p] * Matrix<D>::Identity());
+  if constexpr (D == 2) {
+    return {quad(m, momentum[0], momentum[1], 0),
+            {quad(force(0, 0), force(1, 0), volume, 0), quad(force(0, 1), force(1, 1), 0, volume)}};
+  } else {
+    return {quad(m, momentum[0], momentum[1], momentum[2]),
+            {quad(force(0, 0), force(1, 0), force(2, 0), volume), quad(force(0, 1), force(1, 1), force(2, 1), 0),
+             quad(force(0, 2), force(1, 2), force(2, 2), 0)}};
+  }
+}
+
 /// Adds each particle's mass, momentum, internal force and surface gradient to the nodes it reaches
 /// (PAR-10021867-092020-6, eqs 9, 36, 41). `sums` is the first node of `block`.
 template <class Interpolator, int D = Interpolator::dimension>
 void particles_to_grid(const Interpolator& interpolator, const GridBlock<D>& block, const ParticleSources<D>& from,
                        NodeSums<D>* sums)
 {
-  using Values = typename NodeSums<D>::Wide;
-  for (std::size_t p = 0; p < from.position.size(); ++p) {
-    const double m = from.mass[p];
-    const double volume = from.volume[p];
-    NodeSums<D> share;
-    share.values[0] = m;
-    share.set_vector(1, m * from.velocity[p]);
-    const Values with_weight = share.wide();
-    // Column k of -V (sigma - q I) goes with derivative k of the weight, as does the surface gradient's component k.
-    const Matrix<D> force =
-        -volume * (plane_part<D>(from.stress[p]) - from.viscous_pressure[p] * Matrix<D>::Identity());
-    std::array<Values, D> with_slope;
-    for (int k = 0; k < D; ++k) {
-      NodeSums<D> column;
-      column.set_vector(1 + D, force.col(k));
-      column.values[1 + 2 * D + k] = volume;
-      with_slope[static_cast<std::size_t>(k)] = column.wide();
+  for_each_stencil_batch(interpolator, block, from.position, [&](std::size_t first, std::size_t size, auto& stencils) {
+    for (std::size_t p = 0; p < size; ++p) {
+      const ParticleShare<D> share = share_of(from, first + p);
+      const auto stencil = stencils[p];
+      for_each_row<D>(block, stencil, [&](const StencilRow<D>& row) {
+        // What the nodes of the row have in common: what goes with their weights along x, and with the slopes of those.
+        const Quad by_weight = row.across * share.by_weight, by_slope = row.across * share.by_derivative[0];
+        Quad by_weight_across = row.slope_across[0] * share.by_derivative[1];
+        Quad surface_across = 0;
+        if constexpr (D == 3) {
+          by_weight_across += row.slope_across[1] * share.by_derivative[2];
+          surface_across = from.volume[first + p] * quad(row.slope_across[0], row.slope_across[1], 0, 0);
+        }
+        for (std::size_t i = 0; i < Interpolator::support; ++i) {
+          NodeSums<D>& node = sums[row.first + static_cast<std::ptrdiff_t>(i)];
+          const double weight = stencil.weight[0][i], slope = stencil.slope[0][i];
+          node.add(0, weight * by_weight);
+          node.add(4, weight * by_weight_across + slope * by_slope);
+          if constexpr (D == 3) node.add(8, weight * surface_across);
+        }
+      });
     }
-    const auto stencil = interpolator.at(block, from.position[p]);
-    for_each_row<D>(block, stencil, [&](const StencilRow<D>& row) {
-      // What the nodes of the row have in common: what goes with their weights along x, and with the slopes of those.
-      Values by_weight = row.across * with_weight;
-      for (int k = 1; k < D; ++k) by_weight += row.slope_across[k - 1] * with_slope[static_cast<std::size_t>(k)];
-      const Values by_slope = row.across * with_slope[0];
-      for (std::size_t i = 0; i < Interpolator::support; ++i) {
-        sums[row.first + static_cast<std::ptrdiff_t>(i)].add(stencil.weight[0][i] * by_weight +
-                                                             stencil.slope[0][i] * by_slope);
-      }
-    });
-  }
+  });
 }
 
 /// Adds to the momenta of nodes what the particles' velocity gradients tell of the velocities there,
@@ -128,35 +148,41 @@ struct ParticleMotion {
   Matrix<D> velocity_gradient;
 };
 
-/// Interpolates the motion of the nodes to a particle (PAR-10021867-092020-6, eqs 43, 55).
+/// Interpolates the motion of the nodes to particles (PAR-10021867-092020-6, eqs 43, 55).
 template <class Interpolator, int D = Interpolator::dimension>
-ParticleMotion<D> grid_to_particle(const Interpolator& interpolator, const GridBlock<D>& block, const Vector<D>& x,
-                                   const NodeMotion<D>* nodes)
+void grid_to_particles(const Interpolator& interpolator, const GridBlock<D>& block, std::span<const Vector<D>> position,
+                       const NodeMotion<D>* nodes, std::span<ParticleMotion<D>> motion)
 {
-  using Values = typename NodeMotion<D>::Wide;
-  Values moved = 0;
-  std::array<Values, D> slopes;
-  slopes.fill(0);
-  const auto stencil = interpolator.at(block, x);
-  for_each_row<D>(block, stencil, [&](const StencilRow<D>& row) {
-    Values by_weight = 0, by_slope = 0;
-    for (std::size_t i = 0; i < Interpolator::support; ++i) {
-      const Values values = nodes[row.first + static_cast<std::ptrdiff_t>(i)].wide();
-      by_weight += stencil.weight[0][i] * values;
-      by_slope += stencil.slope[0][i] * values;
+  constexpr int at_change = NodeMotion<D>::at_change;
+  for_each_stencil_batch(interpolator, block, position, [&](std::size_t first, std::size_t size, auto& stencils) {
+    for (std::size_t p = 0; p < size; ++p) {
+      // The changes of velocity stand beside the velocities in the plane, and in the next four in space.
+      Quad moved = 0, changed = 0;
+      std::array<Quad, D> slopes;
+      slopes.fill(0);
+      const auto stencil = stencils[p];
+      for_each_row<D>(block, stencil, [&](const StencilRow<D>& row) {
+        Quad by_weight = 0, change_by_weight = 0, by_slope = 0;
+        for (std::size_t i = 0; i < Interpolator::support; ++i) {
+          const NodeMotion<D>& node = nodes[row.first + static_cast<std::ptrdiff_t>(i)];
+          by_weight += stencil.weight[0][i] * node.four(0);
+          by_slope += stencil.slope[0][i] * node.four(0);
+          if constexpr (D == 3) change_by_weight += stencil.weight[0][i] * node.four(at_change);
+        }
+        moved += row.across * by_weight;
+        changed += row.across * change_by_weight;
+        slopes[0] += row.across * by_slope;
+        for (int k = 1; k < D; ++k) slopes[static_cast<std::size_t>(k)] += row.slope_across[k - 1] * by_weight;
+      });
+      ParticleMotion<D>& own = motion[first + p];
+      for (int i = 0; i < D; ++i) {
+        const auto component = static_cast<std::size_t>(i);
+        own.velocity[i] = moved[component];
+        own.velocity_change[i] = D == 2 ? moved[component + 2] : changed[component];
+        for (int k = 0; k < D; ++k) own.velocity_gradient(i, k) = slopes[static_cast<std::size_t>(k)][component];
+      }
     }
-    moved += row.across * by_weight;
-    slopes[0] += row.across * by_slope;
-    for (int k = 1; k < D; ++k) slopes[static_cast<std::size_t>(k)] += row.slope_across[k - 1] * by_weight;
   });
-  const auto vector = [](const Values& values, int first) {
-    Vector<D> part;
-    for (int k = 0; k < D; ++k) part[k] = values[static_cast<std::size_t>(first + k)];
-    return part;
-  };
-  ParticleMotion<D> motion{vector(moved, 0), vector(moved, D), {}};
-  for (int k = 0; k < D; ++k) motion.velocity_gradient.col(k) = vector(slopes[static_cast<std::size_t>(k)], 0);
-  return motion;
 }
 
 /// h^2 m_p sum |grad S_ip|^2 / m_i, a pure number: how stiff a particle makes its nodes by itself, and so how fast they
@@ -165,22 +191,30 @@ ParticleMotion<D> grid_to_particle(const Interpolator& interpolator, const GridB
 /// Inside of a body it is below 1, at an edge about 5, and up to 9 an axis where a particle has its nodes to itself.
 /// `inverse_mass` of nodes is in 1/kg, 0 at those that do not count.
 template <class Interpolator, int D = Interpolator::dimension>
-double own_stiffness(const Interpolator& interpolator, int n_per_axis, const GridBlock<D>& block, const Vector<D>& x,
-                     double mass, const double* inverse_mass)
+void own_stiffness(const Interpolator& interpolator, int n_per_axis, const GridBlock<D>& block,
+                   std::span<const Vector<D>> position, std::span<const double> mass, const double* inverse_mass,
+                   std::span<double> stiffness)
 {
-  double sum = 0;
-  const auto stencil = interpolator.at(block, x);
-  for_each_row<D>(block, stencil, [&](const StencilRow<D>& row) {
-    const double across = row.across * row.across, slope_across = row.slope_across.squaredNorm();
-    for (std::size_t i = 0; i < Interpolator::support; ++i) {
-      const double weight = stencil.weight[0][i], slope = stencil.slope[0][i];
-      sum += (slope * slope * across + weight * weight * slope_across) *
-             inverse_mass[row.first + static_cast<std::ptrdiff_t>(i)];
-    }
-  });
   const double across_half_cell = std::max(1.0, 0.5 * n_per_axis);
   const double n_alike = D == 2 ? across_half_cell : across_half_cell * across_half_cell;
-  return n_alike * block.cell_size * block.cell_size * mass * sum;
+  for_each_stencil_batch(interpolator, block, position, [&](std::size_t first, std::size_t size, auto& stencils) {
+    for (std::size_t p = 0; p < size; p += n_lanes) {
+      Lanes sum = 0.0;
+      const auto stencil = stencils.lanes(p);
+      for_each_row<D>(block, stencil, [&](const StencilRow<D, Lanes>& row) {
+        const Lanes across = row.across * row.across, slope_across = row.slope_across.squaredNorm();
+        for (std::size_t i = 0; i < Interpolator::support; ++i) {
+          const Lanes weight = stencil.weight[0][i], slope = stencil.slope[0][i];
+          const std::ptrdiff_t node = row.first + static_cast<std::ptrdiff_t>(i);
+          const Lanes per_mass = each_lane([&](std::size_t l) { return inverse_mass[stencils.first(p + l) + node]; });
+          sum += (slope * slope * across + weight * weight * slope_across) * per_mass;
+        }
+      });
+      for (std::size_t l = 0; l < std::min(n_lanes, size - p); ++l) {
+        stiffness[first + p + l] = n_alike * block.cell_size * block.cell_size * mass[first + p + l] * sum[l];
+      }
+    }
+  });
 }
 
 }  // namespace tamp::components

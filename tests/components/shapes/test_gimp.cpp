@@ -2,6 +2,7 @@
 
 #include <map>
 #include <utility>
+#include <vector>
 
 #include "tests/components/shapes/shape_reference.hpp"
 
@@ -53,6 +54,31 @@ TEMPLATE_TEST_CASE_SIG("weights sum to one and gradients to zero anywhere", "", 
     REQUIRE(shape.size() == (D == 2 ? 9 : 27));
     REQUIRE(weights == Approx(1).epsilon(4e-15));
     REQUIRE(gradients.norm() * cell_size < 4e-15);
+  }
+}
+
+TEMPLATE_TEST_CASE_SIG("the stencils of a batch are those of its particles, bit for bit", "", ((int D), D), 2, 3)
+{
+  const Gimp<D> gimp = GENERATE(Gimp<D>(2), Gimp<D>(3), Gimp<D>::quadratic_spline());
+  const auto n_particles = GENERATE(as<std::size_t>(), 1, 7, StencilBatch<D, 3>::capacity);
+  const auto block = block_of_nodes<D>(7, cell_size);
+  std::mt19937 random(3);
+  std::vector<Vector<D>> position;
+  for (std::size_t p = 0; p < n_particles; ++p) position.push_back(random_place(block, random));
+  // Where the formula changes: as far from a node as half a particle.
+  position[0] = block.origin + Vector<D>::Constant(cell_size * (2 + gimp.half_size()));
+  StencilBatch<D, 3> batch;
+
+  gimp.fill(batch, block, position);
+
+  for (std::size_t p = 0; p < n_particles; ++p) {
+    const auto alone = gimp.at(block, position[p]), own = batch[p];
+    REQUIRE(own.first == alone.first);
+    REQUIRE(own.weight == alone.weight);
+    REQUIRE(own.slope == alone.slope);
+    const auto lanes = batch.lanes(p - p % n_lanes);
+    REQUIRE(double{lanes.weight[D - 1][1][p % n_lanes]} == alone.weight[D - 1][1]);
+    REQUIRE(double{lanes.slope[0][2][p % n_lanes]} == alone.slope[0][2]);
   }
 }
 

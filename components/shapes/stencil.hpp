@@ -1,0 +1,142 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <span>
+
+#include "components/lanes.hpp"
+#include "components/shapes/grid_block.hpp"
+#include "components/tensors.hpp"
+
+namespace tamp::components
+{
+
+/// The weights <S_ip> of a particle at the nodes it reaches, and their gradients <grad S_ip> [1/m], as factors along
+/// each axis: node (i, j, k) has the weight w[0][i] w[1][j] w[2][k] and stands at `first` + i s_x + j s_y + k s_z.
+/// Where Number is Lanes they are those of as many particles, and `first` is 0: each counts nodes from its own first.
+template <int D, int Support, class Number = double>
+struct Stencil {
+  std::ptrdiff_t first;
+  std::array<std::array<Number, Support>, D> weight;
+  std::array<std::array<Number, Support>, D> slope;
+};
+
+/// The stencils of up to `capacity` particles, made for as many at once as the processor has lanes.
+template <int D, int Support>
+class StencilBatch
+{
+ public:
+  static constexpr std::size_t capacity = 32;
+  static_assert(capacity % n_lanes == 0);
+
+  /// Sets those of n_lanes particles from `p` on; `first` has the places of their first nodes as whole numbers.
+  void set(std::size_t p, const Lanes& first, const Stencil<D, Support, Lanes>& stencil)
+  {
+    for (std::size_t l = 0; l < n_lanes; ++l) first_[p + l] = static_cast<std::ptrdiff_t>(double{first[l]});
+    for (std::size_t k = 0; k < D; ++k) {
+      for (std::size_t i = 0; i < Support; ++i) {
+        stencil.weight[k][i].copy_to(&weight_[k][i][p], std::experimental::element_aligned);
+        stencil.slope[k][i].copy_to(&slope_[k][i][p], std::experimental::element_aligned);
+      }
+    }
+  }
+
+  /// Place of the first node of a particle.
+  std::ptrdiff_t first(std::size_t p) const { return first_[p]; }
+  /// That of one particle.
+  Stencil<D, Support> operator[](std::size_t p) const
+  {
+    return made<double>(first_[p], [p](const auto& values) { return values[p]; });
+  }
+  /// Those of n_lanes particles from `p` on.
+  Stencil<D, Support, Lanes> lanes(std::size_t p) const
+  {
+    return made<Lanes>(0, [p](const auto& values) { return Lanes(&values[p], std::experimental::element_aligned); });
+  }
+
+ private:
+  /// By axis, node along it, and particle.
+  using Factors = std::array<std::array<std::array<double, capacity>, Support>, D>;
+
+  template <class Number, class Take>
+  Stencil<D, Support, Number> made(std::ptrdiff_t first, Take&& take) const
+  {
+    Stencil<D, Support, Number> stencil;
+    stencil.first = first;
+    for (std::size_t k = 0; k < D; ++k) {
+      for (std::size_t i = 0; i < Support; ++i) {
+        stencil.weight[k][i] = take(weight_[k][i]);
+        stencil.slope[k][i] = take(slope_[k][i]);
+      }
+    }
+    return stencil;
+  }
+
+  std::array<std::ptrdiff_t, capacity> first_;
+  Factors weight_, slope_;
+};
+
+/// Calls `visit(first, size, stencils)` for one batch of particles after the other.
+template <class Interpolator, int D = Interpolator::dimension, class Visit>
+[[gnu::always_inline]] inline void for_each_stencil_batch(const Interpolator& interpolator, const GridBlock<D>& block,
+                                                          std::span<const Vector<D>> position, Visit&& visit)
+{
+  StencilBatch<D, Interpolator::support> stencils;
+  for (std::size_t first = 0; first < position.size(); first += stencils.capacity) {
+    const std::size_t size = std::min(stencils.capacity, position.size() - first);
+    interpolator.fill(stencils, block, position.subspan(first, size));
+    visit(first, size, stencils);
+  }
+}
+
+/// A stencil with the weights' first moments about the particle, w[k][i] (x_i - x)_k [m], in place of their slopes. As
+/// weights reproduce linear functions, the particle is at the weighted mean of its nodes.
+template <int D, int Support>
+Stencil<D, Support> with_moments(Stencil<D, Support> stencil, double cell_size)
+{
+  for (std::size_t k = 0; k < D; ++k) {
+    const auto& w = stencil.weight[k];
+    double place = 0;  // in cells from the first node
+    for (std::size_t i = 1; i < Support; ++i) place += static_cast<double>(i) * w[i];
+    for (std::size_t i = 0; i < Support; ++i) {
+      stencil.slope[k][i] = w[i] * (static_cast<double>(i) - place) * cell_size;
+    }
+  }
+  return stencil;
+}
+
+/// A row of a stencil's nodes along x: the first one's place in the block, and what the other axes give to all of its
+/// weights and of their gradients. Node i has the weight w[0][i] `across`; its gradient has s[0][i] `across` along x
+/// and w[0][i] `slope_across` along the others.
+template <int D, class Number = double>
+struct StencilRow {
+  std::ptrdiff_t first;
+  Number across;
+  Vector<D - 1, Number> slope_across;
+};
+
+/// Calls `visit(row)` for every row of a stencil, y faster than z. Inlined, as it and what it calls are the innermost
+/// loops of a step: left to itself, gcc calls them where many kernels stand in one unit.
+template <int D, int Support, class Number, class Visit>
+[[gnu::always_inline]] inline void for_each_row(const GridBlock<D>& block, const Stencil<D, Support, Number>& s,
+                                                Visit&& visit)
+{
+  if constexpr (D == 2) {
+    for (std::size_t j = 0; j < Support; ++j) {
+      visit(StencilRow<2, Number>{s.first + static_cast<std::ptrdiff_t>(j) * block.strides[1], s.weight[1][j],
+                                  Vector<1, Number>(s.slope[1][j])});
+    }
+  } else {
+    for (std::size_t k = 0; k < Support; ++k) {
+      const std::ptrdiff_t plane = s.first + static_cast<std::ptrdiff_t>(k) * block.strides[2];
+      for (std::size_t j = 0; j < Support; ++j) {
+        visit(StencilRow<3, Number>{plane + static_cast<std::ptrdiff_t>(j) * block.strides[1],
+                                    s.weight[1][j] * s.weight[2][k],
+                                    Vector<2, Number>(s.slope[1][j] * s.weight[2][k], s.weight[1][j] * s.slope[2][k])});
+      }
+    }
+  }
+}
+
+}  // namespace tamp::components
