@@ -24,22 +24,30 @@ Matrix<3> inverse_transpose(const Matrix<3>& x)
   return cofactors / x.col(0).dot(cofactors.col(0));
 }
 
-/// First and second invariant of U from those of C = U^2 and the third of U. They solve i1^2 = I_C + 2 i2 and
-/// i2^2 = II_C + 2 i3 i1: i1 is the fixed point of a function whose slope i3 / (i1 i2) is never above 1/9. So two steps
-/// of Newton's method from sqrt(3 I_C), which is never below i1, leave an error of 1e-8 of i1 for any U, and none to
-/// speak of where the stretches differ by less than a tenth.
-struct StretchInvariants {
-  Lanes first, second;
+/// A deformation gradient, and the first and the second invariant of its U. These solve i1^2 = I_C + 2 i2 and
+/// i2^2 = II_C + 2 i3 i1, C = U^2: i1 is the fixed point of a function whose slope i3 / (i1 i2) is never above 1/9. So
+/// two steps of Newton's method from sqrt(3 I_C), which is never below i1, leave an error of 1e-8 of i1 for any U, and
+/// none to speak of where the stretches differ by less than a tenth.
+struct Stretched {
+  const Matrix<3, Lanes>& f;
+  Matrix<3, Lanes> cofactors = cofactors_of(f), c = f.transpose() * f;
+  Lanes first_of_c = c.trace(), second_of_c = cofactors.squaredNorm(), third = f.col(0).dot(cofactors.col(0));
+  Lanes first = sqrt(3.0 * first_of_c);
 
-  StretchInvariants(const Lanes& first_of_c, const Lanes& second_of_c, const Lanes& third)
+  Lanes second() const { return sqrt(second_of_c + 2.0 * third * first); }
+
+  void improve_first()
   {
-    const auto second_at = [&](const Lanes& i1) { return sqrt(second_of_c + 2.0 * third * i1); };
-    first = sqrt(3.0 * first_of_c);
-    for (int step = 0; step < 2; ++step) {
-      const Lanes i2 = second_at(first), next = sqrt(first_of_c + 2.0 * i2);
-      first += (next - first) / (1.0 - third / (next * i2));
-    }
-    second = second_at(first);
+    const Lanes i2 = second(), next = sqrt(first_of_c + 2.0 * i2);
+    first += (next - first) / (1.0 - third / (next * i2));
+  }
+
+  Matrix<3, Lanes> rotation() const
+  {
+    const Lanes i2 = second(), per_product = 1.0 / (first * i2 - third);
+    const Matrix<3, Lanes> r = per_product * ((i2 + first_of_c) * f - f * c + first * cofactors);
+    const Matrix<3, Lanes> stretch = r.transpose() * r;
+    return Lanes(1.5) * r - Lanes(0.5) * (r * stretch);
   }
 };
 
@@ -67,16 +75,14 @@ Matrix<3> polar_rotation(const Matrix<3>& f)
   return x;
 }
 
-Matrix<3, Lanes> polar_rotation(const Matrix<3, Lanes>& f)
+[[gnu::flatten]] std::array<Matrix<3, Lanes>, 2> polar_rotations(const Matrix<3, Lanes>& f, const Matrix<3, Lanes>& g)
 {
-  const Matrix<3, Lanes> cofactors = cofactors_of(f), c = f.transpose() * f;
-  const Lanes first_of_c = c.trace(), third = f.col(0).dot(cofactors.col(0));
-  const StretchInvariants u(first_of_c, cofactors.squaredNorm(), third);
-
-  const Lanes per_product = 1.0 / (u.first * u.second - third);
-  const Matrix<3, Lanes> r = per_product * ((u.second + first_of_c) * f - f * c + u.first * cofactors);
-  const Matrix<3, Lanes> stretch = r.transpose() * r;
-  return Lanes(1.5) * r - Lanes(0.5) * (r * stretch);
+  Stretched of_f{f}, of_g{g};
+  for (int step = 0; step < 2; ++step) {
+    of_f.improve_first();
+    of_g.improve_first();
+  }
+  return {of_f.rotation(), of_g.rotation()};
 }
 
 }  // namespace tamp::components

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 
 #include "components/lanes.hpp"
 #include "components/tensors.hpp"
@@ -23,10 +24,18 @@ Matrix<2, Number> polar_rotation(const Matrix<2, Number>& f)
 /// quadratic (N. J. Higham, Computing the polar decomposition - with applications, SIAM J. Sci. Stat. Comput. 7, 1986).
 Matrix<3> polar_rotation(const Matrix<3>& f);
 
+/// The rotations of two deformation gradients.
+template <int D, class Number>
+std::array<Matrix<D, Number>, 2> polar_rotations(const Matrix<D, Number>& f, const Matrix<D, Number>& g)
+{
+  return {polar_rotation(f), polar_rotation(g)};
+}
+
 /// The same without a branch: R = ((i2 + I_C) F - F C + i1 cof F) / (i1 i2 - i3), C = F^T F, by the theorem of Cayley
 /// and Hamilton from the invariants i of U. These leave R a stretch close to 1, which R (3 I - R^T R) / 2 squares away:
 /// R is orthogonal to round-off up to stretches a thousand times apart. Beyond, round-off in det F gains on it, and the
-/// caller has to see whether R is still orthogonal, or even a number.
-Matrix<3, Lanes> polar_rotation(const Matrix<3, Lanes>& f);
+/// caller has to see whether R is still orthogonal, or even a number. Two at a time take little longer than one: roots
+/// and quotients that wait for each other make up most of it.
+std::array<Matrix<3, Lanes>, 2> polar_rotations(const Matrix<3, Lanes>& f, const Matrix<3, Lanes>& g);
 
 }  // namespace tamp::components

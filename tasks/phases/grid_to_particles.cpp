@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <array>
 
-#include "components/kinematics/strain_increment.hpp"
+#include "components/kinematics/deform.hpp"
 #include "components/shapes/transfer.hpp"
 #include "tasks/labels.hpp"
 #include "tasks/phases/phases.hpp"
@@ -11,7 +11,6 @@ namespace tamp::tasks
 {
 
 using components::ParticleMotion;
-using components::StrainIncrement;
 using runtime::TaskContext;
 
 /// Particles worked on together: their numbers between two kernels stay in the first-level cache.
@@ -55,28 +54,29 @@ runtime::TaskDeclaration grid_to_particles(const Method<D>& method)
     const double dt = at.step.size;
     std::array<ParticleMotion<D>, batch> motion;
     std::array<Matrix<D>, batch> g;
-    std::array<StrainIncrement<D>, batch> steps;
     for (std::size_t first = 0; first < position.size(); first += batch) {
       const std::size_t size = std::min(batch, position.size() - first);
       interpolation.grid_to_particles(block, old_position.subspan(first, size), nodes.data(),
                                       std::span(motion).first(size));
-      for (std::size_t i = 0; i < size; ++i) g[i] = dt * motion[i].velocity_gradient;
-      components::strain_increments<D>(old_deformation.subspan(first, size), std::span(g).first(size),
-                                       std::span(steps).first(size));
       for (std::size_t i = 0; i < size; ++i) {
         const std::size_t p = first + i;
-        const StrainIncrement<D>& step = steps[i];
-        if (!step.admissible()) {
-          const auto& material = method.materials[static_cast<std::size_t>(at.group)];
-          throw SimulationError("a particle is turned inside out", material.name, data[particle::id.previous()][p],
-                                {old_position[p].begin(), old_position[p].end()});
-        }
+        g[i] = dt * motion[i].velocity_gradient;
         position[p] = old_position[p] + dt * motion[i].velocity;
         velocity[p] = old_velocity[p] + motion[i].velocity_change;
-        deformation[p] = step.deformation_gradient;
-        volume[p] = old_volume[p] * step.volume_ratio;
-        stress[p] = rotated<D>(old_stress[p], step.rotation_increment);
-        strain[p] = step.strain_increment;
+      }
+      const auto inside_out = components::deform<D>({.g = std::span(g).first(size),
+                                                     .old_gradient = old_deformation.subspan(first, size),
+                                                     .old_volume = old_volume.subspan(first, size),
+                                                     .old_stress = old_stress.subspan(first, size),
+                                                     .deformation_gradient = deformation.subspan(first, size),
+                                                     .volume = volume.subspan(first, size),
+                                                     .stress = stress.subspan(first, size),
+                                                     .strain_increment = strain.subspan(first, size)});
+      if (inside_out) {
+        const std::size_t p = first + *inside_out;
+        const auto& material = method.materials[static_cast<std::size_t>(at.group)];
+        throw SimulationError("a particle is turned inside out", material.name, data[particle::id.previous()][p],
+                              {old_position[p].begin(), old_position[p].end()});
       }
       if (viscous_rule) {
         interpolation.own_stiffness(block, old_position.subspan(first, size), mass.subspan(first, size),

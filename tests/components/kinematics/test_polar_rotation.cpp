@@ -93,12 +93,17 @@ TEST_CASE("without a branch the polar rotation is the iterated one up to stretch
   for (const double spread : {1.0, 1.1, 5.0, 30.0}) {
     for (int sample = 0; sample < 1000; ++sample) {
       const Matrix<3> f = random_deformation<3>(random, spread);
-      const Matrix<3, Lanes> in_lanes =
-          polar_rotation(Matrix<3, Lanes>(f.unaryExpr([](double x) { return Lanes(x); })));
-      const Matrix<3> r = in_lanes.unaryExpr([](const Lanes& x) -> double { return x[0]; });
+      const Matrix<3> g = random_deformation<3>(random, spread);
+      const auto lanes = [](const Matrix<3>& m) {
+        return Matrix<3, Lanes>(m.unaryExpr([](double x) { return Lanes(x); }));
+      };
+      const auto of_both = polar_rotations(lanes(f), lanes(g));
+      const auto lane = [](const Lanes& x) -> double { return x[n_lanes - 1]; };
+      const Matrix<3> r = of_both[0].unaryExpr(lane), other = of_both[1].unaryExpr(lane);
 
       REQUIRE((r.transpose() * r - Matrix<3>::Identity()).norm() < 3e-15);
       REQUIRE((r - polar_rotation(f)).norm() < 1e-14 * spread * spread);
+      REQUIRE((other - polar_rotation(g)).norm() < 1e-14 * spread * spread);
     }
   }
 }

@@ -6,7 +6,6 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
-#include <random>
 #include <vector>
 
 #include "components/kinematics/strain_increment.hpp"
@@ -213,65 +212,4 @@ TEST_CASE("a step that turns a particle inside out or over is reported and does 
     CHECK(step.rotation_increment == Matrix<2>::Identity());
   }
   CHECK(strain_increment<2>(f, inside_out).volume_ratio == Approx(-0.5));
-}
-
-namespace
-{
-
-/// Particles with random deformations and steps; every seventh is turned inside out by its step, and every fifth
-/// almost flat.
-template <int D>
-struct Particles {
-  std::vector<Matrix<D>> f, g;
-
-  explicit Particles(int n)
-  {
-    std::mt19937 random(3);
-    std::uniform_real_distribution<double> uniform(-1, 1);
-    const auto any = [&] { return Matrix<D>(Matrix<D>::NullaryExpr([&] { return uniform(random); })); };
-    for (int p = 0; p < n; ++p) {
-      f.push_back(Matrix<D>::Identity() + 0.2 * any());
-      if (p % 5 == 1) f.back().row(D - 1) *= 1e-7;
-      g.push_back(p % 7 == 3 ? Matrix<D>(-1.5 * Vector<D>::Unit(0) * Vector<D>::Unit(0).transpose()) : 0.05 * any());
-    }
-  }
-
-  std::vector<StrainIncrement<D>> increments(std::size_t first, std::size_t n) const
-  {
-    std::vector<StrainIncrement<D>> steps(n);
-    strain_increments<D>(std::span(f).subspan(first, n), std::span(g).subspan(first, n), steps);
-    return steps;
-  }
-};
-
-}  // namespace
-
-TEMPLATE_TEST_CASE_SIG("the increments of many particles are those of each alone", "", ((int D), D), 2, 3)
-{
-  const Particles<D> particles(101);
-
-  const auto steps = particles.increments(0, 101);
-
-  for (std::size_t p = 0; p < steps.size(); ++p) {
-    const auto alone = strain_increment<D>(particles.f[p], particles.g[p]);
-    REQUIRE(steps[p].admissible() == alone.admissible());
-    REQUIRE((steps[p].deformation_gradient - alone.deformation_gradient).norm() < 1e-15);
-    REQUIRE((steps[p].strain_increment - alone.strain_increment).norm() < 1e-14);
-    REQUIRE((steps[p].rotation_increment - alone.rotation_increment).norm() < 1e-14);
-    REQUIRE(steps[p].volume_ratio == Approx(alone.volume_ratio).epsilon(1e-15));
-  }
-}
-
-TEMPLATE_TEST_CASE_SIG("the bits of an increment do not depend on the particles around it", "", ((int D), D), 2, 3)
-{
-  const Particles<D> particles(40);
-  const auto together = particles.increments(0, 40);
-
-  for (std::size_t p = 0; p < together.size(); ++p) {
-    const auto apart = particles.increments(p, std::min<std::size_t>(40 - p, 1 + p % 5)).front();
-    REQUIRE(apart.deformation_gradient == together[p].deformation_gradient);
-    REQUIRE(apart.strain_increment == together[p].strain_increment);
-    REQUIRE(apart.rotation_increment == together[p].rotation_increment);
-    REQUIRE(apart.volume_ratio == together[p].volume_ratio);
-  }
 }

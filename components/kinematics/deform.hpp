@@ -1,0 +1,66 @@
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <optional>
+#include <span>
+
+#include "components/kinematics/strain_increment.hpp"
+#include "components/lanes.hpp"
+#include "components/particle_lanes.hpp"
+#include "components/tensors.hpp"
+
+namespace tamp::components
+{
+
+/// Particles that a step deforms; all spans have one length.
+template <int D>
+struct DeformedParticles {
+  /// dt times the velocity gradient at the middle of the step; row: component of velocity.
+  std::span<const Matrix<D>> g;
+  std::span<const Matrix<D>> old_gradient;
+  std::span<const double> old_volume;
+  std::span<const SymmetricTensor<D>> old_stress;
+  /// What follows from them, see StrainIncrement.
+  std::span<Matrix<D>> deformation_gradient;
+  std::span<double> volume;
+  /// Of the start of the step, turned with the particle.
+  std::span<SymmetricTensor<D>> stress;
+  std::span<SymmetricTensor<D>> strain_increment;
+};
+
+/// One particle by itself; false if its step is not admissible.
+template <int D>
+bool deform_one(const DeformedParticles<D>& particles, std::size_t p)
+{
+  const StrainIncrement<D> step = strain_increment<D>(particles.old_gradient[p], particles.g[p]);
+  particles.deformation_gradient[p] = step.deformation_gradient;
+  particles.volume[p] = particles.old_volume[p] * step.volume_ratio;
+  particles.stress[p] = rotated<D>(particles.old_stress[p], step.rotation_increment);
+  particles.strain_increment[p] = step.strain_increment;
+  return step.admissible();
+}
+
+/// Deforms particles, as many at once as the processor has lanes, and one by one where lanes will not do; gives the
+/// first whose step is not admissible. What a particle gets does not depend on those around it.
+template <int D>
+std::optional<std::size_t> deform(const DeformedParticles<D>& particles)
+{
+  const std::size_t n = particles.g.size();
+  for (std::size_t first = 0; first < n; first += n_lanes) {
+    const auto step =
+        unchecked_increment<D, Lanes>(lanes_from(particles.old_gradient, first), lanes_from(particles.g, first));
+    set_from(step.deformation_gradient, first, particles.deformation_gradient);
+    set_from(lanes_from(particles.old_volume, first) * step.volume_ratio, first, particles.volume);
+    set_from(rotated<D>(lanes_from(particles.old_stress, first), step.rotation_increment), first, particles.stress);
+    set_from(step.strain_increment, first, particles.strain_increment);
+    const auto is_done = step.admissible() && step.rotates_to_round_off();
+    if (!any(!is_done)) continue;
+    for (std::size_t l = 0; l < std::min(n_lanes, n - first); ++l) {
+      if (!is_done[l] && !deform_one(particles, first + l)) return first + l;
+    }
+  }
+  return {};
+}
+
+}  // namespace tamp::components
