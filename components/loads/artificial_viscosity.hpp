@@ -1,5 +1,7 @@
 #pragma once
 
+#include "components/lanes.hpp"
+
 namespace tamp::components
 {
 
@@ -13,7 +15,15 @@ struct ArtificialViscosity {
   /// q [Pa], compression positive: to be added to the pressure in the internal force, not to the stress. It is 0 while
   /// the material expands. Density [kg/m^3], bulk modulus [Pa, 0 or above], `volume_rate` = tr D [1/s, expansion
   /// positive], cell size [m].
-  double pressure(double density, double bulk_modulus, double volume_rate, double cell_size) const;
+  /// `Number` may be Lanes.
+  template <class Number>
+  Number pressure(const Number& density, const Number& bulk_modulus, const Number& volume_rate, double cell_size) const
+  {
+    const Number bulk_speed = sqrt(bulk_modulus / density);
+    const Number closing_speed = -volume_rate * cell_size;
+    const Number q = density * closing_speed * (linear * bulk_speed + quadratic * closing_speed);
+    return select(volume_rate >= 0.0, Number(0.0), q);
+  }
 };
 
 }  // namespace tamp::components

@@ -1,11 +1,11 @@
 #pragma once
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
+#include <type_traits>
 
+#include "components/lanes.hpp"
 #include "components/loads/artificial_viscosity.hpp"
-#include "components/materials/wave_speed.hpp"
 #include "components/portable_math.hpp"
 #include "components/tensors.hpp"
 
@@ -15,20 +15,26 @@ namespace tamp::components
 {
 
 /// The rule of the published runs: no signal and no particle crosses a cell, axis by axis.
-template <int D>
-double published_time_step(double cell_size, double wave_speed, const Vector<D>& velocity)
+template <int D, class Number = double>
+Number published_time_step(double cell_size, const std::type_identity_t<Number>& wave_speed,
+                           const Vector<D, Number>& velocity)
 {
-  return cell_size / (wave_speed + velocity.cwiseAbs().maxCoeff());
+  Number fastest = 0.0;
+  for (int k = 0; k < D; ++k) fastest = greater_of<Number>(fastest, abs(velocity[k]));
+  return cell_size / (wave_speed + fastest);
 }
 
-/// A particle as the viscous rule sees it.
-template <int D>
+/// A particle as the viscous rule sees it; as many as Number has lanes.
+template <int D, class Number = double>
 struct StiffParticle {
-  double density;                      ///< kg/m^3
-  double bulk_modulus, shear_modulus;  ///< Pa
-  Vector<D> velocity;                  ///< m/s
-  double volume_rate;                  ///< tr D [1/s], expansion positive
-  double own_stiffness;                ///< of components::own_stiffness, a pure number
+  Number density;                      ///< kg/m^3
+  Number bulk_modulus, shear_modulus;  ///< Pa
+  Vector<D, Number> velocity;          ///< m/s
+  Number volume_rate;                  ///< tr D [1/s], expansion positive
+  Number own_stiffness;                ///< of components::own_stiffness, a pure number
+
+  /// Of dilatational waves [m/s].
+  Number wave_speed() const { return sqrt((bulk_modulus + 4.0 / 3.0 * shear_modulus) / density); }
 };
 
 /// The part k0 in the bound below that does not come from a particle's own stiffness.
@@ -42,18 +48,18 @@ constexpr double shared_stiffness = 4.5;
 /// K + (2/D - 2/3) G of equal strain along D axes: a particle that has its nodes to itself feels just s, one of many
 /// what waves feel. That both may be added, and k0, are read from eigenvalues of blocks, balls and thinned out lattices
 /// of particles at random offsets (tools/studies/stable_step.py).
-template <int D>
-double viscous_time_step(double cell_size, const StiffParticle<D>& p, const ArtificialViscosity& viscosity)
+template <int D, class Number = double>
+Number viscous_time_step(double cell_size, const StiffParticle<D, Number>& p, const ArtificialViscosity& viscosity)
 {
-  const double c = wave_speed(p.bulk_modulus, p.shear_modulus, p.density);
-  const double squeeze_modulus = p.bulk_modulus + (2.0 / D - 2.0 / 3.0) * p.shear_modulus;
-  const double a = shared_stiffness * c * c + p.own_stiffness * squeeze_modulus / p.density;
-  const double closing_speed = cell_size * std::fmax(0, -p.volume_rate);
-  const double b = (shared_stiffness + p.own_stiffness) *
-                   (viscosity.linear * std::sqrt(p.bulk_modulus / p.density) + viscosity.quadratic * closing_speed);
+  const Number c = p.wave_speed();
+  const Number squeeze_modulus = p.bulk_modulus + (2.0 / D - 2.0 / 3.0) * p.shear_modulus;
+  const Number a = shared_stiffness * c * c + p.own_stiffness * squeeze_modulus / p.density;
+  const Number closing_speed = cell_size * greater_of<Number>(0.0, -p.volume_rate);
+  const Number b = (shared_stiffness + p.own_stiffness) *
+                   (viscosity.linear * sqrt(p.bulk_modulus / p.density) + viscosity.quadratic * closing_speed);
   // h / dt, by the root of the quadratic without cancellation.
-  const double signal_speed = 0.5 * (b + std::sqrt(b * b + 2 * a));
-  return cell_size / (signal_speed + p.velocity.norm());
+  const Number signal_speed = 0.5 * (b + sqrt(b * b + 2.0 * a));
+  return cell_size / (signal_speed + sqrt(p.velocity.squaredNorm()));
 }
 
 /// The own stiffness of a particle alone, at worst: it just reaches the two nodes beside its own along each axis; with

@@ -1,11 +1,13 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
+#include <span>
 
 #include "components/errors.hpp"
 #include "components/loads/time_step.hpp"
 #include "components/materials/state_columns.hpp"
-#include "components/materials/wave_speed.hpp"
+#include "components/particle_lanes.hpp"
 #include "tasks/labels.hpp"
 #include "tasks/phases/phases.hpp"
 #include "tasks/simulation_error.hpp"
@@ -13,7 +15,9 @@
 namespace tamp::tasks
 {
 
+using components::lanes_from;
 using components::MaterialBatch;
+using components::set_from;
 using runtime::TaskContext;
 
 namespace
@@ -52,46 +56,67 @@ MaterialBatch<D, typename Model::State> batch_at(std::size_t first, const Data& 
   return batch;
 }
 
+/// What each particle of a batch adds to the totals of the step, and its bound on the next.
+struct BatchAccount {
+  std::array<double, batch_size> elastic, plastic, viscous, stable_step;
+
+  /// Adds them up in the order of the particles, whatever lanes they have been worked out in.
+  void add_to(StepTotals& totals, std::size_t n) const
+  {
+    for (std::size_t k = 0; k < n; ++k) {
+      totals.elastic += elastic[k];
+      totals.plastic += plastic[k];
+      totals.viscous += viscous[k];
+      // Written so that what is not a number does not pass for a bound.
+      totals.stable_step = stable_step[k] >= totals.stable_step ? totals.stable_step : stable_step[k];
+    }
+  }
+};
+
 /// One batch after the material has answered: artificial viscosity, energies, and the bound on the next step.
 template <int D, class Data>
 void account(const Method<D>& method, double dt, const Data& data, std::size_t first,
              std::span<const SymmetricTensor<D>> old_stress, const BatchAnswer& answer)
 {
-  const auto mass = data[particle::mass.previous()];
-  const auto velocity = data[particle::velocity<D>];
-  const auto old_volume = data[particle::volume.previous()];
-  const auto volume = data[particle::volume];
-  const auto strain = data[particle::strain_increment<D>];
-  const auto stress = data[particle::stress<D>];
-  const auto old_viscous_pressure = data[particle::viscous_pressure.previous()];
-  const auto viscous_pressure = data[particle::viscous_pressure];
-  const auto own_stiffness = data[particle::own_stiffness];
-  StepTotals& totals = data[step_totals];
-  for (std::size_t k = 0; k < old_stress.size(); ++k) {
-    const std::size_t p = first + k;
-    const double bulk = answer.bulk_modulus[k], shear = answer.shear_modulus[k];
-    const double density = mass[p] / volume[p];
-    const double volume_rate = trace(strain[p]) / dt;
-    viscous_pressure[p] =
-        method.viscosity ? method.viscosity->pressure(density, bulk, volume_rate, method.cell_size) : 0;
+  const std::size_t n = old_stress.size();
+  const auto of_batch = [&](const auto& field) { return field.subspan(first, n); };
+  const auto mass = of_batch(data[particle::mass.previous()]);
+  const auto velocity = of_batch(data[particle::velocity<D>]);
+  const auto old_volumes = of_batch(data[particle::volume.previous()]), volumes = of_batch(data[particle::volume]);
+  const auto strains = of_batch(data[particle::strain_increment<D>]);
+  const auto stress = of_batch(data[particle::stress<D>]);
+  const auto old_viscous_pressure = of_batch(data[particle::viscous_pressure.previous()]);
+  const auto viscous_pressure = of_batch(data[particle::viscous_pressure]);
+  const auto own_stiffness = of_batch(data[particle::own_stiffness]);
+  const std::optional<components::ArtificialViscosity>& viscosity = method.viscosity;
+  BatchAccount account;
+  for (std::size_t k = 0; k < n; k += n_lanes) {
+    const auto lanes = [n, k](const auto& values) { return lanes_from(std::span(values).first(n), k); };
+    const Lanes volume = lanes(volumes), old_volume = lanes(old_volumes);
+    const SymmetricTensor<D, Lanes> strain = lanes(strains);
+    const components::StiffParticle<D, Lanes> p{.density = lanes(mass) / volume,
+                                                .bulk_modulus = lanes(answer.bulk_modulus),
+                                                .shear_modulus = lanes(answer.shear_modulus),
+                                                .velocity = lanes(velocity),
+                                                .volume_rate = trace(strain) / dt,
+                                                .own_stiffness = lanes(own_stiffness)};
+    const Lanes q = viscosity ? viscosity->pressure(p.density, p.bulk_modulus, p.volume_rate, method.cell_size) : 0.0;
+    set_from(q, k, viscous_pressure);
 
     // Work at the middle of the step; the viscous pressure that acted was that of the step before.
-    const double mid_volume = 0.5 * (old_volume[p] + volume[p]);
-    const SymmetricTensor<D> mid_stress = 0.5 * (old_stress[k] + stress[p]);
-    const double plastic = answer.plastic_work[k] * volume[p];
-    totals.elastic += double_dot(mid_stress, strain[p]) * mid_volume - plastic;
-    totals.plastic += plastic;
-    totals.viscous += old_viscous_pressure[p] * (old_volume[p] - volume[p]);
-
-    const double bound = method.time_step_rule == StepRule::published
-                             ? components::published_time_step<D>(
-                                   method.cell_size, components::wave_speed(bulk, shear, density), velocity[p])
-                             : components::viscous_time_step<D>(
-                                   method.cell_size, {density, bulk, shear, velocity[p], volume_rate, own_stiffness[p]},
-                                   method.viscosity.value_or(components::ArtificialViscosity{0, 0}));
-    // Written so that what is not a number does not pass for a bound.
-    totals.stable_step = bound >= totals.stable_step ? totals.stable_step : bound;
+    const Lanes mid_volume = 0.5 * (old_volume + volume);
+    const SymmetricTensor<D, Lanes> mid_stress = Lanes(0.5) * (lanes(old_stress) + lanes(stress));
+    const Lanes plastic = lanes(answer.plastic_work) * volume;
+    set_from(double_dot(mid_stress, strain) * mid_volume - plastic, k, account.elastic);
+    set_from(plastic, k, account.plastic);
+    set_from(lanes(old_viscous_pressure) * (old_volume - volume), k, account.viscous);
+    set_from(method.time_step_rule == StepRule::published
+                 ? components::published_time_step<D>(method.cell_size, p.wave_speed(), p.velocity)
+                 : components::viscous_time_step<D>(method.cell_size, p,
+                                                    viscosity.value_or(components::ArtificialViscosity{0, 0})),
+             k, account.stable_step);
   }
+  account.add_to(data[step_totals], n);
 }
 
 /// Throws SimulationError for the first of `n` particles whose stress or velocity is not finite.

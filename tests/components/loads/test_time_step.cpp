@@ -1,6 +1,8 @@
 #include <catch2/catch.hpp>
 
 #include <cmath>
+#include <random>
+#include <vector>
 
 #include "components/loads/time_step.hpp"
 
@@ -90,4 +92,44 @@ TEST_CASE("bodies approach by no more than a tenth of a cell in the contact time
 {
   CHECK(contact_time_step(0.01, 300) * 300 == Approx(0.001));
   CHECK(std::isinf(contact_time_step(0.01, 0)));
+}
+
+TEMPLATE_TEST_CASE_SIG("in lanes each particle gets the viscous pressure and the bounds that it gets alone", "",
+                       ((int D), D), 2, 3)
+{
+  constexpr double h = 0.01;
+  const ArtificialViscosity viscosity{0.2, 2};
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> uniform(-1, 1);
+  std::vector<StiffParticle<D>> alone;
+  for (std::size_t l = 0; l < n_lanes; ++l) {
+    alone.push_back({.density = 2 + uniform(random),
+                     .bulk_modulus = 50 + uniform(random),
+                     .shear_modulus = 20 + uniform(random),
+                     .velocity = Vector<D>::NullaryExpr([&] { return uniform(random); }),
+                     .volume_rate = l == 0 ? 0 : 100 * uniform(random),
+                     .own_stiffness = 1 + uniform(random)});
+  }
+  const auto lanes = [&](auto member) { return each_lane([&](std::size_t l) { return alone[l].*member; }); };
+  using Alone = StiffParticle<D>;
+  StiffParticle<D, Lanes> together{.density = lanes(&Alone::density),
+                                   .bulk_modulus = lanes(&Alone::bulk_modulus),
+                                   .shear_modulus = lanes(&Alone::shear_modulus),
+                                   .velocity = {},
+                                   .volume_rate = lanes(&Alone::volume_rate),
+                                   .own_stiffness = lanes(&Alone::own_stiffness)};
+  for (int k = 0; k < D; ++k) {
+    together.velocity[k] = each_lane([&](std::size_t l) { return alone[l].velocity[k]; });
+  }
+
+  const Lanes q = viscosity.pressure(together.density, together.bulk_modulus, together.volume_rate, h);
+  const Lanes viscous = viscous_time_step<D>(h, together, viscosity);
+  const Lanes published = published_time_step<D>(h, together.wave_speed(), together.velocity);
+
+  for (std::size_t l = 0; l < n_lanes; ++l) {
+    const Alone& p = alone[l];
+    CHECK(double{q[l]} == viscosity.pressure(p.density, p.bulk_modulus, p.volume_rate, h));
+    CHECK(double{viscous[l]} == viscous_time_step<D>(h, p, viscosity));
+    CHECK(double{published[l]} == published_time_step<D>(h, p.wave_speed(), p.velocity));
+  }
 }
