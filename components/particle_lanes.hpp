@@ -19,6 +19,7 @@ auto lanes_from(std::span<Value> values, std::size_t first)
 {
   const auto place = [&](std::size_t l) { return std::min(first + l, values.size() - 1); };
   if constexpr (std::is_arithmetic_v<Value>) {
+    if (first + n_lanes <= values.size()) return Lanes(&values[first], std::experimental::element_aligned);
     return each_lane([&](std::size_t l) { return values[place(l)]; });
   } else {
     Eigen::Matrix<Lanes, Value::RowsAtCompileTime, Value::ColsAtCompileTime> lanes;
@@ -32,7 +33,8 @@ auto lanes_from(std::span<Value> values, std::size_t first)
 /// Gives particles from `first` on, no more than there are, their values.
 inline void set_from(const Lanes& lanes, std::size_t first, std::span<double> values)
 {
-  for (std::size_t l = 0; l < std::min(n_lanes, values.size() - first); ++l) values[first + l] = lanes[l];
+  if (first + n_lanes <= values.size()) return lanes.copy_to(&values[first], std::experimental::element_aligned);
+  for (std::size_t l = 0; l < values.size() - first; ++l) values[first + l] = lanes[l];
 }
 
 template <int Rows, int Columns>

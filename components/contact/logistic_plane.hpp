@@ -7,8 +7,8 @@
 #include <span>
 
 #include "components/portable_math.hpp"
-#include "components/shapes/gimp.hpp"
 #include "components/shapes/grid_block.hpp"
+#include "components/shapes/stencil.hpp"
 #include "components/tensors.hpp"
 
 /// The plane at a grid node that best parts the particles of two materials, by logistic regression, and how far the
@@ -135,10 +135,9 @@ template <class Interpolator, int D = Interpolator::dimension, class Visit>
 void for_each_parted(const Interpolator& interpolator, const GridBlock<D>& block, const ContactPlane<D>* planes,
                      std::span<const Vector<D>> position, Visit&& visit)
 {
-  for (const Vector<D>& x : position) {
-    const auto stencil = interpolator.at(block, x);
-    if (!planes[stencil.first].starts_near) continue;
-    const Vector<D> place = block.in_cells(x);
+  for_each_stencil(interpolator, block, position, [&](std::size_t p, const auto& stencil) {
+    if (!planes[stencil.first].starts_near) return;
+    const Vector<D> place = block.in_cells(position[p]);
     for_each_row<D>(block, stencil, [&](const StencilRow<D>& row) {
       for (std::size_t i = 0; i < Interpolator::support; ++i) {
         const std::ptrdiff_t node = row.first + static_cast<std::ptrdiff_t>(i);
@@ -147,7 +146,7 @@ void for_each_parted(const Interpolator& interpolator, const GridBlock<D>& block
         visit(node, shape, Vector<D>(place - block.cells_to(node)));
       }
     });
-  }
+  });
 }
 
 }  // namespace tamp::components

@@ -56,7 +56,9 @@ class Gimp
         const int axis = static_cast<int>(k);
         const Lanes coordinate = each_lane([&](std::size_t l) { return x[std::min(p + l, x.size() - 1)][axis]; });
         const Lanes place = (coordinate - block.origin[axis]) * per_cell;
-        first += along(place, per_cell, stencil.weight[k], stencil.slope[k]) * static_cast<double>(block.strides[k]);
+        const Lanes node = along(place, per_cell, stencil.weight[k], stencil.slope[k]);
+        assert(!any(node < 0.0) && !any(node + 2.0 >= block.n_nodes[k]));
+        first += node * static_cast<double>(block.strides[k]);
       }
       batch.set(p, first, stencil);
     }

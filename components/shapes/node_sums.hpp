@@ -18,7 +18,7 @@ inline Quad quad(double a, double b, double c, double d)
 }
 
 /// The numbers of a node, with the vectors among them, which begin at `first_of_vectors`. Kernels take them four at a
-/// time: a vector does not reach from one four into the next unless there is no room otherwise.
+/// time, so that numbers which are worked on alike stand in one four.
 template <int D, int n_values, int... first_of_vectors>
 struct alignas(4 * sizeof(double)) NodeValues {
   static_assert(n_values % 4 == 0);
@@ -41,7 +41,8 @@ struct alignas(4 * sizeof(double)) NodeValues {
   void mirror(int axis) { ((values[first_of_vectors + axis] *= -1), ...); }
 };
 
-/// What particles give to a node: mass and momentum by their weights, the rest by derivatives of these.
+/// What particles give to a node: mass and momentum with the weights of particles, and from the second four on what
+/// goes with the derivatives of weights.
 template <int D>
 struct NodeSums : NodeValues<D, D == 2 ? 8 : 12, 1, 4, 4 + D> {
   static constexpr int at_force = 4, at_surface = 4 + D;

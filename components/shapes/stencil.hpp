@@ -90,6 +90,19 @@ template <class Interpolator, int D = Interpolator::dimension, class Visit>
   }
 }
 
+/// Calls `visit(p, stencil)` for one particle after the other.
+template <class Interpolator, int D = Interpolator::dimension, class Visit>
+[[gnu::always_inline]] inline void for_each_stencil(const Interpolator& interpolator, const GridBlock<D>& block,
+                                                    std::span<const Vector<D>> position, Visit&& visit)
+{
+  for_each_stencil_batch(interpolator, block, position, [&](std::size_t first, std::size_t size, const auto& stencils) {
+    for (std::size_t p = 0; p < size; ++p) {
+      const auto stencil = stencils[p];
+      visit(first + p, stencil);
+    }
+  });
+}
+
 /// A stencil with the weights' first moments about the particle, w[k][i] (x_i - x)_k [m], in place of their slopes. As
 /// weights reproduce linear functions, the particle is at the weighted mean of its nodes.
 template <int D, int Support>

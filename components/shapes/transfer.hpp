@@ -28,15 +28,16 @@ struct ParticleSources {
   std::span<const double> viscous_pressure;
 };
 
-/// What a particle gives to nodes, as fours of NodeSums: times the weight, and times each of its derivatives.
+/// What a particle gives to nodes: the first four of NodeSums times the weight, the second times its derivatives. In
+/// space the second has room for the x component of the surface gradient only.
 template <int D>
 struct ParticleShare {
-  Quad by_weight;
-  std::array<Quad, D> by_derivative;
+  Quad with_weight;
+  std::array<Quad, D> with_derivative;
 };
 
 template <int D>
-ParticleShare<D> share_of(const ParticleSources<D>& from, std::size_t p)
+[[gnu::always_inline]] inline ParticleShare<D> share_of(const ParticleSources<D>& from, std::size_t p)
 {
   const double m = from.mass[p], volume = from.volume[p];
   const Vector<D> momentum = m * from.velocity[p];
@@ -58,28 +59,24 @@ template <class Interpolator, int D = Interpolator::dimension>
 void particles_to_grid(const Interpolator& interpolator, const GridBlock<D>& block, const ParticleSources<D>& from,
                        NodeSums<D>* sums)
 {
-  for_each_stencil_batch(interpolator, block, from.position, [&](std::size_t first, std::size_t size, auto& stencils) {
-    for (std::size_t p = 0; p < size; ++p) {
-      const ParticleShare<D> share = share_of(from, first + p);
-      const auto stencil = stencils[p];
-      for_each_row<D>(block, stencil, [&](const StencilRow<D>& row) {
-        // What the nodes of the row have in common: what goes with their weights along x, and with the slopes of those.
-        const Quad by_weight = row.across * share.by_weight, by_slope = row.across * share.by_derivative[0];
-        Quad by_weight_across = row.slope_across[0] * share.by_derivative[1];
-        Quad surface_across = 0;
-        if constexpr (D == 3) {
-          by_weight_across += row.slope_across[1] * share.by_derivative[2];
-          surface_across = from.volume[first + p] * quad(row.slope_across[0], row.slope_across[1], 0, 0);
-        }
-        for (std::size_t i = 0; i < Interpolator::support; ++i) {
-          NodeSums<D>& node = sums[row.first + static_cast<std::ptrdiff_t>(i)];
-          const double weight = stencil.weight[0][i], slope = stencil.slope[0][i];
-          node.add(0, weight * by_weight);
-          node.add(4, weight * by_weight_across + slope * by_slope);
-          if constexpr (D == 3) node.add(8, weight * surface_across);
-        }
-      });
-    }
+  for_each_stencil(interpolator, block, from.position, [&](std::size_t p, const auto& stencil) {
+    const ParticleShare<D> share = share_of(from, p);
+    for_each_row<D>(block, stencil, [&](const StencilRow<D>& row) {
+      // What the nodes of the row have in common: what goes with their weights along x, and with the slopes of those.
+      const Quad first = row.across * share.with_weight, by_slope = row.across * share.with_derivative[0];
+      Quad second = row.slope_across[0] * share.with_derivative[1], third = 0;
+      if constexpr (D == 3) {
+        second += row.slope_across[1] * share.with_derivative[2];
+        third = from.volume[p] * quad(row.slope_across[0], row.slope_across[1], 0, 0);
+      }
+      for (std::size_t i = 0; i < Interpolator::support; ++i) {
+        NodeSums<D>& node = sums[row.first + static_cast<std::ptrdiff_t>(i)];
+        const double weight = stencil.weight[0][i], slope = stencil.slope[0][i];
+        node.add(0, weight * first);
+        node.add(4, weight * second + slope * by_slope);
+        if constexpr (D == 3) node.add(8, weight * third);
+      }
+    });
   });
 }
 
@@ -92,9 +89,9 @@ void add_gradient_momentum(const Interpolator& interpolator, const GridBlock<D>&
                            std::span<const Vector<D>> position, std::span<const double> mass,
                            std::span<const Matrix<D>> velocity_gradient, NodeSums<D>* sums)
 {
-  for (std::size_t p = 0; p < position.size(); ++p) {
+  for_each_stencil(interpolator, block, position, [&](std::size_t p, const auto& of_particle) {
     const Matrix<D> gradient = mass[p] * velocity_gradient[p];
-    const auto stencil = with_moments(interpolator.at(block, position[p]), block.cell_size);
+    const auto stencil = with_moments(of_particle, block.cell_size);
     for_each_row<D>(block, stencil, [&](const StencilRow<D>& row) {
       Vector<D> by_weight = Vector<D>::Zero();
       for (int k = 1; k < D; ++k) by_weight += row.slope_across[k - 1] * gradient.col(k);
@@ -104,7 +101,7 @@ void add_gradient_momentum(const Interpolator& interpolator, const GridBlock<D>&
                                                                       stencil.slope[0][i] * by_moment);
       }
     });
-  }
+  });
 }
 
 /// Adds to the nodes what particles bring of a pressure load, m_p P_p S_ip.
@@ -112,14 +109,13 @@ template <class Interpolator, int D = Interpolator::dimension>
 void add_pressure(const Interpolator& interpolator, const GridBlock<D>& block, std::span<const Vector<D>> position,
                   std::span<const ByFace<D>> pressure, PressureSums<D>* sums)
 {
-  for (std::size_t p = 0; p < position.size(); ++p) {
-    const auto stencil = interpolator.at(block, position[p]);
+  for_each_stencil(interpolator, block, position, [&](std::size_t p, const auto& stencil) {
     for_each_row<D>(block, stencil, [&](const StencilRow<D>& row) {
       for (std::size_t i = 0; i < Interpolator::support; ++i) {
         sums[row.first + static_cast<std::ptrdiff_t>(i)].add(stencil.weight[0][i] * row.across * pressure[p]);
       }
     });
-  }
+  });
 }
 
 /// Adds to the forces on nodes the particles' shares of forces on them, S_ip f_p [N].
@@ -127,15 +123,14 @@ template <class Interpolator, int D = Interpolator::dimension>
 void add_forces(const Interpolator& interpolator, const GridBlock<D>& block, std::span<const Vector<D>> position,
                 std::span<const Vector<D>> force, NodeSums<D>* sums)
 {
-  for (std::size_t p = 0; p < position.size(); ++p) {
-    const auto stencil = interpolator.at(block, position[p]);
+  for_each_stencil(interpolator, block, position, [&](std::size_t p, const auto& stencil) {
     for_each_row<D>(block, stencil, [&](const StencilRow<D>& row) {
       const Vector<D> by_weight = row.across * force[p];
       for (std::size_t i = 0; i < Interpolator::support; ++i) {
         sums[row.first + static_cast<std::ptrdiff_t>(i)].add_force(stencil.weight[0][i] * by_weight);
       }
     });
-  }
+  });
 }
 
 /// What the grid gives back to one particle.
@@ -154,33 +149,29 @@ void grid_to_particles(const Interpolator& interpolator, const GridBlock<D>& blo
                        const NodeMotion<D>* nodes, std::span<ParticleMotion<D>> motion)
 {
   constexpr int at_change = NodeMotion<D>::at_change;
-  for_each_stencil_batch(interpolator, block, position, [&](std::size_t first, std::size_t size, auto& stencils) {
-    for (std::size_t p = 0; p < size; ++p) {
-      // The changes of velocity stand beside the velocities in the plane, and in the next four in space.
-      Quad moved = 0, changed = 0;
-      std::array<Quad, D> slopes;
-      slopes.fill(0);
-      const auto stencil = stencils[p];
-      for_each_row<D>(block, stencil, [&](const StencilRow<D>& row) {
-        Quad by_weight = 0, change_by_weight = 0, by_slope = 0;
-        for (std::size_t i = 0; i < Interpolator::support; ++i) {
-          const NodeMotion<D>& node = nodes[row.first + static_cast<std::ptrdiff_t>(i)];
-          by_weight += stencil.weight[0][i] * node.four(0);
-          by_slope += stencil.slope[0][i] * node.four(0);
-          if constexpr (D == 3) change_by_weight += stencil.weight[0][i] * node.four(at_change);
-        }
-        moved += row.across * by_weight;
-        changed += row.across * change_by_weight;
-        slopes[0] += row.across * by_slope;
-        for (int k = 1; k < D; ++k) slopes[static_cast<std::size_t>(k)] += row.slope_across[k - 1] * by_weight;
-      });
-      ParticleMotion<D>& own = motion[first + p];
-      for (int i = 0; i < D; ++i) {
-        const auto component = static_cast<std::size_t>(i);
-        own.velocity[i] = moved[component];
-        own.velocity_change[i] = D == 2 ? moved[component + 2] : changed[component];
-        for (int k = 0; k < D; ++k) own.velocity_gradient(i, k) = slopes[static_cast<std::size_t>(k)][component];
+  for_each_stencil(interpolator, block, position, [&](std::size_t p, const auto& stencil) {
+    // The changes of velocity stand beside the velocities in the plane, and in the next four in space.
+    Quad moved = 0, changed = 0;
+    std::array<Quad, D> slopes;
+    slopes.fill(0);
+    for_each_row<D>(block, stencil, [&](const StencilRow<D>& row) {
+      Quad by_weight = 0, change_by_weight = 0, by_slope = 0;
+      for (std::size_t i = 0; i < Interpolator::support; ++i) {
+        const NodeMotion<D>& node = nodes[row.first + static_cast<std::ptrdiff_t>(i)];
+        by_weight += stencil.weight[0][i] * node.four(0);
+        by_slope += stencil.slope[0][i] * node.four(0);
+        if constexpr (D == 3) change_by_weight += stencil.weight[0][i] * node.four(at_change);
       }
+      moved += row.across * by_weight;
+      changed += row.across * change_by_weight;
+      slopes[0] += row.across * by_slope;
+      for (int k = 1; k < D; ++k) slopes[static_cast<std::size_t>(k)] += row.slope_across[k - 1] * by_weight;
+    });
+    for (int i = 0; i < D; ++i) {
+      const auto component = static_cast<std::size_t>(i);
+      motion[p].velocity[i] = moved[component];
+      motion[p].velocity_change[i] = D == 2 ? moved[component + 2] : changed[component];
+      for (int k = 0; k < D; ++k) motion[p].velocity_gradient(i, k) = slopes[static_cast<std::size_t>(k)][component];
     }
   });
 }
@@ -197,7 +188,7 @@ void own_stiffness(const Interpolator& interpolator, int n_per_axis, const GridB
 {
   const double across_half_cell = std::max(1.0, 0.5 * n_per_axis);
   const double n_alike = D == 2 ? across_half_cell : across_half_cell * across_half_cell;
-  for_each_stencil_batch(interpolator, block, position, [&](std::size_t first, std::size_t size, auto& stencils) {
+  for_each_stencil_batch(interpolator, block, position, [&](std::size_t first, std::size_t size, const auto& stencils) {
     for (std::size_t p = 0; p < size; p += n_lanes) {
       Lanes sum = 0.0;
       const auto stencil = stencils.lanes(p);

@@ -5,6 +5,7 @@
 
 #include "components/contact/friction.hpp"
 #include "components/contact/logistic_plane.hpp"
+#include "components/shapes/gimp.hpp"
 
 using namespace tamp;
 using namespace tamp::components;
