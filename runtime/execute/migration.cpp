@@ -42,10 +42,15 @@ const Label* laps_label(const TaskDeclaration& migration)
   return accesses.size() > 1 && accesses[1].mode == Mode::update ? accesses[1].label : nullptr;
 }
 
+double cells_from_lower(const Grid& grid, std::size_t axis, double x)
+{
+  return (x - grid.lower[axis]) / grid.cell_size;
+}
+
 /// Number of the cell in which a coordinate is, as far outside of the grid as it may be.
 double cell_along(const Grid& grid, std::size_t axis, double x)
 {
-  return std::floor((x - grid.lower[axis]) / grid.cell_size);
+  return std::floor(cells_from_lower(grid, axis, x));
 }
 
 void clear(ParticleParcel& parcel)
@@ -70,6 +75,19 @@ Migration::Migration(Warehouse& warehouse, const TaskDeclaration& declaration)
       for (std::size_t k = 0; k < parcels.size(); ++k) box(patch.neighbours[k], g).to_patch[patch.id] = &parcels[k];
     }
   }
+}
+
+/// Whether a place is in these cells of the grid: what holds for almost all particles, found out fast.
+bool Migration::stays(const IndexBox& cells, const std::byte* position) const
+{
+  const Grid& grid = warehouse_.layout().grid();
+  for (std::size_t k = 0; k < static_cast<std::size_t>(grid.dimension); ++k) {
+    double x = 0;
+    std::memcpy(&x, position + k * sizeof(double), sizeof(double));
+    const double place = cells_from_lower(grid, k, x);
+    if (!(place >= cells.lower[k] && place < cells.upper[k])) return false;
+  }
+  return true;
 }
 
 /// The patch that owns a place, put back into a periodic grid; -1 outside.
@@ -140,7 +158,9 @@ void Migration::send(int patch, int group)
   Index* const laps =
       laps_ == nullptr ? nullptr : reinterpret_cast<Index*>(value(warehouse_.field(*laps_, patch, group), 0));
   std::vector<Field*> fields;
+  const IndexBox& cells = warehouse_.layout()[patch].cells;
   for (std::size_t p = 0; p < n; ++p) {
+    if (stays(cells, value(positions, p))) continue;
     const int to = destination(value(positions, p), laps == nullptr ? uncounted : laps[p]);
     if (to == patch) continue;
     if (fields.empty()) fields = state_fields(warehouse_, patch, group);

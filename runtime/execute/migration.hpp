@@ -56,6 +56,7 @@ class Migration
     std::vector<std::size_t> leavers;
   };
 
+  bool stays(const IndexBox& cells, const std::byte* position) const;
   int destination(std::byte* position, Index& laps) const;
   double put_back(std::size_t axis, std::byte* coordinate, Index& laps) const;
   void pack(ParticleParcel& parcel, std::size_t particle, const std::vector<Field*>& fields) const;
