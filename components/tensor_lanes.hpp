@@ -12,9 +12,8 @@ namespace tamp
 {
 
 /// The tensors of particles from `first` on side by side; where they end, the last one again.
-template <int Rows, int Columns>
-[[gnu::always_inline]] inline Eigen::Matrix<Lanes, Rows, Columns> lanes_at(
-    std::span<const Eigen::Matrix<double, Rows, Columns>> tensors, std::size_t first)
+template <class Tensor, int Rows = Tensor::RowsAtCompileTime, int Columns = Tensor::ColsAtCompileTime>
+[[gnu::always_inline]] inline Eigen::Matrix<Lanes, Rows, Columns> lanes_at(std::span<Tensor> tensors, std::size_t first)
 {
   std::array<const double*, n_lanes> places;
   for (std::size_t l = 0; l < n_lanes; ++l) places[l] = tensors[std::min(first + l, tensors.size() - 1)].data();

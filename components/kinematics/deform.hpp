@@ -7,7 +7,7 @@
 
 #include "components/kinematics/strain_increment.hpp"
 #include "components/lanes.hpp"
-#include "components/particle_lanes.hpp"
+#include "components/tensor_lanes.hpp"
 #include "components/tensors.hpp"
 
 namespace tamp::components
@@ -49,11 +49,11 @@ std::optional<std::size_t> deform(const DeformedParticles<D>& particles)
   const std::size_t n = particles.g.size();
   for (std::size_t first = 0; first < n; first += n_lanes) {
     const auto step =
-        unchecked_increment<D, Lanes>(lanes_from(particles.old_gradient, first), lanes_from(particles.g, first));
-    set_from(step.deformation_gradient, first, particles.deformation_gradient);
-    set_from(lanes_from(particles.old_volume, first) * step.volume_ratio, first, particles.volume);
-    set_from(rotated<D>(lanes_from(particles.old_stress, first), step.rotation_increment), first, particles.stress);
-    set_from(step.strain_increment, first, particles.strain_increment);
+        unchecked_increment<D, Lanes>(lanes_at(particles.old_gradient, first), lanes_at(particles.g, first));
+    set_lanes(particles.deformation_gradient, first, step.deformation_gradient);
+    set_lanes(particles.volume, first, lanes_at(particles.old_volume, first) * step.volume_ratio);
+    set_lanes(particles.stress, first, rotated<D>(lanes_at(particles.old_stress, first), step.rotation_increment));
+    set_lanes(particles.strain_increment, first, step.strain_increment);
     const auto is_done = step.admissible() && step.rotates_to_round_off();
     if (!any(!is_done)) continue;
     for (std::size_t l = 0; l < std::min(n_lanes, n - first); ++l) {

@@ -153,13 +153,12 @@ class CapBatch
 
  private:
   using Tensors = SymmetricTensor<D, Lanes>;
-  using Stresses = std::span<const SymmetricTensor<D>>;
 
   /// From particle `first`, number 0 of the tile, on.
   void take_in(std::size_t first, const Pack& pack)
   {
     const std::size_t begin = first + pack.of[0];
-    const Tensors strain = lanes_at(batch_.strain_increment, begin), stress = lanes_at(Stresses(batch_.stress), begin);
+    const Tensors strain = lanes_at(batch_.strain_increment, begin), stress = lanes_at(batch_.stress, begin);
     const auto state = [&](double CapState::*member) {
       return each_lane([&](std::size_t l) { return batch_.old_state[first + pack.of[l]].*member; });
     };
@@ -196,7 +195,7 @@ class CapBatch
     const auto [now, error] = tile_.at(pack);
     const Mask<Lanes> found = is_finite(error), within = is_in_range(now);
     const Tensors e = deviator(lanes_at(batch_.strain_increment, begin));
-    const Tensors old = lanes_at(Stresses(batch_.stress), begin), s = deviator(old);
+    const Tensors old = lanes_at(batch_.stress, begin), s = deviator(old);
     Tensors stress = now.of_stress * s + now.of_strain * e;
     for (int k = 0; k < n_symmetric<D>; ++k) {
       stress[k] = select(found, k < 3 ? stress[k] - now.pressure : stress[k], old[k]);

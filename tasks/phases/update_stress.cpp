@@ -7,7 +7,7 @@
 #include "components/errors.hpp"
 #include "components/loads/time_step.hpp"
 #include "components/materials/state_columns.hpp"
-#include "components/particle_lanes.hpp"
+#include "components/tensor_lanes.hpp"
 #include "tasks/labels.hpp"
 #include "tasks/phases/phases.hpp"
 #include "tasks/simulation_error.hpp"
@@ -15,9 +15,7 @@
 namespace tamp::tasks
 {
 
-using components::lanes_from;
 using components::MaterialBatch;
-using components::set_from;
 using runtime::TaskContext;
 
 namespace
@@ -91,7 +89,7 @@ void account(const Method<D>& method, double dt, const Data& data, std::size_t f
   const std::optional<components::ArtificialViscosity>& viscosity = method.viscosity;
   BatchAccount account;
   for (std::size_t k = 0; k < n; k += n_lanes) {
-    const auto lanes = [n, k](const auto& values) { return lanes_from(std::span(values).first(n), k); };
+    const auto lanes = [n, k](const auto& values) { return lanes_at(std::span(values).first(n), k); };
     const Lanes volume = lanes(volumes), old_volume = lanes(old_volumes);
     const SymmetricTensor<D, Lanes> strain = lanes(strains);
     const components::StiffParticle<D, Lanes> p{.density = lanes(mass) / volume,
@@ -101,20 +99,20 @@ void account(const Method<D>& method, double dt, const Data& data, std::size_t f
                                                 .volume_rate = trace(strain) / dt,
                                                 .own_stiffness = lanes(own_stiffness)};
     const Lanes q = viscosity ? viscosity->pressure(p.density, p.bulk_modulus, p.volume_rate, method.cell_size) : 0.0;
-    set_from(q, k, viscous_pressure);
+    set_lanes(viscous_pressure, k, q);
 
     // Work at the middle of the step; the viscous pressure that acted was that of the step before.
     const Lanes mid_volume = 0.5 * (old_volume + volume);
     const SymmetricTensor<D, Lanes> mid_stress = Lanes(0.5) * (lanes(old_stress) + lanes(stress));
     const Lanes plastic = lanes(answer.plastic_work) * volume;
-    set_from(double_dot(mid_stress, strain) * mid_volume - plastic, k, account.elastic);
-    set_from(plastic, k, account.plastic);
-    set_from(lanes(old_viscous_pressure) * (old_volume - volume), k, account.viscous);
-    set_from(method.time_step_rule == StepRule::published
-                 ? components::published_time_step<D>(method.cell_size, p.wave_speed(), p.velocity)
-                 : components::viscous_time_step<D>(method.cell_size, p,
-                                                    viscosity.value_or(components::ArtificialViscosity{0, 0})),
-             k, account.stable_step);
+    set_lanes(account.elastic, k, double_dot(mid_stress, strain) * mid_volume - plastic);
+    set_lanes(account.plastic, k, plastic);
+    set_lanes(account.viscous, k, lanes(old_viscous_pressure) * (old_volume - volume));
+    set_lanes(account.stable_step, k,
+              method.time_step_rule == StepRule::published
+                  ? components::published_time_step<D>(method.cell_size, p.wave_speed(), p.velocity)
+                  : components::viscous_time_step<D>(method.cell_size, p,
+                                                     viscosity.value_or(components::ArtificialViscosity{0, 0})));
   }
   account.add_to(data[step_totals], n);
 }
