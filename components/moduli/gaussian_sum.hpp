@@ -106,27 +106,38 @@ class GaussianSum
   std::vector<Tile> tiles_;             // the same, rounded
 };
 
-// All of these go by Horner's rule, first over the powers of y: for one point after the other, all powers of x at a
-// time. Then over those of x, for all points at a time.
+// First the sums over the powers of y, for one point after the other and all powers of x at a time; then those over the
+// powers of x, for all points at a time; by Horner's rule. In y, where each step would wait for the one before, even
+// and odd powers go side by side: e(v^2) + v o(v^2).
 
 inline void GaussianSum::Tile::sum(double offset, Row& sums) const
 {
   const auto row = [&](std::size_t n) { return RowInRegisters(rows[n].data(), std::experimental::element_aligned); };
-  RowInRegisters sum = row(n_terms_y - 1);
-  unrolled<n_terms_y - 1>([&](auto i) { sum = sum * offset + row(n_terms_y - 2 - i); });
-  sum.copy_to(sums.data(), std::experimental::element_aligned);
+  const double square = offset * offset;
+  RowInRegisters even = row(n_terms_y - 2), odd = row(n_terms_y - 1);
+  unrolled<n_terms_y / 2 - 1>([&](auto i) {
+    constexpr std::size_t n = n_terms_y - 4 - 2 * i;
+    even = even * square + row(n);
+    odd = odd * square + row(n + 1);
+  });
+  (even + offset * odd).copy_to(sums.data(), std::experimental::element_aligned);
 }
 
 inline void GaussianSum::Tile::sum(double offset, Row& sums, Row& by_y) const
 {
   const auto row = [&](std::size_t n) { return RowInRegisters(rows[n].data(), std::experimental::element_aligned); };
-  RowInRegisters slope = row(n_terms_y - 1), sum = slope * offset + row(n_terms_y - 2);
-  unrolled<n_terms_y - 2>([&](auto i) {
-    slope = slope * offset + sum;
-    sum = sum * offset + row(n_terms_y - 3 - i);
+  const double square = offset * offset;
+  RowInRegisters even_slope = row(n_terms_y - 2), even = even_slope * square + row(n_terms_y - 4);
+  RowInRegisters odd_slope = row(n_terms_y - 1), odd = odd_slope * square + row(n_terms_y - 3);
+  unrolled<n_terms_y / 2 - 2>([&](auto i) {
+    constexpr std::size_t n = n_terms_y - 6 - 2 * i;
+    even_slope = even_slope * square + even;
+    odd_slope = odd_slope * square + odd;
+    even = even * square + row(n);
+    odd = odd * square + row(n + 1);
   });
-  sum.copy_to(sums.data(), std::experimental::element_aligned);
-  slope.copy_to(by_y.data(), std::experimental::element_aligned);
+  (even + offset * odd).copy_to(sums.data(), std::experimental::element_aligned);
+  (odd + 2 * offset * (even_slope + offset * odd_slope)).copy_to(by_y.data(), std::experimental::element_aligned);
 }
 
 template <class Number>

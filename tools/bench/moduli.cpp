@@ -178,7 +178,8 @@ Result result_of(const std::vector<Contest>& contests, double arithmetic_ns)
   Result result;
   result.json = nlohmann::ordered_json::array();
   result.text = fmt::format(
-      "moduli: {} states, {} at once, median of {} rounds; a multiplication and an addition {:.3f} ns at best\n"
+      "moduli: {} states, {} at once, median of {} rounds; a multiplication and an addition {:.3f} ns where none "
+      "waits\n"
       "  {:<14}{:<6}{:>9}{:>10}{:>10}{:>10}{:>14}{:>10}{:>11}\n",
       n_states, n_lanes, moduli_rounds, arithmetic_ns, "model", "form", "batch ns", "single ns", "plain ns", "of table",
       "multiply-adds", "of bound", "max error");
