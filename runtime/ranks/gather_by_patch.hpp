@@ -12,8 +12,8 @@
 namespace tamp::runtime
 {
 
-/// Brings bytes that belong to patches to the first rank, into `all`, patch after patch: `n_bytes[p]` of patch p, as all
-/// ranks know. `own` has those of this rank's patches, in the order of the patches. Collective.
+/// Brings bytes that belong to patches to the first rank, into `all`, patch after patch: `n_bytes[p]` of patch p, as
+/// all ranks know. `own` has those of this rank's patches, in the order of the patches. Collective.
 void gather_by_patch(std::span<const std::byte> own, std::span<std::byte> all, std::span<const std::uint64_t> n_bytes,
                      const PatchLayout& layout, const Communicator& communicator);
 

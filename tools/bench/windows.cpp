@@ -81,11 +81,11 @@ void add_recording_ratios(tasks::Simulation& simulation, long n_steps, std::vect
 }
 
 /// A twentieth of the run, or what takes two seconds if that is less.
-long steps_of_window(const StepsTime& whole)
+long steps_of_window(const StepsTime& whole, double n_particles)
 {
   constexpr long parts = 20;
-  constexpr double seconds = 2;
-  const auto in_time = static_cast<long>(seconds / whole.wall * static_cast<double>(whole.n_steps));
+  constexpr double nanoseconds = 2e9;
+  const auto in_time = static_cast<long>(nanoseconds / (whole.ns * n_particles));
   return std::max(std::min(whole.n_steps / parts, in_time), 1L);
 }
 
@@ -229,7 +229,7 @@ class WindowBenchmark
     const ScratchFolder folder;
     look_at_machine();
     whole_ = run_whole(scene_, windows_of_run, folder.path);
-    n_steps_ = options_.n_steps > 0 ? options_.n_steps : steps_of_window(whole_.time);
+    n_steps_ = options_.n_steps > 0 ? options_.n_steps : steps_of_window(whole_.time, particles_of(scene_));
     for (const WindowStart& start : whole_.starts) {
       look_at_machine();
       windows_.push_back(measured(scene_, start, n_steps_, options_.n_rounds));

@@ -96,9 +96,10 @@ CLI::App* add_bench_command(CLI::App& app)
           "measured")
       ->check(CLI::PositiveNumber);
   command
-      ->add_option("--scene", options->windows.scene,
-                   "of punch and projectile: run this scene instead of inputs/punch/quick.json, which takes half a "
-                   "minute, or inputs/uxo/quick.json, which takes four")
+      ->add_option(
+          "--scene", options->windows.scene,
+          "of punch and projectile: run this scene instead of inputs/punch/quick.json, which takes a minute, or "
+          "inputs/uxo/quick.json, which takes five")
       ->check(CLI::ExistingFile);
   command
       ->add_option("--steps", options->windows.n_steps,

@@ -51,8 +51,8 @@ TEST_CASE("the benchmark of a scene tells windows from the whole, phases, bounds
                  json.at("multiply_add_gop_per_s").get<double>()));
     CHECK(part.at("ratio_to_arithmetic_bound") > 1.0);
   }
-  // id, body, reference position, mass, laps or not, position, velocity, deformation gradient, volume, stress and so on:
-  // all are numbers of eight bytes but the laps.
+  // id, body, reference position, mass, laps or not, position, velocity, deformation gradient, volume, stress and so
+  // on: all are numbers of eight bytes but the laps.
   const auto& bytes = json.at("bytes").at("of_particles").at(0);
   CHECK(bytes.at("state") >= 8 * (1 + 1 + 3 + 1 + 3 + 3 + 9 + 1 + 6));
   CHECK(bytes.at("kept_state") > bytes.at("state"));
@@ -68,7 +68,8 @@ TEST_CASE("a benchmark of a scene that is not there, or of windows without steps
   CHECK(tamp_with("bench punch --steps 0").exit_code == 2);
 }
 
-TEST_CASE("a thread multiplies and adds more than once in a microsecond, and less than a thousand times in a nanosecond")
+TEST_CASE(
+    "a thread multiplies and adds more than once in a microsecond, and less than a thousand times in a nanosecond")
 {
   const double rate = tamp::tools::bench::multiplies_and_adds_per_second();
 
