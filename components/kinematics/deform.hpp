@@ -29,9 +29,9 @@ struct DeformedParticles {
   std::span<SymmetricTensor<D>> strain_increment;
 };
 
-/// One particle by itself; false if its step is not admissible.
+/// One particle by itself; false if its step is not admissible. Few need it, so that it stays out of the loop below.
 template <int D>
-bool deform_one(const DeformedParticles<D>& particles, std::size_t p)
+[[gnu::noinline]] bool deform_one(const DeformedParticles<D>& particles, std::size_t p)
 {
   const StrainIncrement<D> step = strain_increment<D>(particles.old_gradient[p], particles.g[p]);
   particles.deformation_gradient[p] = step.deformation_gradient;
@@ -42,9 +42,10 @@ bool deform_one(const DeformedParticles<D>& particles, std::size_t p)
 }
 
 /// Deforms particles, as many at once as the processor has lanes, and one by one where lanes will not do; gives the
-/// first whose step is not admissible. What a particle gets does not depend on those around it.
+/// first whose step is not admissible. What a particle gets does not depend on those around it. Flattened, as what it
+/// calls for every few particles would otherwise go through memory.
 template <int D>
-std::optional<std::size_t> deform(const DeformedParticles<D>& particles)
+[[gnu::flatten]] std::optional<std::size_t> deform(const DeformedParticles<D>& particles)
 {
   const std::size_t n = particles.g.size();
   for (std::size_t first = 0; first < n; first += n_lanes) {
