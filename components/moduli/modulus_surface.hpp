@@ -39,8 +39,7 @@ class ModulusSurface
   }
   Lanes rate_modulus(const Lanes& pressure, const Lanes& elastic, const Lanes& plastic) const
   {
-    if (pressure_modulus_)
-      return each_lane([&](std::size_t l) { return (*pressure_modulus_)(pressure[l], plastic[l]); });
+    if (pressure_modulus_) return (*pressure_modulus_)(pressure, plastic);
     return surface_.at(elastic, plastic).bulk_modulus;
   }
   double modulus_by_plastic(double elastic, double plastic) const
