@@ -19,7 +19,8 @@ TEST_CASE(
     for (const double part : {0.01, 0.5, 0.99}) {
       const double x = start + part * (end - start);
       REQUIRE(buckets.of(x) == b);
-      REQUIRE(buckets.place(x) == Approx(part).epsilon(1e-6));
+      // x itself is only known to its round-off, which narrow buckets feel.
+      REQUIRE(buckets.place(x) == Approx(part).epsilon(1e-12).margin(4e-15 / (end - start)));
     }
   }
 }

@@ -18,7 +18,8 @@ TEST_CASE("the terms of artificial viscosity are the first and second power of t
 {
   const ArtificialViscosity only_linear{0.2, 0}, only_quadratic{0, 10};
 
-  CHECK(only_linear.pressure<double>(1600, 4e8, -200, 0.002) == Approx(2 * only_linear.pressure<double>(1600, 4e8, -100, 0.002)));
+  CHECK(only_linear.pressure<double>(1600, 4e8, -200, 0.002) ==
+        Approx(2 * only_linear.pressure<double>(1600, 4e8, -100, 0.002)));
   CHECK(only_quadratic.pressure<double>(1600, 4e8, -200, 0.002) == Approx(1600 * 10 * 0.4 * 0.4));
 }
 

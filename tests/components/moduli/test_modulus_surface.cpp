@@ -8,6 +8,7 @@
 
 using tamp::components::ElasticModel;
 using tamp::components::ElasticPoint;
+using tamp::components::ElasticPointOf;
 using tamp::components::ModulusSurface;
 using tamp::components::StrainRange;
 using tamp::components::SurfaceNode;
@@ -43,8 +44,16 @@ std::vector<State> states(int n)
 
 /// K = 1 GPa (1 + ep), by the strains alone.
 struct Straight {
-  ElasticPoint at(double e, double ep) const { return {1e9 * (1 + ep) * e, 1e9 * (1 + ep), 1e9 * e}; }
-  double rate_modulus(double, double e, double ep) const { return at(e, ep).bulk_modulus; }
+  template <class Number>
+  ElasticPointOf<Number> at(const Number& e, const Number& ep) const
+  {
+    return {1e9 * (1.0 + ep) * e, 1e9 * (1.0 + ep), 1e9 * e};
+  }
+  template <class Number>
+  Number rate_modulus(const Number&, const Number& e, const Number& ep) const
+  {
+    return at(e, ep).bulk_modulus;
+  }
   double modulus_by_plastic(double, double) const { return 1e9; }
   bool in_range(double e, double ep) const { return e < 0.05 && ep < 0.1; }
   bool rate_in_range(double, double e, double ep) const { return in_range(e, ep); }
@@ -53,6 +62,7 @@ struct Straight {
 
 /// A model whose pressure, asked for one state, is a little off its integral along a line.
 struct Rough : Straight {
+  using Straight::at;
   ElasticPoint at(double e, double ep) const
   {
     const ElasticPoint point = Straight::at(e, ep);
