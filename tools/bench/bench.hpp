@@ -31,8 +31,8 @@ struct WindowOptions {
 Result windows(const std::string& name, const WindowOptions& options);
 
 /// Time for K of one state (rate form) and for p and K (state form), in a batch of 4096 spread over the data, in lanes
-/// and one by one: Table, SVR, MLP, and SVR and MLP compiled, each against its definition evaluated plainly, and against
-/// its multiplications and additions at the processor's best. The plain network gives K alone.
+/// and one by one: Table, SVR, MLP, and SVR and MLP compiled, each against its definition evaluated plainly, and
+/// against its multiplications and additions at the processor's best. The plain network gives K alone.
 Result moduli(const std::filesystem::path& material);
 
 struct TaskOptions {
