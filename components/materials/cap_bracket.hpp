@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <optional>
 
+#include "components/materials/cap_vertex.hpp"
 #include "components/materials/return_point.hpp"
 
 namespace tamp::components::cap_return
@@ -46,12 +46,17 @@ class Bracketed
     Residual low = trial;
     double apex = (at.pressure - at.crush_pressure) / (at.crush_slope - at.pressure_slope);
     if (at.pressure > at.crush_pressure) {
-      apex = where([](const PathPoint& p) { return p.pressure - p.crush_pressure; },
-                   [](const PathPoint& p) { return p.pressure_slope - p.crush_slope; }, at);
+      const RootOf<double> root = falling_root(
+          path_, at, true, [](const PathPoint& p) { return p.pressure - p.crush_pressure; },
+          [](const PathPoint& p) { return p.pressure_slope - p.crush_slope; });
+      n_evaluations_ += static_cast<int>(root.n_evaluations);
+      apex = root.d;
       low = residual(apex);
       const double excess = low.at.pressure - low.at.crush_pressure;
       if (!(low.at.trial_sqrt_j2 > no_shear * low.at.crush_pressure)) {
-        return hydrostatic_point(ReturnStatus::apex, low, apex, excess);
+        // All the deviator goes.
+        const double multiplier = low.at.trial_sqrt_j2 / low.at.shear_modulus, left = excess / -low.at.pressure_slope;
+        return {ReturnStatus::apex, apex, low.at, 0, multiplier, low.normal, left, n_evaluations_};
       }
       // Round-off may have put the apex just inside: with so little shear that is the answer.
       if (low.value >= 0) return surface_point(low, n_evaluations_);
@@ -70,14 +75,15 @@ class Bracketed
   /// Pressure below the vertex: the vertex if the trial lies in its normal cone, otherwise dilation on the cone.
   ReturnPoint from_tension(const Residual& trial)
   {
-    const double vertex = surface_.vertex_pressure();
-    const double d = where([vertex](const PathPoint& p) { return p.pressure - vertex; },
-                           [](const PathPoint& p) { return p.pressure_slope; }, trial.at);
-    Residual high = residual(d);
-    const double at_vertex = d + high.at.trial_sqrt_j2 / high.at.shear_modulus * surface_.vertex_slope();
+    const VertexReturnOf<double> vertex = return_to_vertex(surface_, path_, trial.at, true);
+    n_evaluations_ += static_cast<int>(vertex.n_evaluations);
+    const double d = vertex.end.d, at_vertex = vertex.value;
     if (at_vertex <= 0) {
-      return hydrostatic_point(ReturnStatus::tension_vertex, high, d, high.at.pressure - vertex);
+      ReturnPoint point = vertex.point(surface_);
+      point.n_evaluations = n_evaluations_;
+      return point;
     }
+    Residual high = vertex.end;
     high.value = at_vertex;
     double step = at_vertex;
     Residual low = residual(d - step);
@@ -96,36 +102,9 @@ class Bracketed
     return evaluate(surface_, d, path_(d));
   }
 
-  /// All the deviator goes: the apex on the hydrostat, or the tension vertex.
-  ReturnPoint hydrostatic_point(ReturnStatus status, const Residual& r, double d, double excess) const
-  {
-    return {status,        d, r.at, 0, r.at.trial_sqrt_j2 / r.at.shear_modulus, r.normal, excess / -r.at.pressure_slope,
-            n_evaluations_};
-  }
-
   ReturnPoint failed(const Residual& r) const
   {
     return {ReturnStatus::failed, r.d, r.at, r.at.trial_sqrt_j2, 0, r.normal, r.value, n_evaluations_};
-  }
-
-  /// d at which a falling, smooth function of the path is zero: Newton kept inside a bracket.
-  template <class Value, class Slope>
-  double where(Value value, Slope slope, const PathPoint& start)
-  {
-    PathPoint at = start;
-    double d = 0, low = -std::numeric_limits<double>::infinity(), high = -low;
-    for (int i = 0; i < 60; ++i) {
-      const double v = value(at);
-      (v > 0 ? low : high) = d;
-      double next = d - v / slope(at);
-      if (!(next >= low && next <= high)) next = 0.5 * (low + high);
-      const bool settled = std::abs(next - d) <= 0.01 * strain_tolerance + 1e-15 * std::abs(d);
-      d = next;
-      if (settled) break;
-      ++n_evaluations_;
-      at = path_(d);
-    }
-    return d;
   }
 
   /// Chandrupatla's method (1997) in u = sqrt(d - origin) where the bracket lies above `origin`, else in d itself.

@@ -78,9 +78,9 @@ class CapIntegrator
     const Combination all{0, 1};
     if (trial.pressure < step_.yield().vertex_pressure()) {
       // At the vertex the surface has no one normal, and a return alone is exact.
-      const ReturnPoint point = return_alone(path, deviatoric, whole, trial);
-      if (point.status == ReturnStatus::tension_vertex) {
-        return step_.after_flow(old, strain, size, FlowStart{}, Combination{1, 0}, all, point);
+      const VertexReturn back = vertex_return(path, deviatoric, whole, trial);
+      if (back.value <= 0) {
+        return step_.after_flow(old, strain, size, FlowStart{}, Combination{1, 0}, all, back.point(step_.yield()));
       }
     }
     FlowStart start = flow_start(step_.yield(), old, deviatoric, trial);
@@ -98,6 +98,20 @@ class CapIntegrator
     }
     const ReturnPoint point = return_alone(path, deviatoric, whole, trial);
     return step_.after_flow(old, strain, size, start, along, all, point);
+  }
+
+  using VertexReturn = cap_return::VertexReturnOf<double>;
+
+  /// The return to the tension vertex. The rate form returns twice, to know the middle of the step.
+  template <class MakePath, class Path>
+  VertexReturn vertex_return(const MakePath& path, const Deviatoric& deviatoric, const Path& whole,
+                             const PathPoint& trial)
+  {
+    VertexReturn back = cap_return::return_to_vertex(step_.yield(), whole, trial, true);
+    count_path(static_cast<int>(back.n_evaluations));
+    if (step_.form() == ElasticUpdate::state || !(back.value <= 0)) return back;
+    const Path middle = path(deviatoric, 0, 0.5 * back.end.d);
+    return cap_return::return_to_vertex(step_.yield(), middle, middle(0), true);
   }
 
   /// All the flow along the normal at the end. The rate form returns twice, to know the middle of the step.

@@ -4,14 +4,15 @@
 
 #include "components/materials/cap_newton.hpp"
 #include "components/materials/cap_step.hpp"
+#include "components/materials/cap_vertex.hpp"
 #include "components/numbers.hpp"
 
 namespace tamp::components
 {
 
 /// A substep of as many particles of sand side by side as a register holds, on the ways that most of them go: elastic,
-/// or on the cone or the cap by Newton's method from the flow at the start. The formulas are CapIntegrator's, and so
-/// are the bits. A particle that leaves these ways is `left` to it.
+/// to the tension vertex, or on the cone or the cap by Newton's method from the flow at the start. The formulas are
+/// CapIntegrator's, and so are the bits. A particle that leaves these ways is `left` to it.
 template <class Model>
 class CapLanes
 {
@@ -23,10 +24,12 @@ class CapLanes
 
   explicit CapLanes(const CapStep<Model>& step) : step_(step) {}
 
-  /// Where a particle stands, and so where it likely flows.
-  Some is_on_cap(const Particles& at) const
+  /// Where a particle likely goes, from where it is: 0 for the tension vertex, 1 for the cone, 2 for the cap.
+  static constexpr std::size_t n_ways = 3;
+  Lanes likely_way(const Particles& from) const
   {
-    return at.pressure > step_.yield().kappa(step_.crush_pressure(at.plastic_volumetric));
+    const Some on_cap = from.pressure > step_.yield().kappa(step_.crush_pressure(from.plastic_volumetric));
+    return select(from.pressure < 0.0, Lanes(0.0), select(on_cap, Lanes(2.0), Lanes(1.0)));
   }
 
   struct Outcome {
@@ -38,28 +41,61 @@ class CapLanes
   {
     const Lanes compaction = size * strain.compaction;
     if (step_.form() == ElasticUpdate::state) {
-      return substep_along(old, strain, size, [&](const Deviatoric& deviatoric, const Lanes& d) {
+      return substep_along(old, strain, size, [&](const Deviatoric& deviatoric, const Lanes& d, const Lanes&) {
         return step_.state_path(old, compaction, deviatoric, d);
       });
     }
-    return substep_along(old, strain, size, [&](const Deviatoric& deviatoric, const Lanes& d) {
-      return step_.rate_path(old, compaction, deviatoric, d, d);
+    return substep_along(old, strain, size, [&](const Deviatoric& deviatoric, const Lanes& d, const Lanes& d_middle) {
+      return step_.rate_path(old, compaction, deviatoric, d, d_middle);
     });
   }
 
  private:
   using Deviatoric = DeviatoricTrialOf<Lanes>;
 
-  /// `path(deviatoric, d)` is the path that is left after a plastic volumetric strain d.
+  bool asks_along_path() const { return step_.form() == ElasticUpdate::state; }
+
+  /// `path(deviatoric, d, d_middle)` is the path that is left after a plastic volumetric strain d ahead of the return,
+  /// where it is d_middle in the middle of the step.
   template <class MakePath>
   Outcome substep_along(const Particles& old, const Strains& strain, const Lanes& size, const MakePath& path) const
   {
     const Deviatoric deviatoric = step_.deviatoric(old, strain, size);
-    const Point trial = path(deviatoric, Lanes(0.0))(Lanes(0.0));
+    const auto whole = path(deviatoric, Lanes(0.0), Lanes(0.0));
+    const Point trial = whole(Lanes(0.0));
     const Some elastic = inside(step_.yield(), trial);
     Outcome outcome{step_.after_elastic(old, strain, size, trial), Some(false), 1.0};
-    if (!all_of(elastic)) flow(path, old, strain, size, deviatoric, trial, !elastic, outcome);
+    Some flowing = !elastic;
+    const Some tension = trial.pressure < step_.yield().vertex_pressure();
+    if (any(tension)) {
+      flowing = flowing && !part(path, old, strain, size, deviatoric, whole, trial, tension, outcome);
+    }
+    if (any(flowing)) flow(path, old, strain, size, deviatoric, trial, flowing, outcome);
     return outcome;
+  }
+
+  /// All of the flow is the return's, to the tension vertex, for the lanes in its normal cone, which are answered. The
+  /// rate form returns twice, to know the middle of the step.
+  template <class MakePath, class Path>
+  Some part(const MakePath& path, const Particles& old, const Strains& strain, const Lanes& size,
+            const Deviatoric& deviatoric, const Path& whole, const Point& trial, const Some& tension,
+            Outcome& outcome) const
+  {
+    const YieldSurface& yield = step_.yield();
+    cap_return::VertexReturnOf<Lanes> back = cap_return::return_to_vertex(yield, whole, trial, tension);
+    Some at_vertex = tension && back.value <= 0.0;
+    where(tension, outcome.n_evaluations) += asks_along_path() ? back.n_evaluations : Lanes(0.0);
+    if (!asks_along_path()) {
+      where(at_vertex, outcome.n_evaluations) += 1.0;
+      const Path middle = path(deviatoric, Lanes(0.0), Lanes(0.5 * back.end.d));
+      back = cap_return::return_to_vertex(yield, middle, middle(Lanes(0.0)), at_vertex);
+      at_vertex = at_vertex && back.value <= 0.0;
+    }
+    const CombinationOf<Lanes> stress{1.0, 0.0}, all{0.0, 1.0};
+    const CapOutcomeOf<Lanes> end =
+        step_.after_flow(old, strain, size, FlowStartOf<Lanes>{}, stress, all, back.point(yield));
+    assign_where(at_vertex, end, outcome.end);
+    return at_vertex;
   }
 
   template <class MakePath>
@@ -69,11 +105,10 @@ class CapLanes
     const YieldSurface& yield = step_.yield();
     const FlowStartOf<Lanes> start = flow_start(yield, old, deviatoric, trial);
     const CombinationOf<Lanes> along = start.along(trial.shear_modulus), left = start.left(along);
-    const auto rest = path(left.trial(deviatoric), start.plastic_volumetric);
+    const auto rest = path(left.trial(deviatoric), start.plastic_volumetric, start.plastic_volumetric);
     const Point rest_trial = rest(Lanes(0.0));
 
-    const Some returns = flowing && start.multiplier > 0.0 && trial.pressure >= yield.vertex_pressure() &&
-                         rest_trial.pressure >= yield.vertex_pressure();
+    const Some returns = flowing && start.multiplier > 0.0 && rest_trial.pressure >= yield.vertex_pressure();
     const Some on_cone = start.guess.sine >= 1.0;
     Return back;
     return_on_cone(rest, rest_trial, start.guess, returns && on_cone, back);
@@ -81,13 +116,13 @@ class CapLanes
     const ReturnPointOf<Lanes> point = cap_return::surface_point(back.end, 0);
     assign_where(flowing, step_.after_flow(old, strain, size, start, along, left, point), outcome.end);
     outcome.left = flowing && !back.found;
-    where(flowing, outcome.n_evaluations) = step_.form() == ElasticUpdate::state ? back.n_evaluations : Lanes(2.0);
+    where(flowing, outcome.n_evaluations) += asks_along_path() ? back.n_evaluations : Lanes(1.0);
   }
 
   struct Return {
     cap_return::ResidualOf<Lanes> end{};
     Some found{false};
-    Lanes n_evaluations = 2.0;
+    Lanes n_evaluations = 1.0;
   };
 
   /// Newton's method for the lanes that are `active`, each until it has converged.

@@ -28,23 +28,23 @@ class CapTile
     old_.set(pack, particles);
     strain_.set(pack, strains);
     if (!all_of(sound)) tried_.set(pack, {particles, Lanes(std::numeric_limits<double>::infinity())});
-    const Mask<Lanes> on_cap = lanes_.is_on_cap(particles);
+    const auto way = whole_parts(lanes_.likely_way(particles));
     for (std::size_t l = 0; l < pack.n; ++l) {
       progress_[pack.of[l]] = {};
-      (on_cap[l] ? on_cap_ : on_cone_).add_if(sound[l], pack.of[l]);
+      waiting_[static_cast<std::size_t>(way[l])].add_if(sound[l], pack.of[l]);
     }
   }
 
   /// Brings all that were taken in to the end of their step.
   void advance()
   {
-    while (!(on_cone_.empty() && on_cap_.empty())) {
-      for (List* list : {&on_cone_, &on_cap_}) {
-        list->for_each_pack([&](const Pack& pack) { substep(pack); });
+    for (List& list : waiting_) {
+      while (!list.empty()) {
+        list.for_each_pack([&](const Pack& pack) { substep(pack); });
         left_.for_each(
             [&](std::size_t i) { tried_.set(i, one_.substep(old_.at(i), strain_.at(i), progress_[i].size)); });
         left_.clear();
-        list->keep_if([&](std::size_t i) { return !has_ended(i); });
+        list.keep_if([&](std::size_t i) { return !has_ended(i); });
       }
     }
   }
@@ -83,7 +83,8 @@ class CapTile
   Columns<CapStrainOf, size> strain_;
   Columns<CapOutcomeOf, size> tried_;
   std::array<CapProgress, size> progress_;
-  List on_cone_, on_cap_;
+  /// On their way, those that likely go the same one together.
+  std::array<List, CapLanes<Model>::n_ways> waiting_;
   /// By CapLanes.
   List left_;
 };
