@@ -38,8 +38,8 @@ struct FlowStartOf {
 using FlowStart = FlowStartOf<double>;
 
 /// The fraction of the way from an old state inside to a trial outside at which the surface is met, by a few steps of
-/// false position (the Illinois variant); 0 where the old state is on it. `below` is how far that is
-/// from the surface in sqrt(J2), negative inside.
+/// false position (the Illinois variant); 0 where the old state is on it. `below` is how far that is from the surface
+/// in sqrt(J2), negative inside.
 template <class Number>
 Number fraction_inside(const YieldSurface& surface, const CapParticleOf<Number>& old,
                        const DeviatoricTrialOf<Number>& deviatoric, const PathPointOf<Number>& trial, Number below)
