@@ -113,9 +113,12 @@ inline Lanes::mask_type is_finite(const Lanes& x)
 }
 
 using std::floor;
+/// A loop for the same reason as that of the square root below.
 inline Lanes floor(const Lanes& x)
 {
-  return std::experimental::floor(x);
+  std::array<double, n_lanes> floors;
+  for (std::size_t l = 0; l < n_lanes; ++l) floors[l] = std::floor(x[l]);
+  return Lanes(floors.data(), std::experimental::element_aligned);
 }
 
 using std::abs;

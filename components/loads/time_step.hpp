@@ -6,6 +6,7 @@
 
 #include "components/lanes.hpp"
 #include "components/loads/artificial_viscosity.hpp"
+#include "components/materials/wave_speed.hpp"
 #include "components/portable_math.hpp"
 #include "components/tensors.hpp"
 
@@ -32,9 +33,6 @@ struct StiffParticle {
   Vector<D, Number> velocity;          ///< m/s
   Number volume_rate;                  ///< tr D [1/s], expansion positive
   Number own_stiffness;                ///< of components::own_stiffness, a pure number
-
-  /// Of dilatational waves [m/s].
-  Number wave_speed() const { return sqrt((bulk_modulus + 4.0 / 3.0 * shear_modulus) / density); }
 };
 
 /// The part k0 in the bound below that does not come from a particle's own stiffness.
@@ -51,7 +49,7 @@ constexpr double shared_stiffness = 4.5;
 template <int D, class Number = double>
 Number viscous_time_step(double cell_size, const StiffParticle<D, Number>& p, const ArtificialViscosity& viscosity)
 {
-  const Number c = p.wave_speed();
+  const Number c = wave_speed(p.bulk_modulus, p.shear_modulus, p.density);
   const Number squeeze_modulus = p.bulk_modulus + (2.0 / D - 2.0 / 3.0) * p.shear_modulus;
   const Number a = shared_stiffness * c * c + p.own_stiffness * squeeze_modulus / p.density;
   const Number closing_speed = cell_size * greater_of<Number>(0.0, -p.volume_rate);

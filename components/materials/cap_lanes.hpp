@@ -68,7 +68,7 @@ class CapLanes
     Some flowing = !elastic;
     const Some tension = trial.pressure < step_.yield().vertex_pressure();
     if (any(tension)) {
-      flowing = flowing && !part(path, old, strain, size, deviatoric, whole, trial, tension, outcome);
+      flowing = flowing && !flow_to_vertex(path, old, strain, size, deviatoric, whole, trial, tension, outcome);
     }
     if (any(flowing)) flow(path, old, strain, size, deviatoric, trial, flowing, outcome);
     return outcome;
@@ -77,9 +77,9 @@ class CapLanes
   /// All of the flow is the return's, to the tension vertex, for the lanes in its normal cone, which are answered. The
   /// rate form returns twice, to know the middle of the step.
   template <class MakePath, class Path>
-  Some part(const MakePath& path, const Particles& old, const Strains& strain, const Lanes& size,
-            const Deviatoric& deviatoric, const Path& whole, const Point& trial, const Some& tension,
-            Outcome& outcome) const
+  Some flow_to_vertex(const MakePath& path, const Particles& old, const Strains& strain, const Lanes& size,
+                      const Deviatoric& deviatoric, const Path& whole, const Point& trial, const Some& tension,
+                      Outcome& outcome) const
   {
     const YieldSurface& yield = step_.yield();
     cap_return::VertexReturnOf<Lanes> back = cap_return::return_to_vertex(yield, whole, trial, tension);

@@ -149,7 +149,7 @@ BatchFailure update(const DruckerPrager& soil, const MaterialBatch<D, DruckerPra
   BatchFailure first_failure;
   for (std::size_t i = 0; i < batch.stress.size(); i += n_lanes) {
     const SymmetricTensor<D, Lanes> strain = lanes_at(batch.strain_increment, i);
-    const SymmetricTensor<D, Lanes> old = lanes_at(std::span<const SymmetricTensor<D>>(batch.stress), i);
+    const SymmetricTensor<D, Lanes> old = lanes_at(batch.stress, i);
     const SymmetricTensor<D, Lanes> trial = old + Lanes(2 * soil.shear_modulus) * deviator(strain) +
                                             isotropic<n_symmetric<D>, Lanes>(soil.bulk_modulus * trace(strain));
     const SymmetricTensor<D, Lanes> shearing = deviator(trial);

@@ -11,12 +11,11 @@ namespace tamp::components
 template <int D>
 BatchFailure update(const Hypoelastic& solid, const MaterialBatch<D, NoState>& batch, UpdateCounts&)
 {
-  using Strain = SymmetricTensor<D>;
   for (std::size_t i = 0; i < batch.stress.size(); i += n_lanes) {
     const SymmetricTensor<D, Lanes> strain = lanes_at(batch.strain_increment, i);
     const SymmetricTensor<D, Lanes> change = Lanes(2 * solid.shear_modulus) * deviator(strain) +
                                              isotropic<n_symmetric<D>, Lanes>(solid.bulk_modulus * trace(strain));
-    set_lanes<n_symmetric<D>, 1>(batch.stress, i, lanes_at(std::span<const Strain>(batch.stress), i) + change);
+    set_lanes<n_symmetric<D>, 1>(batch.stress, i, lanes_at(batch.stress, i) + change);
   }
   std::ranges::fill(batch.bulk_modulus, solid.bulk_modulus);
   std::ranges::fill(batch.shear_modulus, solid.shear_modulus);

@@ -108,11 +108,13 @@ void account(const Method<D>& method, double dt, const Data& data, std::size_t f
     set_lanes(account.elastic, k, double_dot(mid_stress, strain) * mid_volume - plastic);
     set_lanes(account.plastic, k, plastic);
     set_lanes(account.viscous, k, lanes(old_viscous_pressure) * (old_volume - volume));
-    set_lanes(account.stable_step, k,
-              method.time_step_rule == StepRule::published
-                  ? components::published_time_step<D>(method.cell_size, p.wave_speed(), p.velocity)
-                  : components::viscous_time_step<D>(method.cell_size, p,
-                                                     viscosity.value_or(components::ArtificialViscosity{0, 0})));
+    set_lanes(
+        account.stable_step, k,
+        method.time_step_rule == StepRule::published
+            ? components::published_time_step<D>(
+                  method.cell_size, components::wave_speed(p.bulk_modulus, p.shear_modulus, p.density), p.velocity)
+            : components::viscous_time_step<D>(method.cell_size, p,
+                                               viscosity.value_or(components::ArtificialViscosity{0, 0})));
   }
   account.add_to(data[step_totals], n);
 }

@@ -1,7 +1,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <ctime>
 #include <functional>
@@ -14,6 +13,7 @@
 #include "components/moduli/support_vector_modulus.hpp"
 #include "components/moduli/unloading_table.hpp"
 #include "tools/bench/bench.hpp"
+#include "tools/bench/peak_rate.hpp"
 #include "tools/bench/plain_moduli.hpp"
 #include "tools/scene/read_network.hpp"
 #include "tools/scene/read_support_vectors.hpp"
@@ -123,25 +123,6 @@ double measured(const EvaluationLoop& loop, const States& states, Points& points
   return seconds / n / static_cast<double>(points.size()) * 1e9;
 }
 
-/// Nanoseconds that a multiplication and an addition take of one of many numbers, as fast as the processor goes: in
-/// lanes, enough of them under way that none waits.
-double multiply_add_ns()
-{
-  constexpr std::size_t n_under_way = 10;
-  constexpr int n = 200'000;
-  std::array<Lanes, n_under_way> x;
-  x.fill(1.0);
-  volatile double unknown = 1 - 1e-9;
-  const Lanes factor = unknown, summand = 1 - unknown;
-  const double start = seconds_now();
-  for (int i = 0; i < n; ++i) {
-    unrolled<n_under_way>([&](auto k) { x[k] = x[k] * factor + summand; });
-  }
-  const double seconds = seconds_now() - start;
-  for (const Lanes& sum : x) unknown = unknown + sum[0];
-  return seconds / (static_cast<double>(n) * n_under_way * n_lanes) * 1e9;
-}
-
 /// One form of a model: as it is used, and by its definition. `multiply_adds` is about what one state needs.
 struct Contest {
   std::string model, form;
@@ -237,12 +218,11 @@ Result moduli(const std::filesystem::path& material)
   add("compiled mlp", compiled_mlp, 68, 68, plain_mlp, plain_mlp);
 
   const States states = states_of(table);
-  std::vector<double> arithmetic_ns;
+  const double arithmetic_ns = 2e9 / multiplies_and_adds_per_second();
   for (int round = 0; round < moduli_rounds; ++round) {
-    arithmetic_ns.push_back(multiply_add_ns());
     for (Contest& contest : contests) contest.measure(states);
   }
-  return result_of(contests, median(arithmetic_ns));
+  return result_of(contests, arithmetic_ns);
 }
 
 }  // namespace tamp::tools::bench

@@ -124,12 +124,14 @@ TEMPLATE_TEST_CASE_SIG("in lanes each particle gets the viscous pressure and the
 
   const Lanes q = viscosity.pressure(together.density, together.bulk_modulus, together.volume_rate, h);
   const Lanes viscous = viscous_time_step<D>(h, together, viscosity);
-  const Lanes published = published_time_step<D>(h, together.wave_speed(), together.velocity);
+  const Lanes published = published_time_step<D>(
+      h, wave_speed(together.bulk_modulus, together.shear_modulus, together.density), together.velocity);
 
   for (std::size_t l = 0; l < n_lanes; ++l) {
     const Alone& p = alone[l];
     CHECK(double{q[l]} == viscosity.pressure(p.density, p.bulk_modulus, p.volume_rate, h));
     CHECK(double{viscous[l]} == viscous_time_step<D>(h, p, viscosity));
-    CHECK(double{published[l]} == published_time_step<D>(h, p.wave_speed(), p.velocity));
+    CHECK(double{published[l]} ==
+          published_time_step<D>(h, wave_speed(p.bulk_modulus, p.shear_modulus, p.density), p.velocity));
   }
 }
