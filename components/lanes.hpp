@@ -29,6 +29,18 @@ Lanes each_lane(Value&& value)
   return Lanes([&](auto l) { return value(std::size_t{l}); });
 }
 
+/// The first n lanes.
+inline Lanes::mask_type first_lanes(std::size_t n)
+{
+  return each_lane([](std::size_t l) { return static_cast<double>(l); }) < static_cast<double>(n);
+}
+
+/// How many lanes a condition holds for.
+inline std::size_t count(const Lanes::mask_type& condition)
+{
+  return static_cast<std::size_t>(std::experimental::popcount(condition));
+}
+
 /// The whole part of each lane, which an int must hold: places in a table. (The library's own conversion draws the same
 /// false warning as its square root, see below.)
 inline std::array<std::int32_t, n_lanes> whole_parts(const Lanes& x)

@@ -15,8 +15,8 @@ namespace tamp
 
 /// Particles of a tile, up to `size` of them, as columns of numbers and as packs that a register holds at a time.
 
-/// A number of each particle of a tile. Padded, as columns a power of two apart would fall on the same lines of the
-/// cache.
+/// A number of each particle of a tile. Padded, so that a register may begin at any particle, and as columns a power of
+/// two apart would fall on the same lines of the cache.
 template <std::size_t size>
 using Column = std::array<double, size + 8>;
 
@@ -56,6 +56,22 @@ class Columns
     std::size_t k = 0;
     for_each_number([&](double& value) { value = columns_[k++][i]; }, values);
     return values;
+  }
+
+  /// Of neighbours, from particle `first` on; lanes beyond the tile's end are written to no one's place.
+  Of<Lanes> lanes_at(std::size_t first) const
+  {
+    Of<Lanes> values;
+    std::size_t k = 0;
+    for_each_number([&](Lanes& value) { value.copy_from(&columns_[k++][first], std::experimental::element_aligned); },
+                    values);
+    return values;
+  }
+  void set_lanes(std::size_t first, const Of<Lanes>& values)
+  {
+    std::size_t k = 0;
+    for_each_number(
+        [&](const Lanes& value) { value.copy_to(&columns_[k++][first], std::experimental::element_aligned); }, values);
   }
 
   void set(const Pack& pack, const Of<Lanes>& values)

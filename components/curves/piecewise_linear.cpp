@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <string>
 
 #include "components/errors.hpp"
@@ -60,7 +59,6 @@ bool has_two_in_a_bucket(const OctaveBuckets& buckets, std::span<const double> p
 void PiecewiseLinear::cut_into_buckets()
 {
   constexpr std::size_t most_buckets = 1 << 14;
-  if (kinks_.size() > std::numeric_limits<std::uint16_t>::max()) return;
   const double width = x_.back() - x_.front();
   const std::span inner = std::span(x_).subspan(1, x_.size() - 2);
   for (int octaves = 0; octaves <= 32; ++octaves) {
@@ -72,16 +70,16 @@ void PiecewiseLinear::cut_into_buckets()
   }
   if (!buckets_) return;
 
+  std::vector<Kink> of_bucket;
   for (std::size_t b = 0, k = 0; b < buckets_->size(); ++b) {
     const double middle = 0.5 * (buckets_->start(b) + buckets_->start(b + 1));
     const auto distance = [&](std::size_t i) { return std::abs(kinks_[i].x - middle); };
     while (k + 1 < kinks_.size() && distance(k + 1) < distance(k)) ++k;
-    kink_of_bucket_.push_back(static_cast<std::uint16_t>(k));
+    of_bucket.push_back(kinks_[k]);
   }
   // The point within a bucket comes before one nearer to its middle beyond its end.
-  for (std::size_t k = 0; k < kinks_.size(); ++k) {
-    kink_of_bucket_[buckets_->of(kinks_[k].x)] = static_cast<std::uint16_t>(k);
-  }
+  for (const Kink& kink : kinks_) of_bucket[buckets_->of(kink.x)] = kink;
+  kinks_ = std::move(of_bucket);
 }
 
 std::size_t PiecewiseLinear::segment_of(double x) const

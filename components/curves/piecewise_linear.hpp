@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstddef>
-#include <cstdint>
 #include <optional>
 #include <span>
 #include <vector>
@@ -58,16 +57,13 @@ class PiecewiseLinear
   void cut_into_buckets();
 
   /// One between which and x there is no other.
-  const Kink& kink_near(double x) const
-  {
-    return kinks_[buckets_ ? kink_of_bucket_[buckets_->of(x)] : last_kink_before(x)];
-  }
+  const Kink& kink_near(double x) const { return kinks_[buckets_ ? buckets_->of(x) : last_kink_before(x)]; }
   KinkOf<Lanes> kink_near(const Lanes& x) const
   {
     std::array<const double*, n_lanes> near;
     if (buckets_) {
       const auto bucket = buckets_->of(x);
-      for (std::size_t l = 0; l < n_lanes; ++l) near[l] = &kinks_[kink_of_bucket_[bucket[l]]].x;
+      for (std::size_t l = 0; l < n_lanes; ++l) near[l] = &kinks_[bucket[l]].x;
     } else {
       for (std::size_t l = 0; l < n_lanes; ++l) near[l] = &kinks_[last_kink_before(x[l])].x;
     }
@@ -77,10 +73,10 @@ class PiecewiseLinear
   std::size_t last_kink_before(double x) const;
 
   std::vector<double> x_, y_, slopes_;
-  std::vector<Kink> kinks_;
   /// With at most one inner point in each; none where the points are too uneven for that.
   std::optional<OctaveBuckets> buckets_;
-  std::vector<std::uint16_t> kink_of_bucket_;
+  /// One for each bucket; without buckets all inner points.
+  std::vector<Kink> kinks_;
 };
 
 /// Throws BadValue, with the row, unless the numbers are finite and each is greater than the one before.

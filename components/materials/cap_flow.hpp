@@ -55,6 +55,7 @@ Number fraction_inside(const YieldSurface& surface, const CapParticleOf<Number>&
   Number met = 0.0;
   if (!any(searched)) return met;
   Number low = 0.0, high = 1.0, above = excess(high);
+  searched = searched && above > 0.0;  // others beside them do not flow
   const Number enough = 1e-3 * (above - below);
   for (int i = 0; i < 8 && any(searched); ++i) {
     const Number middle = low + (high - low) * below / (below - above), value = excess(middle);

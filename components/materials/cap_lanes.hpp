@@ -1,7 +1,5 @@
 #pragma once
 
-#include <tuple>
-
 #include "components/materials/cap_newton.hpp"
 #include "components/materials/cap_step.hpp"
 #include "components/materials/cap_vertex.hpp"
@@ -64,7 +62,8 @@ class CapLanes
     const auto whole = path(deviatoric, Lanes(0.0), Lanes(0.0));
     const Point trial = whole(Lanes(0.0));
     const Some elastic = inside(step_.yield(), trial);
-    Outcome outcome{step_.after_elastic(old, strain, size, trial), Some(false), 1.0};
+    Outcome outcome{{}, Some(false), 1.0};
+    if (any(elastic)) outcome.end = step_.after_elastic(old, strain, size, trial);
     Some flowing = !elastic;
     const Some tension = trial.pressure < step_.yield().vertex_pressure();
     if (any(tension)) {
@@ -164,15 +163,6 @@ class CapLanes
     back.found = back.found || valid;
   }
 
-  /// Where a lane has converged: the last step is still to be taken.
-  struct Settled {
-    Point at;
-    Lanes d, step, shear_d, trial_d, multiplier;
-
-    static constexpr auto fields = std::tuple(&Settled::at, &Settled::d, &Settled::step, &Settled::shear_d,
-                                              &Settled::trial_d, &Settled::multiplier);
-  };
-
   template <class Path>
   void return_on_cap(const Path& path, const Point& trial, const ReturnGuessOf<Lanes>& guess, Some active,
                      Return& back) const
@@ -185,25 +175,28 @@ class CapLanes
     if (!any(active)) return;
     Point at = path(d);
     where(active && d != 0.0, back.n_evaluations) += 1.0;
-    Settled last{};
     Some settled{false};
+    Lanes shear_d = 0.0, trial_d = 0.0;
+    StepOnCap<Lanes> step{};
     for (int i = 0; i < max_newton; ++i) {
-      const auto [shear_d, trial_d] = before.slopes(at, d);
-      const StepOnCap<Lanes> step = step_on_cap(yield, at, shear_d, trial_d, d, t);
-      const Some settles = active && has_converged(step, d, t);
-      assign_where(settles, Settled{at, d, step.d, shear_d, trial_d, step.multiplier}, last);
-      settled = settled || settles;
-      before = {at, d};
-      d = d + step.d;
-      t = t + step.t;
-      active = active && !settles && is_finite(Lanes(d + t));
+      const auto slopes = before.slopes(at, d);
+      shear_d = slopes.shear_d;
+      trial_d = slopes.trial_d;
+      step = step_on_cap(yield, at, shear_d, trial_d, d, t);
+      settled = settled || (active && has_converged(step, d, t));
+      const Lanes next_d = d + step.d, next_t = t + step.t;
+      active = active && !settled && is_finite(Lanes(next_d + next_t));
       if (!any(active)) break;
+      // A lane at its end stays there, and finds the same last step again.
+      assign_where(active, BeforeOf<Path, Lanes>{at, d}, before);
+      d = select(active, next_d, d);
+      t = select(active, next_t, t);
       at = path(d);
       where(active, back.n_evaluations) += 1.0;
     }
-    const ResidualOf<Lanes> end = stepped(yield, last.at, last.d, last.step, last.shear_d, last.trial_d);
+    const ResidualOf<Lanes> end = stepped(yield, at, d, step.d, shear_d, trial_d);
     const Some valid =
-        settled && last.multiplier >= 0.0 && end.at.pressure <= end.at.crush_pressure && end.normal.sine < 1.0;
+        settled && step.multiplier >= 0.0 && end.at.pressure <= end.at.crush_pressure && end.normal.sine < 1.0;
     assign_where(valid, end, back.end);
     back.found = back.found || valid;
   }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <tuple>
 
 #include "components/materials/return_point.hpp"
 
@@ -19,8 +20,14 @@ inline constexpr bool has_constant_moduli = requires
 /// What a path does not give: the derivatives of G and of the trial sqrt(J2), by secants from the evaluation before.
 template <class Path, class Number>
 struct BeforeOf {
-  PathPointOf<Number> at;
-  Number d;
+  Number shear_modulus, trial_sqrt_j2, d;
+
+  static constexpr auto fields = std::tuple(&BeforeOf::shear_modulus, &BeforeOf::trial_sqrt_j2, &BeforeOf::d);
+
+  BeforeOf(const PathPointOf<Number>& at, const Number& d_there)
+      : shear_modulus(at.shear_modulus), trial_sqrt_j2(at.trial_sqrt_j2), d(d_there)
+  {
+  }
 
   struct Slopes {
     Number shear_d, trial_d;
@@ -31,7 +38,7 @@ struct BeforeOf {
       return {0.0, 0.0};
     } else {
       const Number change = select(d_now == d, Number(0.0), 1.0 / (d_now - d));
-      return {(now.shear_modulus - at.shear_modulus) * change, (now.trial_sqrt_j2 - at.trial_sqrt_j2) * change};
+      return {(now.shear_modulus - shear_modulus) * change, (now.trial_sqrt_j2 - trial_sqrt_j2) * change};
     }
   }
 };

@@ -23,6 +23,8 @@ class CapSubsteps
  public:
   CapSubsteps(double tolerance, int most) : tolerance_(tolerance), least_size_((1 + 1e-6) / most) {}
 
+  double tolerance() const { return tolerance_; }
+
   /// Whether the step that was tried with this error counts, and what to try next.
   Verdict judge(CapProgress& progress, double error, UpdateCounts& counts) const
   {

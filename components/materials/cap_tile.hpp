@@ -3,6 +3,7 @@
 #include <array>
 #include <cstddef>
 #include <limits>
+#include <utility>
 
 #include "components/materials/cap_integrator.hpp"
 #include "components/materials/cap_lanes.hpp"
@@ -21,53 +22,72 @@ class CapTile
 
   explicit CapTile(CapIntegrator<Model>& one) : one_(one), lanes_(one.step()) {}
 
-  /// Takes in the particles of a pack. Those that are not `sound` find no stress.
-  void put(const Pack& pack, const CapParticleOf<Lanes>& particles, const CapStrainOf<Lanes>& strains,
+  /// Takes in n particles from number `first` on. Those that are not `sound` find no stress.
+  void put(std::size_t first, std::size_t n, const CapParticleOf<Lanes>& particles, const CapStrainOf<Lanes>& strains,
            const Mask<Lanes>& sound)
   {
-    old_.set(pack, particles);
-    strain_.set(pack, strains);
-    if (!all_of(sound)) tried_.set(pack, {particles, Lanes(std::numeric_limits<double>::infinity())});
+    old_.set_lanes(first, particles);
+    strain_.set_lanes(first, strains);
+    if (!all_of(sound)) tried_.set_lanes(first, {particles, Lanes(std::numeric_limits<double>::infinity())});
     const auto way = whole_parts(lanes_.likely_way(particles));
-    for (std::size_t l = 0; l < pack.n; ++l) {
-      progress_[pack.of[l]] = {};
-      waiting_[static_cast<std::size_t>(way[l])].add_if(sound[l], pack.of[l]);
-    }
+    for (std::size_t l = 0; l < n; ++l) starting_[static_cast<std::size_t>(way[l])].add_if(sound[l], first + l);
   }
 
   /// Brings all that were taken in to the end of their step.
   void advance()
   {
-    for (List& list : waiting_) {
-      while (!list.empty()) {
-        list.for_each_pack([&](const Pack& pack) { substep(pack); });
-        left_.for_each(
-            [&](std::size_t i) { tried_.set(i, one_.substep(old_.at(i), strain_.at(i), progress_[i].size)); });
-        left_.clear();
-        list.keep_if([&](std::size_t i) { return !has_ended(i); });
+    for (List& list : starting_) {
+      list.for_each_pack([&](const Pack& pack) { try_whole(pack); });
+      list.clear();
+      take_up_left();
+      under_way_.keep_if([&](std::size_t i) { return !has_ended(i); });
+      while (!under_way_.empty()) {
+        under_way_.for_each_pack([&](const Pack& pack) { substep(pack, sizes(pack)); });
+        take_up_left();
+        under_way_.keep_if([&](std::size_t i) { return !has_ended(i); });
       }
     }
+    one_.counts().modulus_evaluations += static_cast<std::size_t>(reduce(std::exchange(n_evaluations_, 0.0)));
   }
 
-  /// The end of the step.
-  CapOutcomeOf<Lanes> at(const Pack& pack) const { return tried_.at(pack); }
+  /// The end of the step of particles from number `first` on.
+  CapOutcomeOf<Lanes> lanes_at(std::size_t first) const { return tried_.lanes_at(first); }
 
  private:
   using List = PackedList<size>;
+  using Some = Mask<Lanes>;
 
   Lanes sizes(const Pack& pack) const
   {
     return each_lane([&](std::size_t l) { return progress_[pack.of[l]].size; });
   }
 
-  void substep(const Pack& pack)
+  /// The step as one: what most particles take.
+  void try_whole(const Pack& pack)
   {
-    const auto tried = lanes_.substep(old_.at(pack), strain_.at(pack), sizes(pack));
-    tried_.set(pack, tried.end);
+    const Some ended = substep(pack, 1.0) <= one_.substeps().tolerance(), counted = first_lanes(pack.n);
+    one_.counts().substeps += count(ended && counted);
+    if (all_of(ended)) return;
     for (std::size_t l = 0; l < pack.n; ++l) {
-      left_.add_if(tried.left[l], pack.of[l]);
-      one_.counts().modulus_evaluations += tried.left[l] ? 0 : static_cast<std::size_t>(tried.n_evaluations[l]);
+      progress_[pack.of[l]] = {};
+      under_way_.add_if(!ended[l], pack.of[l]);
     }
+  }
+
+  /// Answers with the errors; infinite where a particle is left.
+  Lanes substep(const Pack& pack, const Lanes& part)
+  {
+    const auto tried = lanes_.substep(old_.at(pack), strain_.at(pack), part);
+    tried_.set(pack, tried.end);
+    where(first_lanes(pack.n) && !tried.left, n_evaluations_) += tried.n_evaluations;
+    if (none_of(tried.left)) return tried.end.error;
+    for (std::size_t l = 0; l < pack.n; ++l) left_.add_if(tried.left[l], pack.of[l]);
+    return select(tried.left, Lanes(std::numeric_limits<double>::infinity()), tried.end.error);
+  }
+  void take_up_left()
+  {
+    left_.for_each([&](std::size_t i) { tried_.set(i, one_.substep(old_.at(i), strain_.at(i), progress_[i].size)); });
+    left_.clear();
   }
 
   bool has_ended(std::size_t i)
@@ -83,10 +103,12 @@ class CapTile
   Columns<CapStrainOf, size> strain_;
   Columns<CapOutcomeOf, size> tried_;
   std::array<CapProgress, size> progress_;
-  /// On their way, those that likely go the same one together.
-  std::array<List, CapLanes<Model>::n_ways> waiting_;
+  /// Those that likely go the same way together.
+  std::array<List, CapLanes<Model>::n_ways> starting_;
+  List under_way_;
   /// By CapLanes.
   List left_;
+  Lanes n_evaluations_ = 0.0;  ///< by CapLanes, of the elastic model
 };
 
 }  // namespace tamp::components

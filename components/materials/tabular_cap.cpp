@@ -142,9 +142,9 @@ class CapBatch
   {
     for (std::size_t first = 0; first < batch_.stress.size(); first += tile_.size) {
       const std::size_t n = std::min(tile_.size, batch_.stress.size() - first);
-      for_each_pack(n, [&](const Pack& pack) { take_in(first, pack); });
+      for (std::size_t i = 0; i < n; i += n_lanes) take_in(first, i, std::min(n_lanes, n - i));
       tile_.advance();
-      for_each_pack(n, [&](const Pack& pack) { give_back(first, pack); });
+      for (std::size_t i = 0; i < n; i += n_lanes) give_back(first, i, std::min(n_lanes, n - i));
     }
     counts.add(counts_);
     counts.add(integrator_.counts());
@@ -154,32 +154,34 @@ class CapBatch
  private:
   using Tensors = SymmetricTensor<D, Lanes>;
 
-  /// From particle `first`, number 0 of the tile, on.
-  void take_in(std::size_t first, const Pack& pack)
+  /// The n particles from number `i` of the tile on, which begins with particle `first`.
+  void take_in(std::size_t first, std::size_t i, std::size_t n)
   {
-    const std::size_t begin = first + pack.of[0];
+    const std::size_t begin = first + i;
     const Tensors strain = lanes_at(batch_.strain_increment, begin), stress = lanes_at(batch_.stress, begin);
-    const auto state = [&](double CapState::*member) {
-      return each_lane([&](std::size_t l) { return batch_.old_state[first + pack.of[l]].*member; });
-    };
+    std::array<const double*, n_lanes> states;
+    for (std::size_t l = 0; l < n_lanes; ++l) {
+      states[l] = &batch_.old_state[begin + std::min(l, n - 1)].elastic_volumetric;
+    }
+    const auto [elastic_volumetric, plastic_volumetric, equivalent_plastic, bulk_modulus] = side_by_side<4>(states);
     const Tensors e = deviator(strain), s = deviator(stress);
     const Lanes e_j2 = 0.5 * double_dot(e, e), pressure = trace(stress) / -3.0;
     CapParticleOf<Lanes> particles{.pressure = pressure,
                                    .j2 = 0.5 * double_dot(s, s),
                                    .mixed = double_dot(s, e),
-                                   .elastic_volumetric = state(&CapState::elastic_volumetric),
-                                   .plastic_volumetric = state(&CapState::plastic_volumetric),
-                                   .equivalent_plastic = state(&CapState::equivalent_plastic),
-                                   .bulk_modulus = state(&CapState::bulk_modulus)};
+                                   .elastic_volumetric = elastic_volumetric,
+                                   .plastic_volumetric = plastic_volumetric,
+                                   .equivalent_plastic = equivalent_plastic,
+                                   .bulk_modulus = bulk_modulus};
     const Mask<Lanes> fresh = !(particles.bulk_modulus > 0.0);
     if (any(fresh)) {
       particles.bulk_modulus = select(fresh, modulus(particles), particles.bulk_modulus);
-      for (std::size_t l = 0; l < pack.n; ++l) counts_.modulus_evaluations += fresh[l] ? 1 : 0;
+      counts_.modulus_evaluations += count(fresh && first_lanes(n));
     }
     // A sum is finite if its terms are, and one that overflows is no better.
     const Lanes sum = strain.sum() + stress.sum() + particles.elastic_volumetric + particles.plastic_volumetric;
     const Mask<Lanes> sound = is_finite(sum) && double_dot(strain, strain) <= largest_increment * largest_increment;
-    tile_.put(pack, particles, {-trace(strain), e_j2, sqrt(e_j2)}, sound);
+    tile_.put(i, n, particles, {-trace(strain), e_j2, sqrt(e_j2)}, sound);
   }
 
   Lanes modulus(const CapParticleOf<Lanes>& at) const
@@ -189,10 +191,10 @@ class CapBatch
                : model_.rate_modulus(at.pressure, at.elastic_volumetric, at.plastic_volumetric);
   }
 
-  void give_back(std::size_t first, const Pack& pack)
+  void give_back(std::size_t first, std::size_t i, std::size_t n)
   {
-    const std::size_t begin = first + pack.of[0];
-    const auto [now, error] = tile_.at(pack);
+    const std::size_t begin = first + i;
+    const auto [now, error] = tile_.lanes_at(i);
     const Mask<Lanes> found = is_finite(error), within = is_in_range(now);
     const Tensors e = deviator(lanes_at(batch_.strain_increment, begin));
     const Tensors old = lanes_at(batch_.stress, begin), s = deviator(old);
@@ -204,16 +206,29 @@ class CapBatch
     set_lanes(batch_.bulk_modulus, begin, now.bulk_modulus);
     set_lanes(batch_.shear_modulus, begin, sand_.shear_ratio() * now.bulk_modulus);
     set_lanes(batch_.plastic_work, begin, now.plastic_work);
-    for (std::size_t l = 0; l < pack.n; ++l) {
-      const std::size_t i = begin + l;
-      counts_.extrapolated += within[l] ? 0 : 1;
-      if (found[l]) {
-        batch_.state[i] = {now.elastic_volumetric[l], now.plastic_volumetric[l], now.equivalent_plastic[l],
-                           now.bulk_modulus[l], batch_.old_state[i].n_failures};
-      } else {
-        fail(i);
+    counts_.extrapolated += count(!within && first_lanes(n));
+    if (all_of(found)) return set_states(begin, n, now);
+    for (std::size_t l = 0; l < n; ++l) {
+      if (!found[l]) {
+        fail(begin + l);
+        continue;
       }
+      batch_.state[begin + l] = {now.elastic_volumetric[l], now.plastic_volumetric[l], now.equivalent_plastic[l],
+                                 now.bulk_modulus[l], batch_.old_state[begin + l].n_failures};
     }
+  }
+
+  /// Those of the n particles from `begin` on, all of which found a stress.
+  void set_states(std::size_t begin, std::size_t n, const CapParticleOf<Lanes>& now)
+  {
+    std::array<double*, n_lanes> states;
+    for (std::size_t l = 0; l < n_lanes; ++l) {
+      const std::size_t i = begin + std::min(l, n - 1);
+      batch_.state[i].n_failures = batch_.old_state[i].n_failures;
+      states[l] = &batch_.state[i].elastic_volumetric;
+    }
+    set_side_by_side<4>({now.elastic_volumetric, now.plastic_volumetric, now.equivalent_plastic, now.bulk_modulus},
+                        states, n);
   }
 
   Mask<Lanes> is_in_range(const CapParticleOf<Lanes>& at) const
