@@ -107,7 +107,7 @@ class CapLanes
     const auto rest = path(left.trial(deviatoric), start.plastic_volumetric, start.plastic_volumetric);
     const Point rest_trial = rest(Lanes(0.0));
 
-    const Some returns = flowing && start.multiplier > 0.0 && rest_trial.pressure >= yield.vertex_pressure();
+    const Some returns = flowing && start.multiplier > 0.0;
     const Some on_cone = start.guess.sine >= 1.0;
     Return back;
     return_on_cone(rest, rest_trial, start.guess, returns && on_cone, back);

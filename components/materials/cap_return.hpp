@@ -33,7 +33,7 @@ ReturnPoint return_to_surface(const YieldSurface& surface, const Path& path, con
   int n_evaluations = 1;
   Newton<Path> newton(surface, path, n_evaluations);
   const double vertex = surface.vertex_pressure();
-  if (guess && trial.pressure >= vertex) {
+  if (guess) {
     if (const std::optional<ReturnPoint> point = newton.from_guess(trial, *guess)) return *point;
   }
 
