@@ -68,6 +68,14 @@ Method<D>::Method(const Scene& given)
 }
 
 template <int D>
+bool Method<D>::needs_surface_of(int material) const
+{
+  const bool is_pressed =
+      std::find(pressed_materials.begin(), pressed_materials.end(), material) != pressed_materials.end();
+  return is_pressed || contacts.needs_surface_of(material);
+}
+
+template <int D>
 const RigidBody* Method<D>::rigid_body(int material) const
 {
   const auto has_material = [material](const RigidBody& body) { return body.material == material; };

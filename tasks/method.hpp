@@ -63,6 +63,8 @@ struct Method {
   {
     return *interpolations[static_cast<std::size_t>(material)];
   }
+  /// Whether contact or a pressure load asks where the surface of a material is.
+  bool needs_surface_of(int material) const;
   /// The rigid body that a material is, or null.
   const RigidBody* rigid_body(int material) const;
 

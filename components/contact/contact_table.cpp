@@ -46,4 +46,12 @@ bool ContactTable::has_regression() const
   return std::any_of(pairs_.begin(), pairs_.end(), [](const Pair& pair) { return pair.normal_of == regression; });
 }
 
+bool ContactTable::needs_surface_of(int group) const
+{
+  for (int other = 0; other < n_groups_; ++other) {
+    if (other != group && normal_of(group, other) != other) return true;
+  }
+  return false;
+}
+
 }  // namespace tamp::components

@@ -28,6 +28,8 @@ class ContactTable
   /// The group whose surface gives the normal, or `flatter`, or `regression`.
   int normal_of(int a, int b) const { return pairs_[place(a, b)].normal_of; }
   bool has_regression() const;
+  /// Whether the surface of this group takes part in the normal of any pair.
+  bool needs_surface_of(int group) const;
 
   /// Sets the contact of a with b, which is that of b with a. Throws BadValue for a coefficient below 0 or not a
   /// number, for groups that are not two different ones of the table, and for the normal of a third.

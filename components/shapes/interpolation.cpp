@@ -24,9 +24,11 @@ class InterpolationBy final : public Interpolation<D>
     return components::greatest_own_stiffness(D, n_per_axis_, shape_.half_size());
   }
 
-  void particles_to_grid(const GridBlock<D>& block, const ParticleSources<D>& from, NodeSums<D>* sums) const override
+  void particles_to_grid(const GridBlock<D>& block, const ParticleSources<D>& from, bool with_surface,
+                         NodeSums<D>* sums) const override
   {
-    components::particles_to_grid(shape_, block, from, sums);
+    if (with_surface) return components::particles_to_grid<true>(shape_, block, from, sums);
+    components::particles_to_grid<false>(shape_, block, from, sums);
   }
 
   void add_gradient_momentum(const GridBlock<D>& block, std::span<const Vector<D>> position,

@@ -28,7 +28,7 @@ class Interpolation
   virtual double greatest_own_stiffness() const = 0;
 
   /// See components::particles_to_grid, and so on.
-  virtual void particles_to_grid(const GridBlock<D>& block, const ParticleSources<D>& from,
+  virtual void particles_to_grid(const GridBlock<D>& block, const ParticleSources<D>& from, bool with_surface,
                                  NodeSums<D>* sums) const = 0;
   virtual void add_gradient_momentum(const GridBlock<D>& block, std::span<const Vector<D>> position,
                                      std::span<const double> mass, std::span<const Matrix<D>> velocity_gradient,

@@ -29,7 +29,8 @@ struct ParticleSources {
 };
 
 /// What a particle gives to nodes: the first four of NodeSums times the weight, the second times its derivatives. In
-/// space the second has room for the x component of the surface gradient only.
+/// space the second has room for the x component of the surface gradient only. `surface` is the particle's volume where
+/// that gradient is wanted, and 0 elsewhere.
 template <int D>
 struct ParticleShare {
   Quad with_weight;
@@ -37,44 +38,47 @@ struct ParticleShare {
 };
 
 template <int D>
-[[gnu::always_inline]] inline ParticleShare<D> share_of(const ParticleSources<D>& from, std::size_t p)
+[[gnu::always_inline]] inline ParticleShare<D> share_of(const ParticleSources<D>& from, std::size_t p, double surface)
 {
-  const double m = from.mass[p], volume = from.volume[p];
+  const double m = from.mass[p];
   const Vector<D> momentum = m * from.velocity[p];
   // Column k of -V (sigma - q I) goes with derivative k of the weight, as does the surface gradient's component k.
-  const Matrix<D> force = -volume * (plane_part<D>(from.stress[p]) - from.viscous_pressure[p] * Matrix<D>::Identity());
+  const Matrix<D> force =
+      -from.volume[p] * (plane_part<D>(from.stress[p]) - from.viscous_pressure[p] * Matrix<D>::Identity());
   if constexpr (D == 2) {
     return {quad(m, momentum[0], momentum[1], 0),
-            {quad(force(0, 0), force(1, 0), volume, 0), quad(force(0, 1), force(1, 1), 0, volume)}};
+            {quad(force(0, 0), force(1, 0), surface, 0), quad(force(0, 1), force(1, 1), 0, surface)}};
   } else {
     return {quad(m, momentum[0], momentum[1], momentum[2]),
-            {quad(force(0, 0), force(1, 0), force(2, 0), volume), quad(force(0, 1), force(1, 1), force(2, 1), 0),
+            {quad(force(0, 0), force(1, 0), force(2, 0), surface), quad(force(0, 1), force(1, 1), force(2, 1), 0),
              quad(force(0, 2), force(1, 2), force(2, 2), 0)}};
   }
 }
 
 /// Adds each particle's mass, momentum, internal force and surface gradient to the nodes it reaches
-/// (PAR-10021867-092020-6, eqs 9, 36, 41). `sums` is the first node of `block`.
-template <class Interpolator, int D = Interpolator::dimension>
+/// (PAR-10021867-092020-6, eqs 9, 36, 41). `sums` is the first node of `block`. Without `with_surface` the gradient is
+/// left out, which in space is a third of what is added up.
+template <bool with_surface = true, class Interpolator, int D = Interpolator::dimension>
 void particles_to_grid(const Interpolator& interpolator, const GridBlock<D>& block, const ParticleSources<D>& from,
                        NodeSums<D>* sums)
 {
   for_each_stencil(interpolator, block, from.position, [&](std::size_t p, const auto& stencil) {
-    const ParticleShare<D> share = share_of(from, p);
+    const double surface = with_surface ? from.volume[p] : 0;
+    const ParticleShare<D> share = share_of(from, p, surface);
     for_each_row<D>(block, stencil, [&](const StencilRow<D>& row) {
       // What the nodes of the row have in common: what goes with their weights along x, and with the slopes of those.
       const Quad first = row.across * share.with_weight, by_slope = row.across * share.with_derivative[0];
       Quad second = row.slope_across[0] * share.with_derivative[1], third = 0;
       if constexpr (D == 3) {
         second += row.slope_across[1] * share.with_derivative[2];
-        third = from.volume[p] * quad(row.slope_across[0], row.slope_across[1], 0, 0);
+        third = surface * quad(row.slope_across[0], row.slope_across[1], 0, 0);
       }
       for (std::size_t i = 0; i < Interpolator::support; ++i) {
         NodeSums<D>& node = sums[row.first + static_cast<std::ptrdiff_t>(i)];
         const double weight = stencil.weight[0][i], slope = stencil.slope[0][i];
         node.add(0, weight * first);
         node.add(4, weight * second + slope * by_slope);
-        if constexpr (D == 3) node.add(8, weight * third);
+        if constexpr (D == 3 && with_surface) node.add(8, weight * third);
       }
     });
   });

@@ -48,7 +48,7 @@ runtime::TaskDeclaration particles_to_grid(const Method<D>& method)
                                                  .volume = data[particle::volume.previous()],
                                                  .stress = data[particle::stress<D>.previous()],
                                                  .viscous_pressure = data[particle::viscous_pressure.previous()]};
-    interpolation.particles_to_grid(block, sources, sums.data());
+    interpolation.particles_to_grid(block, sources, method.needs_surface_of(at.group), sums.data());
     if constexpr (data.has(particle::velocity_gradient<D>)) {
       interpolation.add_gradient_momentum(block, sources.position, sources.mass,
                                           data[particle::velocity_gradient<D>.previous()], sums.data());
