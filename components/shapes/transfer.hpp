@@ -55,6 +55,15 @@ template <int D>
   }
 }
 
+/// Each number in all places of a four.
+template <std::size_t n>
+std::array<Quad, n> in_fours(const std::array<double, n>& numbers)
+{
+  std::array<Quad, n> fours;
+  std::copy(numbers.begin(), numbers.end(), fours.begin());
+  return fours;
+}
+
 /// Adds each particle's mass, momentum, internal force and surface gradient to the nodes it reaches
 /// (PAR-10021867-092020-6, eqs 9, 36, 41). `sums` is the first node of `block`. Without `with_surface` the gradient is
 /// left out, which in space is a third of what is added up.
@@ -65,7 +74,9 @@ void particles_to_grid(const Interpolator& interpolator, const GridBlock<D>& blo
   for_each_stencil(interpolator, block, from.position, [&](std::size_t p, const auto& stencil) {
     const double surface = with_surface ? from.volume[p] : 0;
     const ParticleShare<D> share = share_of(from, p, surface);
-    for_each_row<D>(block, stencil, [&](const StencilRow<D>& row) {
+    // Kept in registers, which what is stored at the nodes might otherwise seem to change.
+    const auto weight = in_fours(stencil.weight[0]), slope = in_fours(stencil.slope[0]);
+    for_each_row<D>(block, stencil, [&, sums](const StencilRow<D>& row) {
       // What the nodes of the row have in common: what goes with their weights along x, and with the slopes of those.
       const Quad first = row.across * share.with_weight, by_slope = row.across * share.with_derivative[0];
       Quad second = row.slope_across[0] * share.with_derivative[1], third = 0;
@@ -75,10 +86,9 @@ void particles_to_grid(const Interpolator& interpolator, const GridBlock<D>& blo
       }
       for (std::size_t i = 0; i < Interpolator::support; ++i) {
         NodeSums<D>& node = sums[row.first + static_cast<std::ptrdiff_t>(i)];
-        const double weight = stencil.weight[0][i], slope = stencil.slope[0][i];
-        node.add(0, weight * first);
-        node.add(4, weight * second + slope * by_slope);
-        if constexpr (D == 3 && with_surface) node.add(8, weight * third);
+        node.add(0, weight[i] * first);
+        node.add(4, weight[i] * second + slope[i] * by_slope);
+        if constexpr (D == 3 && with_surface) node.add(8, weight[i] * third);
       }
     });
   });
