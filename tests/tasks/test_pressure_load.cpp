@@ -2,6 +2,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "tasks/method.hpp"
 #include "tests/tasks/scenes.hpp"
 
 using namespace tamp;
@@ -276,4 +277,19 @@ TEST_CASE("a strip on soil stands at Prandtl's load and sinks in 5 % above it")
 {
   CHECK(std::abs(settling(1.0)) < 1e-3);
   CHECK(settling(1.05) > 0.01);
+}
+
+TEST_CASE("the surface of a pressed material is known, also where another's gives the normal of their contact")
+{
+  Scene scene = free_block(everywhere(pressure));
+  add_box(scene, add_elastic(scene, density, E, nu), {0.3, 0.1, 0}, {0.9, 0.3, 0});
+  const int of_other = 1;
+  scene.contacts.push_back({0, 1, 0.3, of_other});
+  const bool pressed = GENERATE(true, false);
+  if (!pressed) scene.bodies[0].pressure.reset();
+
+  const Method<2> method(scene);
+
+  CHECK(method.needs_surface_of(0) == pressed);
+  CHECK(method.needs_surface_of(of_other));
 }

@@ -44,3 +44,19 @@ TEST_CASE("the normal of a pair is that of the flatter surface or of one of the 
   CHECK(table.normal_of(2, 0) == 2);
   CHECK_THROWS_AS(table.set(0, 1, 0.1, 2), BadValue);
 }
+
+TEST_CASE("the surface of a group is needed unless each other group gives the normal of its pair with it")
+{
+  ContactTable table(3);
+  table.set(0, 1, 0.1, 1);
+  table.set(0, 2, 0.1, 2);
+  table.set(1, 2, 0.1, 1);
+
+  CHECK(!table.needs_surface_of(0));
+  CHECK(table.needs_surface_of(1));
+  CHECK(table.needs_surface_of(2));
+  const int shared = GENERATE(as<int>(), ContactTable::flatter, ContactTable::regression);
+  table.set(0, 2, 0.1, shared);
+  CHECK(table.needs_surface_of(0));
+  CHECK(!ContactTable(1).needs_surface_of(0));
+}

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "components/loads/time_step.hpp"
+#include "components/shapes/interpolation.hpp"
 #include "components/shapes/transfer.hpp"
 #include "tests/components/shapes/shape_reference.hpp"
 
@@ -152,6 +153,28 @@ TEMPLATE_TEST_CASE_SIG("particles give the grid what plain loops over all pairs 
     REQUIRE((sums[i].internal_force() - plain.internal_force).norm() * cell_size < 1e-11);
     REQUIRE((sums[i].surface_gradient() - plain.surface_gradient).norm() * cell_size < 1e-12);
   }
+}
+
+TEMPLATE_TEST_CASE_SIG("without surface gradients particles give the grid the rest to the last bit", "", ((int D), D),
+                       2, 3)
+{
+  const auto block = block_of_nodes<D>(5, cell_size);
+  std::mt19937 random(12);
+  const Cloud<D> cloud(block, 60, random);
+  const auto interpolation = Interpolation<D>::make(Interpolator::gimp, 2);
+  std::vector<NodeSums<D>> with(static_cast<std::size_t>(n_nodes_of(block))), without = with;
+
+  interpolation->particles_to_grid(block, cloud.sources(), true, with.data());
+  interpolation->particles_to_grid(block, cloud.sources(), false, without.data());
+
+  double greatest = 0;
+  for (std::size_t i = 0; i < with.size(); ++i) {
+    greatest = std::max(greatest, with[i].surface_gradient().norm());
+    REQUIRE(without[i].surface_gradient() == Vector<D>::Zero());
+    with[i].set_surface_gradient(Vector<D>::Zero());
+    REQUIRE((with[i].values == without[i].values).all());
+  }
+  CHECK(greatest > 0);
 }
 
 TEMPLATE_TEST_CASE_SIG("the grid receives all mass and momentum, and no net force", "", ((int D), D), 2, 3)
