@@ -26,17 +26,25 @@ Eigen::Matrix3d with_thickness(Eigen::Matrix3d moment)
 
 }  // namespace
 
-void BodySums::add(double particle_mass, const Eigen::Vector3d& x, const Eigen::Vector3d& reference,
-                   const Eigen::Vector3d& v)
+/// In the plane without the third coordinates, as rows of the history add up every particle.
+template <int D>
+void BodySums::add(double particle_mass, const Vector<D>& x, const Vector<D>& reference, const Vector<D>& v)
 {
   mass += particle_mass;
-  momentum += particle_mass * v;
-  position += particle_mass * x;
-  reference_position += particle_mass * reference;
-  second_moment += particle_mass * x * x.transpose();
-  carried_moment += particle_mass * x * reference.transpose();
-  angular_momentum += particle_mass * x.cross(v);
+  momentum.head<D>() += particle_mass * v;
+  position.head<D>() += particle_mass * x;
+  reference_position.head<D>() += particle_mass * reference;
+  second_moment.topLeftCorner<D, D>() += particle_mass * x * x.transpose();
+  carried_moment.topLeftCorner<D, D>() += particle_mass * x * reference.transpose();
+  if constexpr (D == 2) {
+    angular_momentum.z() += particle_mass * (x[0] * v[1] - x[1] * v[0]);
+  } else {
+    angular_momentum += particle_mass * x.cross(v);
+  }
 }
+
+template void BodySums::add<2>(double, const Vector<2>&, const Vector<2>&, const Vector<2>&);
+template void BodySums::add<3>(double, const Vector<3>&, const Vector<3>&, const Vector<3>&);
 
 void BodySums::combine(const BodySums& other)
 {

@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 
 #include "components/rigid/rigid_body.hpp"
+#include "components/tensors.hpp"
 
 namespace tamp::tasks
 {
@@ -21,7 +22,9 @@ struct BodySums {
   Eigen::Matrix3d carried_moment = Eigen::Matrix3d::Zero();
   Eigen::Vector3d angular_momentum = Eigen::Vector3d::Zero();
 
-  void add(double particle_mass, const Eigen::Vector3d& x, const Eigen::Vector3d& reference, const Eigen::Vector3d& v);
+  /// Adds a particle.
+  template <int D>
+  void add(double particle_mass, const Vector<D>& x, const Vector<D>& reference, const Vector<D>& v);
   void combine(const BodySums& other);
 
   /// The rotation from the start that fits the motion best, by least squares of mass; none for a body without extent.

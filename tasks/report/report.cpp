@@ -42,15 +42,17 @@ Vector<D> travelled_to(const runtime::Grid& grid, const Vector<D>& position, con
   return x;
 }
 
-/// Where particle p is, or would be.
+/// Where each particle is, or would be: the place of p is `places(p)`.
 template <int D, class Data>
-Vector<D> way_of(const TaskContext& at, const Data& data, std::size_t p)
+auto places_of(const TaskContext& at, const Data& data)
 {
-  const Vector<D>& position = data[particle::position<D>.previous()][p];
+  const auto position = data[particle::position<D>.previous()];
   if constexpr (Data::has(particle::laps)) {
-    return travelled_to<D>(at.layout.grid(), position, data[particle::laps.previous()][p]);
+    return [&at, position, laps = data[particle::laps.previous()]](std::size_t p) {
+      return travelled_to<D>(at.layout.grid(), position[p], laps[p]);
+    };
   } else {
-    return position;
+    return [position](std::size_t p) { return position[p]; };
   }
 }
 
@@ -61,12 +63,17 @@ void report_errors(const Method<D>& method, const TaskContext& at, const Data& d
   const auto mass = data[particle::mass.previous()];
   const auto reference = data[particle::reference_position<D>.previous()];
   ParticleReport& report = data[particle_report];
+  const auto has_exact = [](const SceneBody& of_scene) {
+    return static_cast<bool>(of_scene.functions.exact_displacement);
+  };
+  if (std::none_of(method.scene.bodies.begin(), method.scene.bodies.end(), has_exact)) return;
+  const auto place = places_of<D>(at, data);
   for (std::size_t p = 0; p < mass.size(); ++p) {
     const auto b = static_cast<std::size_t>(body[p]);
     const auto& exact = method.scene.bodies[b].functions.exact_displacement;
     if (!exact) continue;
     const Vector<D> expected = exact(in_space<D>(reference[p]), at.step.time).template head<D>();
-    report.displacement_errors[b].add(mass[p], (way_of<D>(at, data, p) - reference[p] - expected).norm());
+    report.displacement_errors[b].add(mass[p], (place(p) - reference[p] - expected).norm());
   }
 }
 
@@ -78,33 +85,33 @@ void report_motion(const Method<D>& method, const TaskContext& at, const Data& d
   const auto reference = data[particle::reference_position<D>.previous()];
   const auto velocity = data[particle::velocity<D>.previous()];
   ParticleReport& report = data[particle_report];
-  const auto place = [&](std::size_t p) { return way_of<D>(at, data, p); };
-  for (std::size_t p = 0; p < mass.size(); ++p) {
-    report.gravity_work += mass[p] * work_function<D>(method, place(p));
-  }
+  const auto place = places_of<D>(at, data);
+  double gravity_work = 0, kinetic = 0;
+  for (std::size_t p = 0; p < mass.size(); ++p) gravity_work += mass[p] * work_function<D>(method, place(p));
+  report.gravity_work += gravity_work;
   if (const RigidBody* rigid = method.rigid_body(at.group)) {
     report_rigid_motion(at, *rigid, data[rigid_states.previous()].of(*rigid), report);
     return;
   }
   for (std::size_t p = 0; p < mass.size(); ++p) {
-    report.kinetic += 0.5 * mass[p] * velocity[p].squaredNorm();
-    report.bodies[static_cast<std::size_t>(body[p])].add(mass[p], in_space<D>(place(p)), in_space<D>(reference[p]),
-                                                         in_space<D>(velocity[p]));
+    kinetic += 0.5 * mass[p] * velocity[p].squaredNorm();
+    report.bodies[static_cast<std::size_t>(body[p])].template add<D>(mass[p], place(p), reference[p], velocity[p]);
   }
+  report.kinetic += kinetic;
 }
 
-/// Adds the particles `p` of a patch to the peaks of their material for which `is_wanted(p)`.
-template <int D, class Model, class Data, class IsWanted>
-void add_peaks(const Model& model, const Data& data, MaterialPeaks& peaks, const IsWanted& is_wanted)
+/// Adds `n` particles of a patch, of which number i is `at(i)`, to the peaks of their material.
+template <int D, class Model, class Data, class At>
+void add_peaks(const Model& model, const Data& data, std::size_t n, const At& at, MaterialPeaks& peaks)
 {
   const auto stress = data[particle::stress<D>.previous()];
-  for (std::size_t p = 0; p < stress.size(); ++p) {
-    if (!is_wanted(p)) continue;
-    const components::Invariants of_stress = components::invariants(stress[p]);
-    peaks.add(of_stress);
-    if constexpr (components::has_state<Model>) {
-      peaks.add(model, data[particle::state<Model>.previous()][p], of_stress);
-    }
+  std::vector<components::Invariants> of_stress(n);
+  for (std::size_t i = 0; i < n; ++i) of_stress[i] = components::invariants(stress[at(i)]);
+  peaks.add(of_stress);
+  if constexpr (components::has_state<Model>) {
+    const auto states = data[particle::state<Model>.previous()];
+    const auto state = [&](std::size_t i) -> const typename Model::State& { return states[at(i)]; };
+    peaks.add(model, state, of_stress);
   }
 }
 
@@ -131,8 +138,9 @@ runtime::TaskDeclaration report_of(const Method<D>& method, int material, const 
   const auto body = [&method, &model](const TaskContext& at, auto data) {
     report_motion(method, at, data);
     report_errors(method, at, data);
-    add_peaks<D>(model, data, data[particle_report].materials[static_cast<std::size_t>(at.group)],
-                 [](std::size_t) { return true; });
+    const auto each = [](std::size_t i) { return i; };
+    add_peaks<D>(model, data, data[particle::mass.previous()].size(), each,
+                 data[particle_report].materials[static_cast<std::size_t>(at.group)]);
   };
   if (!method.scene.is_periodic()) return with_state<Model>(std::move(task), body);
   return with_state<Model>(std::move(task).reads(particle::laps.previous()), body);
@@ -172,8 +180,13 @@ runtime::TaskDeclaration report_near_noses(const Method<D>& method, int material
   return with_state<Model>(std::move(task), [&method, &model](const TaskContext& at, auto data) {
     const Noses noses(method.scene, data[particle_report]);
     const auto position = data[particle::position<D>.previous()];
-    add_peaks<D>(model, data, data[nose_report].materials[static_cast<std::size_t>(at.group)],
-                 [&](std::size_t p) { return noses.are_near(in_space<D>(position[p])); });
+    std::vector<std::size_t> near;
+    for (std::size_t p = 0; p < position.size(); ++p) {
+      if (noses.are_near(in_space<D>(position[p]))) near.push_back(p);
+    }
+    add_peaks<D>(
+        model, data, near.size(), [&](std::size_t i) { return near[i]; },
+        data[nose_report].materials[static_cast<std::size_t>(at.group)]);
   });
 }
 
@@ -184,20 +197,30 @@ void combine(PeaksOfMaterials& into, const PeaksOfMaterials& other)
 
 }  // namespace
 
-void MaterialPeaks::add(const components::Invariants& stress)
+void MaterialPeaks::add(std::span<const components::Invariants> stress)
 {
-  pressure = std::max(pressure, stress.pressure);
-  q = std::max(q, stress.q());
+  components::Invariants greatest{pressure, 0};
+  for (const components::Invariants& of_particle : stress) {
+    greatest.pressure = std::max(greatest.pressure, of_particle.pressure);
+    greatest.j2 = std::max(greatest.j2, of_particle.j2);
+  }
+  pressure = greatest.pressure;
+  q = std::max(q, greatest.q());
 }
 
-template <class Model>
-void MaterialPeaks::add(const Model& model, const typename Model::State& state, const components::Invariants& stress)
+/// A column after the other, so that what a column is need be found only once.
+template <class Model, class State>
+void MaterialPeaks::add(const Model& model, const State& state, std::span<const components::Invariants> stress)
 {
   std::size_t k = 0;
   for (const auto& [column, greatest] : components::state_extremes<Model>()) {
-    const double value = components::state_columns<Model>()[column].value(model, state, stress);
-    extremes_[k] = std::max(extremes_[k], greatest ? value : -value);
-    ++k;
+    const auto value = components::state_columns<Model>()[column].value;
+    const double sign = greatest ? 1 : -1;
+    double extreme = extremes_[k];
+    for (std::size_t i = 0; i < stress.size(); ++i) {
+      extreme = std::max(extreme, sign * value(model, state(i), stress[i]));
+    }
+    extremes_[k++] = extreme;
   }
 }
 

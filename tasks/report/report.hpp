@@ -5,6 +5,7 @@
 #include <array>
 #include <cstddef>
 #include <limits>
+#include <span>
 #include <vector>
 
 #include "components/materials/state_columns.hpp"
@@ -26,10 +27,10 @@ class MaterialPeaks
   double pressure = -std::numeric_limits<double>::infinity();
   double q = 0;
 
-  void add(const components::Invariants& stress);
-  /// Takes in the state of a particle, with its stress.
-  template <class Model>
-  void add(const Model& model, const typename Model::State& state, const components::Invariants& stress);
+  void add(std::span<const components::Invariants> stress);
+  /// Takes in the states of particles, `state(i)`, with their stresses.
+  template <class Model, class State>
+  void add(const Model& model, const State& state, std::span<const components::Invariants> stress);
   void combine(const MaterialPeaks& other);
 
   /// The one of `state_extremes` at this place; infinite where there was no particle.
