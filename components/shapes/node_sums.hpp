@@ -55,7 +55,8 @@ struct NodeSums : NodeValues<D, D == 2 ? 8 : 12, 1, 4, 4 + D> {
   /// -sum V_p (sigma_p - q_p I) . grad S_ip [N], and what loads on the particles add to it.
   Vector<D> internal_force() const { return this->vector(at_force); }
   void add_force(const Vector<D>& force) { this->set_vector(at_force, internal_force() + force); }
-  /// sum V_p grad S_ip [m^(D-1)]: points out of the material at its surface, vanishes within.
+  /// sum V_p grad S_ip [m^(D-1)]: points out of the material at its surface, vanishes within. 0 where nothing asks for
+  /// it.
   Vector<D> surface_gradient() const { return this->vector(at_surface); }
   void set_surface_gradient(const Vector<D>& gradient) { this->set_vector(at_surface, gradient); }
 
