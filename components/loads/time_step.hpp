@@ -68,6 +68,10 @@ inline double greatest_own_stiffness(int dimension, int n_per_axis, double l)
   return portable::pow(std::max(1.0, 0.5 * n_per_axis), dimension - 1) * dimension * (2 / l + 1 / (1 - l));
 }
 
+/// Of the bounds above for matter that has come apart and so has no waves: it moves no more than a tenth of a cell in a
+/// step, so that what it meets compacts it by no more than that at once.
+constexpr double part_of_step_apart = 0.1;
+
 /// Bodies that meet at `approach_speed` close no more than a tenth of a cell in a step, so that what they meet is
 /// strained by no more than that at once; no bound if they do not approach.
 inline double contact_time_step(double cell_size, double approach_speed)

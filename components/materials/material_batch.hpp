@@ -16,6 +16,7 @@
 ///    or a `read_model` of its own in tools/scene/read_material.cpp;
 ///  - `initial_moduli()`, K and G without strain;
 ///  - `update(model, batch, counts)`, which answers a batch of particles;
+///  - where it may lose all stiffness, `may_come_apart()`;
 ///  - with a state, `state_name`, and `columns()` and `extremes()`, what output shows of it, see state_columns.hpp;
 ///  - where the stress follows from the deformation gradient alone, `stored_energy<D>(deformation_gradient)`.
 ///
@@ -56,7 +57,7 @@ struct MaterialBatch {
   std::span<SymmetricTensor<D>> stress;
   /// New; may be the same memory as `old_state`.
   std::span<State> state;
-  /// For waves in the material as it now is [Pa].
+  /// For waves in the material as it now is [Pa]; zero where it has come apart.
   std::span<double> bulk_modulus;
   std::span<double> shear_modulus;
   /// Work on the step's plastic strain [J per m3 of current volume], not negative.
@@ -71,6 +72,8 @@ struct UpdateCounts {
   std::size_t modulus_evaluations = 0;  ///< of the elastic model
   std::size_t extrapolated = 0;         ///< updates that ended outside the range that the elastic model was made for
   std::size_t failures = 0;             ///< updates that found no stress
+  std::size_t separations = 0;          ///< particles that came apart
+  std::size_t apart = 0;                ///< updates of particles that were apart and stay so, which are no work
 
   void add(const UpdateCounts& other)
   {
@@ -80,6 +83,8 @@ struct UpdateCounts {
     modulus_evaluations += other.modulus_evaluations;
     extrapolated += other.extrapolated;
     failures += other.failures;
+    separations += other.separations;
+    apart += other.apart;
   }
 };
 

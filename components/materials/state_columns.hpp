@@ -21,6 +21,8 @@ struct StateColumn {
   std::string_view unit;
   double (*value)(const Model& model, const typename Model::State& state, const Invariants& stress);
   Shown shown = Shown::everywhere;
+  /// Whether field files have it; nothing: they always do.
+  bool (*is_written)(const Model& model) = nullptr;
 };
 
 /// A column of history.csv: the greatest or the least over a model's particles of one of its state's columns.

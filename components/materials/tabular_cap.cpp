@@ -5,6 +5,7 @@
 #include <string>
 
 #include "components/materials/cap_tile.hpp"
+#include "components/materials/separation.hpp"
 #include "components/tensor_lanes.hpp"
 
 namespace tamp::components
@@ -28,6 +29,9 @@ TabularCap::TabularCap(TabularCapParameters parameters) : parameters_(std::move(
   }
   if (parameters_.max_substeps < 1) {
     throw BadValue("at most " + std::to_string(parameters_.max_substeps) + " substeps", "one or more");
+  }
+  if (const auto part = parameters_.separation_density; part && !(*part > 0 && *part <= 1)) {
+    throw BadValue("a part of " + std::to_string(*part) + " of the density", "one above 0 and up to 1");
   }
 }
 
@@ -97,7 +101,7 @@ double outside(const TabularCap& sand, const CapState& state, const Invariants& 
   return std::max({stress.sqrt_j2() - surface.limit(p, crush), p - crush, vertex - p, 0.0}) / (crush - vertex);
 }
 
-constexpr std::array<StateColumn<TabularCap>, 6> cap_columns{{
+constexpr std::array<StateColumn<TabularCap>, 7> cap_columns{{
     {"elastic_volumetric", "-", [](const auto&, const CapState& s, const auto&) { return s.elastic_volumetric; }},
     {"plastic_volumetric", "-", [](const auto&, const CapState& s, const auto&) { return s.plastic_volumetric; }},
     {"cap", "Pa",
@@ -105,6 +109,8 @@ constexpr std::array<StateColumn<TabularCap>, 6> cap_columns{{
     {"failed_updates", "",
      [](const auto&, const CapState& s, const auto&) { return static_cast<double>(s.n_failures); },
      Shown::in_field_files},
+    {"apart", "", [](const auto&, const CapState& s, const auto&) { return s.separation_volume > 0 ? 1.0 : 0.0; },
+     Shown::in_field_files, [](const TabularCap& sand) { return sand.may_come_apart(); }},
     {"in_range", "", in_range, Shown::by_drive},
     {"outside", "-", outside, Shown::by_drive},
 }};
@@ -115,7 +121,7 @@ constexpr double largest_increment = 0.2;
 
 }  // namespace
 
-std::span<const StateColumn<TabularCap>, 6> TabularCap::columns()
+std::span<const StateColumn<TabularCap>, 7> TabularCap::columns()
 {
   return cap_columns;
 }
@@ -128,8 +134,8 @@ std::span<const StateExtreme, 3> TabularCap::extremes()
 namespace
 {
 
-/// A batch on its way through a tile.
-template <int D, class Model>
+/// A batch on its way through a tile, of sand that may come apart or may not.
+template <int D, class Model, bool may_part>
 class CapBatch
 {
  public:
@@ -158,11 +164,11 @@ class CapBatch
   void take_in(std::size_t first, std::size_t i, std::size_t n)
   {
     const std::size_t begin = first + i;
-    const Tensors strain = lanes_at(batch_.strain_increment, begin), stress = lanes_at(batch_.stress, begin);
+    const Parted parted = parted_of(begin, n);
+    const Tensors increment = lanes_at(batch_.strain_increment, begin), stress = lanes_at(batch_.stress, begin);
+    const Tensors strain = of_solid(increment, parted);
     std::array<const double*, n_lanes> states;
-    for (std::size_t l = 0; l < n_lanes; ++l) {
-      states[l] = &batch_.old_state[begin + std::min(l, n - 1)].elastic_volumetric;
-    }
+    for (std::size_t l = 0; l < n_lanes; ++l) states[l] = &old_state(begin, n, l).elastic_volumetric;
     const auto [elastic_volumetric, plastic_volumetric, equivalent_plastic, bulk_modulus] = side_by_side<4>(states);
     const Tensors e = deviator(strain), s = deviator(stress);
     const Lanes e_j2 = 0.5 * double_dot(e, e), pressure = trace(stress) / -3.0;
@@ -173,15 +179,47 @@ class CapBatch
                                    .plastic_volumetric = plastic_volumetric,
                                    .equivalent_plastic = equivalent_plastic,
                                    .bulk_modulus = bulk_modulus};
-    const Mask<Lanes> fresh = !(particles.bulk_modulus > 0.0);
+    const Mask<Lanes> fresh = !parted.still && !(particles.bulk_modulus > 0.0);
     if (any(fresh)) {
       particles.bulk_modulus = select(fresh, modulus(particles), particles.bulk_modulus);
       counts_.modulus_evaluations += count(fresh && first_lanes(n));
     }
     // A sum is finite if its terms are, and one that overflows is no better.
-    const Lanes sum = strain.sum() + stress.sum() + particles.elastic_volumetric + particles.plastic_volumetric;
+    const Lanes sum = increment.sum() + stress.sum() + particles.elastic_volumetric + particles.plastic_volumetric;
     const Mask<Lanes> sound = is_finite(sum) && double_dot(strain, strain) <= largest_increment * largest_increment;
-    tile_.put(i, n, particles, {-trace(strain), e_j2, sqrt(e_j2)}, sound);
+    tile_.put(i, n, particles, {-trace(strain), e_j2, sqrt(e_j2)}, sound && !parted.still);
+  }
+
+  /// That of lane l of the n particles from `begin` on; what is left over repeats the last.
+  const CapState& old_state(std::size_t begin, std::size_t n, std::size_t l) const
+  {
+    return batch_.old_state[begin + std::min(l, n - 1)];
+  }
+
+  /// Which particles were apart when the step started, and which still are when it ends.
+  struct Parted {
+    Mask<Lanes> before{false}, still{false};
+  };
+  Parted parted_of(std::size_t begin, std::size_t n) const
+  {
+    if constexpr (!may_part) return {};
+    const Lanes parted_at =
+        each_lane([&](std::size_t l) -> double { return old_state(begin, n, l).separation_volume; });
+    const Mask<Lanes> before = parted_at > 0.0;
+    if (!any(before)) return {};
+    const Lanes volume = each_lane([&](std::size_t l) { return volume_of(begin + std::min(l, n - 1)); });
+    return {before, before && volume >= parted_at};
+  }
+
+  /// det F
+  double volume_of(std::size_t i) const { return batch_.deformation_gradient[i].determinant(); }
+
+  /// The strain of particles that were whole.
+  Tensors of_solid(Tensors strain, const Parted& parted) const
+  {
+    if constexpr (!may_part) return strain;
+    for (int k = 0; k < n_symmetric<D>; ++k) strain[k] = select(parted.before, Lanes(0.0), strain[k]);
+    return strain;
   }
 
   Lanes modulus(const CapParticleOf<Lanes>& at) const
@@ -195,8 +233,9 @@ class CapBatch
   {
     const std::size_t begin = first + i;
     const auto [now, error] = tile_.lanes_at(i);
-    const Mask<Lanes> found = is_finite(error), within = is_in_range(now);
-    const Tensors e = deviator(lanes_at(batch_.strain_increment, begin));
+    const Parted parted = parted_of(begin, n);
+    const Mask<Lanes> found = is_finite(error), within = is_in_range(now) || parted.still;
+    const Tensors e = deviator(of_solid(lanes_at(batch_.strain_increment, begin), parted));
     const Tensors old = lanes_at(batch_.stress, begin), s = deviator(old);
     Tensors stress = now.of_stress * s + now.of_strain * e;
     for (int k = 0; k < n_symmetric<D>; ++k) {
@@ -207,14 +246,18 @@ class CapBatch
     set_lanes(batch_.shear_modulus, begin, sand_.shear_ratio() * now.bulk_modulus);
     set_lanes(batch_.plastic_work, begin, now.plastic_work);
     counts_.extrapolated += count(!within && first_lanes(n));
-    if (all_of(found)) return set_states(begin, n, now);
+    if (!may_part && all_of(found)) return set_states(begin, n, now);
     for (std::size_t l = 0; l < n; ++l) {
-      if (!found[l]) {
+      if (found[l]) {
+        set_state(begin + l,
+                  {now.elastic_volumetric[l], now.plastic_volumetric[l], now.equivalent_plastic[l], now.bulk_modulus[l],
+                   batch_.old_state[begin + l].n_failures},
+                  now.pressure[l], now.j2[l]);
+      } else if (may_part && parted.still[l]) {
+        stay_apart(begin + l);
+      } else {
         fail(begin + l);
-        continue;
       }
-      batch_.state[begin + l] = {now.elastic_volumetric[l], now.plastic_volumetric[l], now.equivalent_plastic[l],
-                                 now.bulk_modulus[l], batch_.old_state[begin + l].n_failures};
     }
   }
 
@@ -225,10 +268,49 @@ class CapBatch
     for (std::size_t l = 0; l < n_lanes; ++l) {
       const std::size_t i = begin + std::min(l, n - 1);
       batch_.state[i].n_failures = batch_.old_state[i].n_failures;
+      batch_.state[i].separation_volume = 0;
       states[l] = &batch_.state[i].elastic_volumetric;
     }
     set_side_by_side<4>({now.elastic_volumetric, now.plastic_volumetric, now.equivalent_plastic, now.bulk_modulus},
                         states, n);
+  }
+
+  /// That of a particle which found a stress of this pressure and J2.
+  void set_state(std::size_t i, const CapState& state, double pressure, double j2)
+  {
+    const double parted_at = batch_.old_state[i].separation_volume;
+    batch_.state[i] = state;
+    if constexpr (may_part) join_or_part(i, parted_at, pressure, j2);
+  }
+
+  /// The tile has left its stress, its moduli and its plastic work at zero.
+  void stay_apart(std::size_t i)
+  {
+    batch_.state[i] = batch_.old_state[i];
+    ++counts_.apart;
+  }
+
+  /// After an update, of a particle that was apart until then (from `parted_at` on) or may come apart now.
+  void join_or_part(std::size_t i, double parted_at, double pressure, double j2)
+  {
+    if (parted_at > 0) {
+      batch_.state[i].plastic_volumetric += compaction_beyond(parted_at, volume_of(i));
+    } else if (is_torn(sand_, pressure, j2) && is_light(sand_, volume_of(i))) {
+      part(i, pressure);
+    }
+  }
+
+  void part(std::size_t i, double pressure)
+  {
+    CapState& state = batch_.state[i];
+    const double released = energy_of_parting(pressure, state.bulk_modulus, trace(batch_.strain_increment[i]));
+    batch_.plastic_work[i] = std::max(batch_.plastic_work[i] + released, 0.0);
+    state.elastic_volumetric = state.bulk_modulus = 0;
+    // Rounded down, so that it does not join while it rests.
+    state.separation_volume = static_cast<float>((1 - 1e-7) * volume_of(i));
+    batch_.stress[i].setZero();
+    batch_.bulk_modulus[i] = batch_.shear_modulus[i] = 0;
+    ++counts_.separations;
   }
 
   Mask<Lanes> is_in_range(const CapParticleOf<Lanes>& at) const
@@ -276,8 +358,12 @@ class CapBatch
 template <int D>
 BatchFailure update(const TabularCap& sand, const MaterialBatch<D, CapState>& batch, UpdateCounts& counts)
 {
-  return std::visit([&](const auto& model) { return CapBatch(sand, model, batch).update(counts); },
-                    sand.parameters().modulus);
+  return std::visit(
+      [&]<class Model>(const Model& model) {
+        return sand.may_come_apart() ? CapBatch<D, Model, true>(sand, model, batch).update(counts)
+                                     : CapBatch<D, Model, false>(sand, model, batch).update(counts);
+      },
+      sand.parameters().modulus);
 }
 
 template BatchFailure update<2>(const TabularCap&, const MaterialBatch<2, CapState>&, UpdateCounts&);

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string_view>
 
@@ -29,14 +30,17 @@ struct CapState {
   double elastic_volumetric = 0;  ///< compression positive
   double plastic_volumetric = 0;  ///< compression positive
   double equivalent_plastic = 0;  ///< sum of sqrt(2/3 de:de), e the plastic strain's deviator
-  double bulk_modulus = 0;        ///< that the last update ended with; 0 before the first
-  std::int64_t n_failures = 0;    ///< updates that failed, and left stress and strains as they were
+  double bulk_modulus = 0;        ///< that the last update ended with; 0 before the first and where it is apart
+  std::int32_t n_failures = 0;    ///< updates that failed, and left stress and strains as they were
+  /// det F at which it came apart; 0 while it is whole. Not a double, so that a state takes no more than 40 bytes.
+  float separation_volume = 0;
 };
 
 struct TabularCapParameters {
   /// Keeps depths, peaks and energies of a punch within 0.03 %, see docs/method.md.
   static constexpr double usual_tolerance = 1e-4;
   static constexpr int usual_max_substeps = 100;
+  static constexpr double usual_separation_density = 0.8;
 
   double poisson_ratio;
   ElasticUpdate elastic_update;
@@ -45,6 +49,9 @@ struct TabularCapParameters {
   YieldSurface yield;
   double tolerance = usual_tolerance;  ///< of the stress in one step, relative: sets the number of substeps
   int max_substeps = usual_max_substeps;
+  /// Part of the initial density below which sand at the tension vertex comes apart, see separation.hpp; without it, it
+  /// never does.
+  std::optional<double> separation_density{};
 };
 
 class TabularCap
@@ -53,10 +60,10 @@ class TabularCap
   using State = CapState;
   static constexpr std::string_view type = "tabular_cap";
   static constexpr char state_name[] = "cap state";
-  /// Strains, the crush pressure X "cap", failed updates; of a single point also whether the elastic model was asked
-  /// within its range, and how far the stress is outside of the yield surface, over the length of that, crush pressure
-  /// less tension vertex.
-  static std::span<const StateColumn<TabularCap>, 6> columns();
+  /// Strains, the crush pressure X "cap", failed updates, whether it has come apart; of a single point also whether the
+  /// elastic model was asked within its range, and how far the stress is outside of the yield surface, over the length
+  /// of that, crush pressure less tension vertex.
+  static std::span<const StateColumn<TabularCap>, 7> columns();
   static std::span<const StateExtreme, 3> extremes();
 
   /// Throws BadValue for a Poisson's ratio outside (-1, 0.5), or a crush curve that falls or starts at or below zero.
@@ -64,6 +71,8 @@ class TabularCap
 
   const TabularCapParameters& parameters() const { return parameters_; }
   double poisson_ratio() const { return parameters_.poisson_ratio; }
+
+  bool may_come_apart() const { return parameters_.separation_density.has_value(); }
 
   /// G / K.
   double shear_ratio() const { return shear_ratio_; }
@@ -96,7 +105,8 @@ class TabularCap
 /// A large increment is cut into substeps so that the estimated stress error stays within the tolerance; none is
 /// smaller than the increment over `max_substeps`, and one of that size is taken whatever its error, and counted. An
 /// increment larger than 0.2 is refused. A particle that cannot be updated keeps its stress and strains, and is marked
-/// in its state and counted; the answer is the first of them. `counts` is added to.
+/// in its state and counted; the answer is the first of them. `counts` is added to. Deformation gradients are looked at
+/// only of sand that may come apart: while it is, stress and moduli are zero.
 template <int D>
 BatchFailure update(const TabularCap& sand, const MaterialBatch<D, CapState>& batch, UpdateCounts& counts);
 

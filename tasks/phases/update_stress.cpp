@@ -92,11 +92,15 @@ void account(const Method<D>& method, double dt, const Data& data, std::size_t f
     const auto lanes = [n, k](const auto& values) { return lanes_at(std::span(values).first(n), k); };
     const Lanes volume = lanes(volumes), old_volume = lanes(old_volumes);
     const SymmetricTensor<D, Lanes> strain = lanes(strains);
+    const Lanes bulk_modulus = lanes(answer.bulk_modulus);
+    const Mask<Lanes> stiff = bulk_modulus > 0.0;
+    // Where nothing is stiff nothing has to be damped.
+    const Lanes volume_rate = select(stiff, trace(strain) / dt, Lanes(0.0));
     const components::StiffParticle<D, Lanes> p{.density = lanes(mass) / volume,
-                                                .bulk_modulus = lanes(answer.bulk_modulus),
+                                                .bulk_modulus = bulk_modulus,
                                                 .shear_modulus = lanes(answer.shear_modulus),
                                                 .velocity = lanes(velocity),
-                                                .volume_rate = trace(strain) / dt,
+                                                .volume_rate = volume_rate,
                                                 .own_stiffness = lanes(own_stiffness)};
     const Lanes q = viscosity ? viscosity->pressure(p.density, p.bulk_modulus, p.volume_rate, method.cell_size) : 0.0;
     set_lanes(viscous_pressure, k, q);
@@ -108,13 +112,13 @@ void account(const Method<D>& method, double dt, const Data& data, std::size_t f
     set_lanes(account.elastic, k, double_dot(mid_stress, strain) * mid_volume - plastic);
     set_lanes(account.plastic, k, plastic);
     set_lanes(account.viscous, k, lanes(old_viscous_pressure) * (old_volume - volume));
-    set_lanes(
-        account.stable_step, k,
+    const Lanes stable_step =
         method.time_step_rule == StepRule::published
             ? components::published_time_step<D>(
                   method.cell_size, components::wave_speed(p.bulk_modulus, p.shear_modulus, p.density), p.velocity)
             : components::viscous_time_step<D>(method.cell_size, p,
-                                               viscosity.value_or(components::ArtificialViscosity{0, 0})));
+                                               viscosity.value_or(components::ArtificialViscosity{0, 0}));
+    set_lanes(account.stable_step, k, select(stiff, stable_step, components::part_of_step_apart * stable_step));
   }
   account.add_to(data[step_totals], n);
 }
@@ -159,6 +163,18 @@ FailedUpdate failed_update(const Model& model, int material, std::size_t p, comp
   return failed;
 }
 
+/// What bears no stress cannot stop the motion within it: it forgets that, and brings the grid its velocity alone.
+template <int D, class Data>
+void forget_gradients(const Data& data, std::size_t first, std::span<const double> bulk_modulus)
+{
+  if constexpr (data.has(particle::velocity_gradient<D>)) {
+    const auto gradient = data[particle::velocity_gradient<D>].subspan(first, bulk_modulus.size());
+    for (std::size_t k = 0; k < gradient.size(); ++k) {
+      if (bulk_modulus[k] == 0) gradient[k].setZero();
+    }
+  }
+}
+
 /// Takes all particles to the material batch by batch.
 template <int D, class Model, class Data>
 void update_batches(const Method<D>& method, const Model& model, const TaskContext& at, const Data& data)
@@ -175,6 +191,18 @@ void update_batches(const Method<D>& method, const Model& model, const TaskConte
     }
     check_finite(method, at.group, data, first, n);
     account(method, at.step.size, data, first, std::span<const SymmetricTensor<D>>(old_stress.data(), n), answer);
+    forget_gradients<D>(data, first, batch.bulk_modulus);
+  }
+}
+
+template <int D, class Model, class Task>
+runtime::TaskDeclaration with_body(const Method<D>& method, const Model& model, Task task)
+{
+  const auto body = [&method, &model](const TaskContext& at, auto data) { update_batches(method, model, at, data); };
+  if constexpr (components::has_state<Model>) {
+    return std::move(task).reads(particle::state<Model>.previous()).computes(particle::state<Model>).body(body);
+  } else {
+    return std::move(task).body(body);
   }
 }
 
@@ -190,12 +218,12 @@ runtime::TaskDeclaration update_of(const Method<D>& method, int material, const 
           .updates(particle::stress<D>)
           .computes(particle::viscous_pressure)
           .reduces(step_totals);
-  const auto body = [&method, &model](const TaskContext& at, auto data) { update_batches(method, model, at, data); };
-  if constexpr (components::has_state<Model>) {
-    return std::move(task).reads(particle::state<Model>.previous()).computes(particle::state<Model>).body(body);
-  } else {
-    return std::move(task).body(body);
+  if constexpr (requires { model.may_come_apart(); }) {
+    if (model.may_come_apart() && method.transfer == Transfer::affine) {
+      return with_body(method, model, std::move(task).updates(particle::velocity_gradient<D>));
+    }
   }
+  return with_body(method, model, std::move(task));
 }
 
 }  // namespace

@@ -59,6 +59,7 @@ void add_state_fields(const Model& model, std::vector<ParticleField>& fields)
   if constexpr (components::has_state<Model>) {
     for (const components::StateColumn<Model>& column : components::state_columns<Model>()) {
       if (column.shown == components::Shown::by_drive) continue;
+      if (column.is_written != nullptr && !column.is_written(model)) continue;
       fields.emplace_back(
           std::string(column.name), ColumnKind::scalar,
           [&model, &column](const typename Model::State& state, const SymmetricTensor<D>& stress) {

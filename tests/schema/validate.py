@@ -62,6 +62,7 @@ SOUND = [
                                  "friction_angle": 30, "cohesion": 1e3}}),
     (PLANE, {"/materials/sand": SAND}),
     (PLANE, {"/materials/sand": {**SAND, "modulus": {"compile": 0.01}, "tolerance": 1e-4}}),
+    (PLANE, {"/materials/sand": {**SAND, "comes_apart": True, "separation_density": 0.7}}),
     (PLANE, {"/materials/sand": {"file": SAND["file"], "type": "hypoelastic", "density": 1, "bulk_modulus": 1e7,
                                  "shear_modulus": 1e7, "poisson_ratio": None, "modulus": None, "yield": None,
                                  "hydrostat": None, "elastic_update": None, "strain_measure": None,

@@ -148,6 +148,26 @@ TEST_CASE("soil on walls goes on, on other ranks too, with the bits of a straigh
   check_parted_run(scene.string(), 3);
 }
 
+TEST_CASE("sand that has come apart goes on with the bits of a straight run, on other ranks too", "[mpiexec]")
+{
+  const TemporaryFolder folder;
+  const fs::path scene = folder.write("block.json", R"({
+    "dimension": 2, "grid": {"upper": [0.8, 0.8], "cell_size": 0.05, "patches": [4, 2]}, "time": {"end": 1},
+    "transfer": "affine", "artificial_viscosity": {},
+    "materials": {"sand": {"file": ")" TAMP_SOURCE_DIR R"(/inputs/materials/concrete-sand/table.json",
+                           "comes_apart": true}},
+    "bodies": {"block": {"material": "sand", "angular_velocity": [1500],
+                         "geometry": {"type": "box", "lower": [0.05, 0.3], "upper": [0.35, 0.5]}}}
+  })");
+
+  check_parted_run(scene.string(), 3);
+
+  REQUIRE(
+      tamp_with("run " + scene.string() + " --quiet --steps 60 --out " + (folder.path() / "run").string()).exit_code ==
+      0);
+  CHECK(summary_of(folder.path() / "run")["monitors"]["separations"] > 50);
+}
+
 TEST_CASE("a footing under a load that grows goes on with the bits of a straight run, on other ranks too", "[mpiexec]")
 {
   check_parted_run(TAMP_SOURCE_DIR "/inputs/footing/quick.json --set /output/history_interval=0.0005", 3);

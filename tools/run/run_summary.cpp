@@ -155,7 +155,9 @@ Json run_summary(tasks::Simulation& simulation, const RunHistory& history, const
             {"limited_substeps", updates.limited_substeps},
             {"modulus_evaluations", updates.modulus_evaluations},
             {"modulus_extrapolations", updates.extrapolated},
-            {"failed_updates", updates.failures}}}};
+            {"failed_updates", updates.failures},
+            {"separations", updates.separations},
+            {"updates_apart", updates.apart}}}};
 }
 
 std::string summary_text(const Json& summary)

@@ -102,7 +102,18 @@ std::vector<Key> keys_of<components::TabularCap>()
            WholeNumber{1, most_substeps},
            "",
            {TabularCapParameters::usual_max_substeps},
-           "substeps that one step may be cut into"}};
+           "substeps that one step may be cut into"},
+          {"comes_apart",
+           Flag{},
+           "",
+           {false},
+           "whether sand that is torn bears and resists nothing until its volume is again what it was then, see "
+           "[method.md](method.md)"},
+          {"separation_density",
+           Number{{.lower = 0, .upper = 1, .holds_lower = false}},
+           "",
+           {TabularCapParameters::usual_separation_density},
+           "part of the initial density below which sand that may come apart does so"}};
 }
 
 template <class... Model>

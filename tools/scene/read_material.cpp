@@ -96,13 +96,16 @@ std::optional<tasks::MaterialModel> read_tabular_cap(JsonReader& reader)
   const auto update = reader.choice<components::ElasticUpdate>("elastic_update");
   const double tolerance = reader.number("tolerance");
   const int max_substeps = reader.whole_number("max_substeps");
+  const bool comes_apart = reader.flag("comes_apart");
+  const double separation_density = reader.number("separation_density");
   const auto measure = reader.choice<StrainMeasure>("strain_measure");
   const auto modulus = read_modulus(reader, measure);
   const auto yield = read_yield(reader);
   const auto crush = read_crush_curve(reader, update, measure, modulus);
   if (problems.size() > n_before || !modulus || !yield || !crush) return std::nullopt;
   try {
-    return components::TabularCap({poisson_ratio, update, *modulus, crush->curve, *yield, tolerance, max_substeps});
+    return components::TabularCap({poisson_ratio, update, *modulus, crush->curve, *yield, tolerance, max_substeps,
+                                   comes_apart ? std::optional(separation_density) : std::nullopt});
   } catch (const BadValue& bad) {
     // All but the crush curve was checked above.
     if (crush->table) {

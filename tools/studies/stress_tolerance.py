@@ -19,6 +19,7 @@ import pathlib
 import resource
 import subprocess
 import tempfile
+import typing
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 PEAKS = {"p peak": "p_max[Pa]", "q peak": "q_max[Pa]", "cap": "cap_max[Pa]",
@@ -26,26 +27,33 @@ PEAKS = {"p peak": "p_max[Pa]", "q peak": "q_max[Pa]", "cap": "cap_max[Pa]",
 ENERGIES = {"plastic energy": "plastic[J]", "total energy": "total[J]"}
 
 
-def run(arguments, tolerance, density=None):
-    """The history, the body's depth, the user time and the sand's density."""
+class Run(typing.NamedTuple):
+    history: dict  # columns, those of the sand without its name
+    depth: list
+    seconds: float  # user time
+    summary: dict
+    density: float  # of the sand
+
+
+def run(arguments, **keys):
+    """Runs the scene with these keys of the sand."""
     sand = f"/materials/{arguments.sand}"
+    changes = [f"{sand}/{key}={value}" for key, value in keys.items()] + arguments.set
     with tempfile.TemporaryDirectory() as folder:
-        command = [arguments.program, "run", arguments.scene, "--out", f"{folder}/run", "--quiet", "--threads", "1",
-                   "--set", f"{sand}/tolerance={tolerance}"]
-        if density:
-            command += ["--set", f"{sand}/density={density!r}"]
-        for change in arguments.set:
+        command = [arguments.program, "run", arguments.scene, "--out", f"{folder}/run", "--quiet", "--threads", "1"]
+        for change in changes:
             command += ["--set", change]
         before = resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime
         subprocess.run(command, check=True, stdout=subprocess.DEVNULL)
         seconds = resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime - before
         with open(f"{folder}/run/history.csv") as file:
             rows = list(csv.DictReader(file))
-        scene = json.loads(pathlib.Path(f"{folder}/run/scene.json").read_text())
+        scene, summary = (json.loads(pathlib.Path(f"{folder}/run/{name}.json").read_text())
+                          for name in ("scene", "summary"))
     depth = next(name for name in rows[0] if name.endswith(".depth[m]"))
     column = {name: [float(row[name]) for row in rows] for name in rows[0] if name and rows[0][name]}
     of_sand = {key.removeprefix(f"{arguments.sand}."): values for key, values in column.items()}
-    return of_sand, column[depth], seconds, scene["materials"][arguments.sand]["density"]
+    return Run(of_sand, column[depth], seconds, summary, scene["materials"][arguments.sand]["density"])
 
 
 def at(times, values, time):
@@ -57,11 +65,17 @@ def at(times, values, time):
     return values[k - 1] + part * (values[k] - values[k - 1])
 
 
+def depth_difference(reference, other):
+    """The greatest at any time, over the greatest depth."""
+    times, depth = other.history["time[s]"], other.depth
+    apart = max(abs(at(times, depth, t) - d) for t, d in zip(reference.history["time[s]"], reference.depth))
+    return apart / max(map(abs, reference.depth))
+
+
 def differences(reference, other):
-    (a, depth_a, *_), (b, depth_b, *_) = reference, other
+    a, b, depth_a, depth_b = reference.history, other.history, reference.depth, other.depth
     scale = max(map(abs, depth_a))
-    apart = max(abs(at(b["time[s]"], depth_b, t) - d) for t, d in zip(a["time[s]"], depth_a))
-    found = {"depth(t)": apart / scale, "greatest depth": abs(max(depth_b) - max(depth_a)) / scale}
+    found = {"depth(t)": depth_difference(reference, other), "greatest depth": abs(max(depth_b) - max(depth_a)) / scale}
     for name, key in PEAKS.items():
         found[name] = abs(max(b[key]) / max(a[key]) - 1)
     total = a["total[J]"][0] or 1
@@ -70,26 +84,31 @@ def differences(reference, other):
     return found
 
 
-def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+def arguments_of_runs(description):
+    parser = argparse.ArgumentParser(description=description, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--program", default=ROOT / "build/release/tamp")
     parser.add_argument("--scene", default=ROOT / "inputs/punch/quick.json")
     parser.add_argument("--sand", default="sand", help="the name of the material")
     parser.add_argument("--set", action="append", default=[])
+    return parser
+
+
+def main():
+    parser = arguments_of_runs(__doc__)
     parser.add_argument("--tolerances", default="1e-6,1e-5,1e-4,1e-3")
     arguments = parser.parse_args()
 
     tolerances = arguments.tolerances.split(",")
-    reference = run(arguments, tolerances[0])
-    density = reference[3]
-    rows = [(f"round-off {k}", run(arguments, tolerances[0], density * (1 + k * 1e-12))) for k in (1, 2, 3)]
-    rows += [(tolerance, run(arguments, tolerance)) for tolerance in tolerances[1:]]
+    reference = run(arguments, tolerance=tolerances[0])
+    rows = [(f"round-off {k}", run(arguments, tolerance=tolerances[0], density=reference.density * (1 + k * 1e-12)))
+            for k in (1, 2, 3)]
+    rows += [(tolerance, run(arguments, tolerance=tolerance)) for tolerance in tolerances[1:]]
     names = list(differences(reference, reference))
     print("| tolerance | " + " | ".join(names) + " | time |\n|" + " --- |" * (len(names) + 2))
     for title, result in rows:
         found = differences(reference, result)
         cells = " | ".join(f"{found[name]:.1e}" for name in names)
-        print(f"| {title} | {cells} | {result[2] / reference[2]:.2f} |", flush=True)
+        print(f"| {title} | {cells} | {result.seconds / reference.seconds:.2f} |", flush=True)
 
 
 if __name__ == "__main__":

@@ -483,6 +483,20 @@ TEST_CASE("soil whose numbers do not go together is refused, with the one that d
         "--set#/materials/steel/cohesion: \"much\"; expected a number of 0 or above [Pa]");
 }
 
+TEST_CASE("sand that comes apart at no density, or perhaps, is refused")
+{
+  const auto problems = [](const std::string& assignment) {
+    const TemporaryFolder folder;
+    return problems_of(folder, TAMP_SOURCE_DIR "/inputs/punch/quick.json", {"/materials/sand/" + assignment});
+  };
+
+  CHECK(problems("comes_apart=true") == "");
+  CHECK(problems("separation_density=1") == "");
+  CHECK(problems("comes_apart=perhaps") == "--set#/materials/sand/comes_apart: \"perhaps\"; expected true or false");
+  CHECK(problems("separation_density=0") ==
+        "--set#/materials/sand/separation_density: 0; expected a number above 0 and up to 1");
+}
+
 TEST_CASE("a name that is none of the choices is told with the choices")
 {
   CHECK(problems_with({"/materials/steel/type=hypoelastik"}) ==

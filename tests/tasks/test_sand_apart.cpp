@@ -1,0 +1,89 @@
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <numeric>
+
+#include "tests/components/materials/concrete_sand.hpp"
+#include "tests/tasks/scenes.hpp"
+
+using namespace tamp;
+using namespace tamp::test;
+
+namespace
+{
+
+/// Sand that may come apart, in a block that spins so fast that it does, while it flies; 4 patches.
+Scene spinning_sand(int dimension)
+{
+  Scene scene = empty_scene(dimension, {20, 20, dimension == 3 ? 12 : 1}, 0.05);
+  scene.n_patches = {2, 2, 1};
+  scene.artificial_viscosity = components::ArtificialViscosity{};
+  auto parameters = concrete_sand::sand(components::ElasticUpdate::state).parameters();
+  parameters.separation_density = 0.8;
+  scene.materials.push_back({"sand", 1624, components::TabularCap(parameters)});
+  add_box(scene, 0, {0.35, 0.4, 0.25}, {0.65, 0.6, 0.35}, {3, -1, 0}).angular_velocity = {0, 0, 100};
+  return scene;
+}
+
+/// The numbers of a field of the first material.
+std::vector<double> numbers_of(Simulation& simulation, const std::string& field)
+{
+  const auto blocks = simulation.particle_columns();
+  const auto& columns = blocks[0].columns;
+  const auto at = std::find_if(columns.begin(), columns.end(), [&](const auto& c) { return c.name == field; });
+  REQUIRE(at != columns.end());
+  const auto values = std::get<std::span<const double>>(at->values);
+  return {values.begin(), values.end()};
+}
+
+double sum(const std::vector<double>& numbers)
+{
+  return std::accumulate(numbers.begin(), numbers.end(), 0.0);
+}
+
+}  // namespace
+
+TEST_CASE("sand that is thrown apart keeps its momentum and accounts for its energy, and flies on as it is")
+{
+  const int dimension = GENERATE(2, 3);
+  Scene scene = spinning_sand(dimension);
+  scene.transfer = GENERATE(Transfer::flip, Transfer::affine);
+  const auto simulation = Simulation::make(scene, 2);
+  const ParticleReport before = simulation->report();
+  const double stable_step = simulation->totals().stable_step;
+
+  advance_to(*simulation, 0.01);
+
+  const ParticleReport after = simulation->report();
+  const double given = simulation->totals().driving + before.kinetic;
+  CHECK((after.momentum() - before.momentum()).norm() < 1e-12 * before.momentum().norm());
+  CHECK(after.kinetic + worked(simulation->totals()) == Approx(given).epsilon(0.02));
+  CHECK(simulation->lost().count == 0);
+  const std::vector<double> apart = numbers_of(*simulation, "apart"), q = numbers_of(*simulation, "q"),
+                            p = numbers_of(*simulation, "p");
+  const auto n_apart = static_cast<std::size_t>(sum(apart));
+  CHECK(n_apart > apart.size() / 2);
+  CHECK(simulation->totals().updates.separations >= n_apart);
+  for (std::size_t i = 0; i < apart.size(); ++i) {
+    if (apart[i] == 0) continue;
+    REQUIRE(p[i] == 0);
+    REQUIRE(q[i] == 0);
+  }
+  // Nearly nothing is stiff any more.
+  CHECK(simulation->totals().stable_step > 1.5 * stable_step);
+}
+
+TEST_CASE("sand that has come apart joins where it is pushed together, on any threads alike")
+{
+  Scene scene = spinning_sand(2);
+  for (std::size_t axis = 0; axis < 2; ++axis) add_walls(scene, axis);
+  const auto simulation = Simulation::make(scene, 1), other = Simulation::make(scene, 2);
+  const double given = simulation->report().kinetic;
+
+  for (Simulation* one : {simulation.get(), other.get()}) advance_to(*one, 0.05);
+
+  const double n_apart = sum(numbers_of(*simulation, "apart"));
+  CHECK(static_cast<double>(simulation->totals().updates.separations) > n_apart);
+  CHECK(simulation->report().kinetic + worked(simulation->totals()) == Approx(given).epsilon(0.2));
+  CHECK(simulation->totals().updates.failures == 0);
+  CHECK(simulation->digest() == other->digest());
+}
