@@ -134,13 +134,18 @@ std::span<const StateExtreme, 3> TabularCap::extremes()
 namespace
 {
 
-/// A batch on its way through a tile, of sand that may come apart or may not.
-template <int D, class Model, bool may_part>
+/// A batch on its way through a tile.
+template <int D, class Model>
 class CapBatch
 {
  public:
   CapBatch(const TabularCap& sand, const Model& model, const MaterialBatch<D, CapState>& batch)
-      : sand_(sand), model_(model), batch_(batch), integrator_(sand, model), tile_(integrator_)
+      : sand_(sand),
+        model_(model),
+        batch_(batch),
+        may_part_(sand.may_come_apart()),
+        integrator_(sand, model),
+        tile_(integrator_)
   {
   }
 
@@ -202,7 +207,7 @@ class CapBatch
   };
   Parted parted_of(std::size_t begin, std::size_t n) const
   {
-    if constexpr (!may_part) return {};
+    if (!may_part_) return {};
     const Lanes parted_at =
         each_lane([&](std::size_t l) -> double { return old_state(begin, n, l).separation_volume; });
     const Mask<Lanes> before = parted_at > 0.0;
@@ -217,7 +222,7 @@ class CapBatch
   /// The strain of particles that were whole.
   Tensors of_solid(Tensors strain, const Parted& parted) const
   {
-    if constexpr (!may_part) return strain;
+    if (!may_part_) return strain;
     for (int k = 0; k < n_symmetric<D>; ++k) strain[k] = select(parted.before, Lanes(0.0), strain[k]);
     return strain;
   }
@@ -246,14 +251,14 @@ class CapBatch
     set_lanes(batch_.shear_modulus, begin, sand_.shear_ratio() * now.bulk_modulus);
     set_lanes(batch_.plastic_work, begin, now.plastic_work);
     counts_.extrapolated += count(!within && first_lanes(n));
-    if (!may_part && all_of(found)) return set_states(begin, n, now);
+    if (!may_part_ && all_of(found)) return set_states(begin, n, now);
     for (std::size_t l = 0; l < n; ++l) {
       if (found[l]) {
         set_state(begin + l,
                   {now.elastic_volumetric[l], now.plastic_volumetric[l], now.equivalent_plastic[l], now.bulk_modulus[l],
                    batch_.old_state[begin + l].n_failures},
                   now.pressure[l], now.j2[l]);
-      } else if (may_part && parted.still[l]) {
+      } else if (may_part_ && parted.still[l]) {
         stay_apart(begin + l);
       } else {
         fail(begin + l);
@@ -280,7 +285,7 @@ class CapBatch
   {
     const double parted_at = batch_.old_state[i].separation_volume;
     batch_.state[i] = state;
-    if constexpr (may_part) join_or_part(i, parted_at, pressure, j2);
+    if (may_part_) join_or_part(i, parted_at, pressure, j2);
   }
 
   /// The tile has left its stress, its moduli and its plastic work at zero.
@@ -347,6 +352,7 @@ class CapBatch
   const TabularCap& sand_;
   const Model& model_;
   const MaterialBatch<D, CapState>& batch_;
+  bool may_part_;
   CapIntegrator<Model> integrator_;
   CapTile<Model> tile_;
   UpdateCounts counts_;
@@ -358,12 +364,8 @@ class CapBatch
 template <int D>
 BatchFailure update(const TabularCap& sand, const MaterialBatch<D, CapState>& batch, UpdateCounts& counts)
 {
-  return std::visit(
-      [&]<class Model>(const Model& model) {
-        return sand.may_come_apart() ? CapBatch<D, Model, true>(sand, model, batch).update(counts)
-                                     : CapBatch<D, Model, false>(sand, model, batch).update(counts);
-      },
-      sand.parameters().modulus);
+  return std::visit([&](const auto& model) { return CapBatch(sand, model, batch).update(counts); },
+                    sand.parameters().modulus);
 }
 
 template BatchFailure update<2>(const TabularCap&, const MaterialBatch<2, CapState>&, UpdateCounts&);
