@@ -1,9 +1,11 @@
 /// A library to be loaded before others (LD_PRELOAD): it lets one call of a program fail, once, or a disk be slow.
 ///
-///     TAMP_FAIL_CALL    write, pwrite, fwrite, fflush, fsync, rename, fallocate, malloc, pthread_create, or an HDF5
-///     call TAMP_FAIL_AT      which of these calls; 1 is the first TAMP_FAIL_PATH    only calls for files whose path
-///     has this in it count TAMP_FAIL_SIZE    only allocations of so many bytes or more count TAMP_FAIL_WHEN    calls
-///     count from when this file is there TAMP_SLOW_FSYNC   milliseconds that every fsync takes longer
+///  - TAMP_FAIL_CALL: write, pwrite, fwrite, fflush, fsync, rename, fallocate, malloc, pthread_create, or an HDF5 call
+///  - TAMP_FAIL_AT: which of these calls; 1 is the first
+///  - TAMP_FAIL_PATH: only calls for files whose path has this in it count
+///  - TAMP_FAIL_SIZE: only allocations of so many bytes or more count
+///  - TAMP_FAIL_WHEN: calls count from when this file is there
+///  - TAMP_SLOW_FSYNC: milliseconds that every fsync takes longer
 #include <dlfcn.h>
 #include <fcntl.h>
 #include <hdf5.h>
