@@ -4,7 +4,6 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <functional>
 #include <utility>
 
 #include "components/lanes.hpp"
@@ -104,11 +103,6 @@ void for_each_pack(std::size_t n, const Number& number, const Act& act)
     }
     act(pack);
   }
-}
-template <class Act>
-void for_each_pack(std::size_t n, const Act& act)
-{
-  for_each_pack(n, std::identity(), act);
 }
 
 /// Some of the particles.

@@ -39,12 +39,10 @@ class CapTile
     for (List& list : starting_) {
       list.for_each_pack([&](const Pack& pack) { try_whole(pack); });
       list.clear();
-      take_up_left();
-      under_way_.keep_if([&](std::size_t i) { return !has_ended(i); });
+      judge_under_way();
       while (!under_way_.empty()) {
         under_way_.for_each_pack([&](const Pack& pack) { substep(pack, sizes(pack)); });
-        take_up_left();
-        under_way_.keep_if([&](std::size_t i) { return !has_ended(i); });
+        judge_under_way();
       }
     }
     one_.counts().modulus_evaluations += static_cast<std::size_t>(reduce(std::exchange(n_evaluations_, 0.0)));
@@ -84,10 +82,13 @@ class CapTile
     for (std::size_t l = 0; l < pack.n; ++l) left_.add_if(tried.left[l], pack.of[l]);
     return select(tried.left, Lanes(std::numeric_limits<double>::infinity()), tried.end.error);
   }
-  void take_up_left()
+
+  /// Does what CapLanes left, and keeps those that are not at their end.
+  void judge_under_way()
   {
     left_.for_each([&](std::size_t i) { tried_.set(i, one_.substep(old_.at(i), strain_.at(i), progress_[i].size)); });
     left_.clear();
+    under_way_.keep_if([&](std::size_t i) { return !has_ended(i); });
   }
 
   bool has_ended(std::size_t i)
