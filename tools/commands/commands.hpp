@@ -15,6 +15,7 @@ CLI::App* add_schema_command(CLI::App& app);
 CLI::App* add_drive_command(CLI::App& app);
 CLI::App* add_compare_command(CLI::App& app);
 CLI::App* add_modulus_command(CLI::App& app);
+CLI::App* add_study_command(CLI::App& app);
 CLI::App* add_bench_command(CLI::App& app);
 
 }  // namespace tamp::tools

@@ -24,6 +24,7 @@ int run_program(int argc, char** argv, const runtime::Communicator& ranks)
   add_drive_command(app);
   add_compare_command(app);
   add_modulus_command(app);
+  add_study_command(app);
   add_bench_command(app);
 
   try {

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "tools/csv_text.hpp"
 #include "tools/usable_cores.hpp"
 #include "tools/version.hpp"
 
@@ -77,16 +78,6 @@ Json rounds(const ModelResult& model)
     json["wall_per_step_s"].push_back(round.step_wall);
   }
   return json;
-}
-
-/// Text in quotes, as it may hold commas; an empty place where there is no number.
-std::string csv_cell(const Json& value)
-{
-  if (value.is_null()) return "";
-  if (!value.is_string()) return value.dump();
-  std::string text = value.get<std::string>();
-  for (std::size_t at = text.find('"'); at != std::string::npos; at = text.find('"', at + 2)) text.insert(at, 1, '"');
-  return text.find_first_of(",\"\n") == std::string::npos ? text : "\"" + text + "\"";
 }
 
 }  // namespace

@@ -30,9 +30,9 @@ void note_early_signals()
   std::signal(SIGUSR2, note);
 }
 
-SignalWatch::SignalWatch(runtime::Executor& executor)
+SignalWatch::SignalWatch(runtime::Executor* executor)
 {
-  watched = &executor;
+  watched = executor;
   for (const int signal : {SIGTERM, SIGINT, SIGXCPU, SIGUSR2}) std::signal(signal, note);
   if (std::signal(SIGHUP, note) == SIG_IGN) std::signal(SIGHUP, SIG_IGN);
   std::signal(SIGUSR1, ask_for_report);

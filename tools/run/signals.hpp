@@ -18,18 +18,22 @@ struct Interrupted : std::runtime_error {
 void note_early_signals();
 
 /// While it lives, SIGTERM, SIGINT, SIGHUP and SIGXCPU are noted instead of ending the program, SIGUSR2, which mpirun
-/// hands on at once, counts as SIGTERM, and SIGUSR1 has the executor say what it is at. A SIGHUP that was ignored, as
-/// under nohup, stays ignored. One at a time.
+/// hands on at once, counts as SIGTERM, and SIGUSR1 has the executor, if there is one, say what it is at. A SIGHUP that
+/// was ignored, as under nohup, stays ignored. One at a time.
 class SignalWatch
 {
  public:
-  explicit SignalWatch(runtime::Executor& executor);
+  explicit SignalWatch(runtime::Executor& executor) : SignalWatch(&executor) {}
+  SignalWatch() : SignalWatch(nullptr) {}
   ~SignalWatch();
   SignalWatch(const SignalWatch&) = delete;
   SignalWatch& operator=(const SignalWatch&) = delete;
 
   /// The last signal that asked to stop; 0 for none.
   int noted() const;
+
+ private:
+  explicit SignalWatch(runtime::Executor* executor);
 };
 
 }  // namespace tamp::tools

@@ -127,21 +127,32 @@ class TableReader
 
 }  // namespace
 
-std::vector<std::pair<std::string, double>> greatest_of_columns(const std::filesystem::path& file)
+std::vector<std::pair<std::string, std::vector<double>>> numbers_by_column(const std::filesystem::path& file)
 {
-  std::vector<std::pair<std::string, double>> columns;
+  std::vector<std::pair<std::string, std::vector<double>>> columns;
   std::istringstream stream(read_input_file(file));
   for (std::string line; std::getline(stream, line);) {
     const std::string_view content = trimmed(line);
     if (content.empty() || content.front() == '#') continue;
     const std::vector<std::string_view> parts = split(content);
     const bool first = columns.empty();
-    for (std::size_t i = 0; first && i < parts.size(); ++i) columns.emplace_back(parts[i], -HUGE_VAL);
+    for (std::size_t i = 0; first && i < parts.size(); ++i) columns.emplace_back(parts[i], std::vector<double>{});
     for (std::size_t i = 0; !first && i < std::min(parts.size(), columns.size()); ++i) {
-      columns[i].second = std::max(columns[i].second, finite_number(parts[i]).value_or(columns[i].second));
+      columns[i].second.push_back(finite_number(parts[i]).value_or(NAN));
     }
   }
   return columns;
+}
+
+std::vector<std::pair<std::string, double>> greatest_of_columns(const std::filesystem::path& file)
+{
+  std::vector<std::pair<std::string, double>> all;
+  for (const auto& [name, values] : numbers_by_column(file)) {
+    double greatest = -HUGE_VAL;
+    for (const double value : values) greatest = std::fmax(greatest, value);
+    all.emplace_back(name, greatest);
+  }
+  return all;
 }
 
 Table read_csv_table(const std::filesystem::path& file, const std::vector<std::string>& columns)

@@ -16,6 +16,9 @@ namespace tamp::tools
 /// unreadable or infinite numbers, NaN, and a table without rows; FileError for a file that cannot be read.
 Table read_csv_table(const std::filesystem::path& file, const std::vector<std::string>& columns);
 
+/// Each column of such a file by its name, whatever its columns are, with NaN for what is no number.
+std::vector<std::pair<std::string, std::vector<double>>> numbers_by_column(const std::filesystem::path& file);
+
 /// Each column of such a file by its name, with the largest of its numbers; what is no number is passed over.
 std::vector<std::pair<std::string, double>> greatest_of_columns(const std::filesystem::path& file);
 

@@ -486,7 +486,7 @@ void JsonReader::finish() const
     if (std::find(names.begin(), names.end(), key) != names.end()) continue;
     if (object_->may_be_a_file && key == "$schema") continue;
     const std::string near = did_you_mean(key, names);
-    add_problem(key, "unknown key", near.empty() ? "expected one of " + joined(names) : near.substr(2));
+    add_problem(key, unknown_key, near.empty() ? "expected one of " + joined(names) : near.substr(2));
   }
 }
 

@@ -11,6 +11,9 @@
 namespace tamp::tools
 {
 
+/// What problems with a key that is not declared say they found.
+inline constexpr char unknown_key[] = "unknown key";
+
 /// Reads an object of a document by its keys (keys.hpp), which say what each may hold. Each function that reads a key
 /// writes its default back where it has one, and adds what is wrong to the document's problems; it then returns
 /// something harmless, so that the rest is checked too. A key whose value is null counts as left out. A key that has no

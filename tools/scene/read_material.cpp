@@ -175,14 +175,20 @@ std::optional<tasks::SceneMaterial> read_material(const std::string& name, JsonR
   return tasks::SceneMaterial{name, density, *model, particles_per_axis};
 }
 
-tasks::SceneMaterial read_material_file(const std::filesystem::path& file, const std::vector<std::string>& assignments)
+CheckedMaterial read_checked_material(const std::filesystem::path& file, const std::vector<std::string>& assignments)
 {
   Document document(file);
   for (const std::string& assignment : assignments) document.set(assignment);
   document.merge_file_named_at(JsonPointer());
   auto material = read_material(file.stem().string(), JsonReader(document, material_keys()));
   if (!document.problems.empty()) throw InputError(std::move(document.problems));
-  return std::move(*material);
+  document.root["inputs"] = to_json(document.inputs);
+  return {std::move(*material), std::move(document.root)};
+}
+
+tasks::SceneMaterial read_material_file(const std::filesystem::path& file, const std::vector<std::string>& assignments)
+{
+  return read_checked_material(file, assignments).material;
 }
 
 }  // namespace tamp::tools

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <filesystem>
+#include <limits>
+#include <string>
+#include <vector>
+
+namespace tamp::tools
+{
+
+/// How a process of this program ended.
+struct ChildEnd {
+  /// -1 where a signal ended it.
+  int exit_code = -1;
+  /// 0 where it ended by itself.
+  int signal = 0;
+  /// Processor time outside the kernel [s].
+  double user_s = 0;
+
+  bool done() const { return exit_code == 0; }
+};
+
+/// A process of this program with other arguments, the command first. Its standard output is dropped, and what it says
+/// on standard error goes to the file `errors`, or is dropped too. It goes down with this one. After `cpu_limit` [s] of
+/// processor time, in whole seconds, it gets SIGXCPU, at which a run keeps its state and ends.
+struct Child {
+  std::vector<std::string> arguments;
+  std::filesystem::path errors{"/dev/null"};
+  double cpu_limit = std::numeric_limits<double>::infinity();
+};
+
+/// Runs it and waits for its end. Throws ResourceError if it cannot be started, and Interrupted when a signal asks this
+/// program to stop: the child has then ended too.
+ChildEnd run_child(const Child& child);
+
+}  // namespace tamp::tools

@@ -1,0 +1,208 @@
+#include "tools/study/findings.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "tools/study/richardson.hpp"
+
+namespace tamp::tools::study
+{
+
+namespace
+{
+
+double first_cost(const Study& study, const MeasuredPoint& point)
+{
+  const auto cost = point.result.cost(cost_kinds(study.measure.kind).front().key);
+  return cost ? cost->median : INFINITY;
+}
+
+/// Points of the charts for which there is an error, cheapest first, of those that are cheaper each better than all.
+std::vector<int> pareto_front(const Study& study, const std::vector<MeasuredPoint>& points,
+                              const std::map<int, double>& errors)
+{
+  std::vector<const MeasuredPoint*> in_order;
+  for (const MeasuredPoint& one : points) {
+    if (one.point.role == Point::Role::chart && errors.contains(one.point.id)) in_order.push_back(&one);
+  }
+  const auto rank = [&](const MeasuredPoint* one) {
+    return std::pair(first_cost(study, *one), errors.at(one->point.id));
+  };
+  std::sort(in_order.begin(), in_order.end(), [&](const auto* a, const auto* b) { return rank(a) < rank(b); });
+  std::vector<int> front;
+  double best = INFINITY;
+  for (const MeasuredPoint* one : in_order) {
+    if (errors.at(one->point.id) >= best) continue;
+    best = errors.at(one->point.id);
+    front.push_back(one->point.id);
+  }
+  return front;
+}
+
+Settings without(Settings settings, const std::string& pointer)
+{
+  std::erase_if(settings, [&](const auto& setting) { return setting.first == pointer; });
+  return settings;
+}
+
+/// The points of each method that differ in the refined setting alone, in the order of the list.
+std::vector<std::vector<const MeasuredPoint*>> refined_groups(const Study& study,
+                                                              const std::vector<MeasuredPoint>& points)
+{
+  std::vector<std::vector<const MeasuredPoint*>> groups;
+  for (const MeasuredPoint& one : points) {
+    if (one.point.role == Point::Role::variation || !one.point.setting(study.refine).is_number()) continue;
+    const auto is_of = [&](const std::vector<const MeasuredPoint*>& group) {
+      return group.front()->point.method == one.point.method &&
+             without(group.front()->point.settings, study.refine) == without(one.point.settings, study.refine);
+    };
+    const auto group = std::find_if(groups.begin(), groups.end(), is_of);
+    if (group == groups.end()) {
+      groups.push_back({&one});
+    } else {
+      group->push_back(&one);
+    }
+  }
+  return groups;
+}
+
+OrderFit order_fit(const Study& study, std::vector<const MeasuredPoint*> group, const std::map<int, double>& errors)
+{
+  const Point& first = group.front()->point;
+  OrderFit fit{first.method, first.label, {}, std::nullopt, ""};
+  std::vector<Json> values;
+  std::vector<double> of_points;
+  for (const MeasuredPoint* one : group) {
+    const auto error = errors.find(one->point.id);
+    if (error == errors.end()) continue;
+    fit.points.push_back(one->point.id);
+    values.push_back(one->point.setting(study.refine));
+    of_points.push_back(error->second);
+  }
+  const double order = fitted_order(spacings_of(values), of_points);
+  if (std::isnan(order)) {
+    fit.note = "no order: fewer than three errors above 0";
+  } else if (!std::is_sorted(of_points.rbegin(), of_points.rend())) {
+    fit.note = "no order: errors do not fall from each to the next";
+  } else {
+    fit.order = order;
+  }
+  return fit;
+}
+
+QuantityFindings findings_of_one(const Study& study, const Quantity& quantity, const std::vector<MeasuredPoint>& points)
+{
+  QuantityFindings found;
+  found.reference = reference_of(study, quantity, points);
+  for (const MeasuredPoint& one : points) {
+    if (!one.done()) continue;
+    const Answer answer = answer_of(study, quantity, one.result);
+    if (!quantity.is_column()) found.values[one.point.id] = answer.value;
+    const auto error = found.reference.error(quantity, answer);
+    // A run that is the reference itself has no error that is known.
+    const bool is_reference = one.point.id == found.reference.point &&
+                              found.reference.kind != Reference::Kind::extrapolated &&
+                              found.reference.kind != Reference::Kind::exact;
+    if (error && !is_reference) found.errors[one.point.id] = *error;
+  }
+  found.front = pareto_front(study, points, found.errors);
+  if (!study.refine.empty()) {
+    for (const auto& group : refined_groups(study, points)) {
+      if (group.size() > 1) found.orders.push_back(order_fit(study, group, found.errors));
+    }
+  }
+  return found;
+}
+
+/// Error budgets, from the points of the study that have the base's and the changed settings.
+class BudgetMaker
+{
+ public:
+  BudgetMaker(const Study& study, const std::vector<MeasuredPoint>& points, const Quantity& quantity,
+              const Reference& reference)
+      : study_(study), points_(points), quantity_(quantity), reference_(reference)
+  {
+  }
+
+  ErrorBudget make(const BudgetBase& base) const
+  {
+    ErrorBudget budget{quantity_.name, base.name, std::nullopt, {}};
+    const auto answer = answer_with(base_settings(study_, base));
+    if (answer && !quantity_.is_column()) budget.value = answer->value;
+    for (const BudgetPart& part : study_.budget->parts) {
+      budget.parts.push_back(!answer             ? BudgetAmount{part.name, std::nullopt, "the base is not done"}
+                             : part.to_reference ? from_reference(part, *answer)
+                                                 : from_variations(base, part, *answer));
+    }
+    return budget;
+  }
+
+ private:
+  std::optional<Answer> answer_with(const Settings& settings) const
+  {
+    for (const MeasuredPoint& one : points_) {
+      if (one.point.settings == settings && one.done()) return answer_of(study_, quantity_, one.result);
+    }
+    return std::nullopt;
+  }
+
+  BudgetAmount from_reference(const BudgetPart& part, const Answer& base) const
+  {
+    const auto error = reference_.error(quantity_, base);
+    if (!error) return {part.name, std::nullopt, reference_.note};
+    const std::string text = fmt::format("{:.2g} % from the reference", *error * 100);
+    if (!reference_.bound) return {part.name, std::nullopt, text + ", which is no bound: " + reference_.note};
+    return {part.name, *error + reference_.uncertainty.value_or(0),
+            fmt::format("{}, which is known to {:.2g} %", text, reference_.uncertainty.value_or(0) * 100)};
+  }
+
+  BudgetAmount from_variations(const BudgetBase& base, const BudgetPart& part, const Answer& answer) const
+  {
+    BudgetAmount found{part.name, std::nullopt, ""};
+    for (const Settings& variation : part.variations) {
+      const auto other = answer_with(varied_settings(study_, base, variation));
+      const std::string text = setting_text(variation.front().first, variation.front().second);
+      if (!found.note.empty()) found.note += ", ";
+      if (!other) {
+        found.note += text + ": not done";
+        continue;
+      }
+      const double change = distance(quantity_, answer, *other) / scale(answer);
+      found.note += fmt::format("{}: {:+.2g} %", text, change * 100);
+      found.amount = std::max(found.amount.value_or(0), std::abs(change));
+    }
+    return found;
+  }
+
+  double scale(const Answer& base) const
+  {
+    if (quantity_.is_column()) return 1;
+    const double magnitude = std::abs(base.value);
+    return quantity_.scale.value_or(magnitude > 0 ? magnitude : 1);
+  }
+
+  const Study& study_;
+  const std::vector<MeasuredPoint>& points_;
+  const Quantity& quantity_;
+  const Reference& reference_;
+};
+
+}  // namespace
+
+Findings findings_of(const Study& study, const std::vector<MeasuredPoint>& points)
+{
+  Findings findings;
+  for (const Quantity& quantity : study.quantities) {
+    findings.quantities.push_back(findings_of_one(study, quantity, points));
+    if (!study.budget) continue;
+    const std::vector<std::string>& asked = study.budget->quantities;
+    if (std::find(asked.begin(), asked.end(), quantity.name) == asked.end()) continue;
+    const BudgetMaker maker(study, points, quantity, findings.quantities.back().reference);
+    for (const BudgetBase& base : study.budget->bases) findings.budgets.push_back(maker.make(base));
+  }
+  return findings;
+}
+
+}  // namespace tamp::tools::study

@@ -1,0 +1,56 @@
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "tools/study/reference.hpp"
+
+namespace tamp::tools::study
+{
+
+/// How a method's errors fall along the refined setting, its other settings the same.
+struct OrderFit {
+  std::string method, label;
+  /// Ids of the points, from coarse to fine.
+  std::vector<int> points;
+  /// Empty where errors do not fall, or there are fewer than three.
+  std::optional<double> order;
+  std::string note;
+};
+
+/// All that is found of one quantity.
+struct QuantityFindings {
+  Reference reference;
+  /// By point id: of points that are done.
+  std::map<int, double> values, errors;
+  /// Ids of points of the charts than which none is cheaper and better at once.
+  std::vector<int> front;
+  std::vector<OrderFit> orders;
+};
+
+struct BudgetAmount {
+  std::string name;
+  /// Relative to the base's answer; empty where there is no bound, or a run is missing.
+  std::optional<double> amount;
+  std::string note;
+};
+
+/// What the error of one quantity consists of, at one base.
+struct ErrorBudget {
+  std::string quantity, base;
+  std::optional<double> value;
+  std::vector<BudgetAmount> parts;
+};
+
+struct Findings {
+  /// One for each quantity of the study.
+  std::vector<QuantityFindings> quantities;
+  std::vector<ErrorBudget> budgets;
+};
+
+/// Errors, orders, Pareto fronts and error budgets of a study whose points have been measured.
+Findings findings_of(const Study& study, const std::vector<MeasuredPoint>& points);
+
+}  // namespace tamp::tools::study

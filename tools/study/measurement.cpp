@@ -1,0 +1,128 @@
+#include "tools/study/measurement.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "tools/scene/input_file.hpp"
+#include "tools/scene/read_material.hpp"
+#include "tools/scene/read_scene.hpp"
+
+namespace tamp::tools::study
+{
+
+namespace
+{
+
+std::vector<std::string> assignments_of(const Settings& settings)
+{
+  std::vector<std::string> assignments;
+  for (const auto& [pointer, value] : settings) assignments.push_back(pointer + "=" + value.dump());
+  return assignments;
+}
+
+/// What is measured, with every default filled in.
+Json resolved(const Measure& measure, const Settings& settings)
+{
+  const std::vector<std::string> assignments = assignments_of(settings);
+  return measure.kind == Measure::Kind::run ? read_scene(measure.file, assignments).resolved
+                                            : read_checked_material(measure.file, assignments).resolved;
+}
+
+/// A pointer means something if what it points into is there, with the settings before it.
+void expect_places(const Study& study, const Json& base, const Settings& settings)
+{
+  Json document = base;
+  for (const auto& [pointer, value] : settings) {
+    const JsonPointer above = JsonPointer(pointer).parent_pointer();
+    const bool exists = document.contains(above) && (document.at(above).is_object() || document.at(above).is_array());
+    if (!exists) {
+      throw InputError({study.file.string() + "#", fmt::format("{}: there is no such place", pointer),
+                        fmt::format("expected a JSON pointer into {}", study.measure.file.string())});
+    }
+    try {
+      document[JsonPointer(pointer)] = value;
+    } catch (const Json::exception&) {
+      throw InputError({study.file.string() + "#", fmt::format("{}: no place in a list", pointer),
+                        fmt::format("expected a JSON pointer into {}", study.measure.file.string())});
+    }
+  }
+}
+
+/// A key that nobody knows is a mistake of the study; other settings that are refused are an answer.
+void expect_known_keys(const Study& study, const InputError& refused)
+{
+  std::vector<Problem> unknown;
+  for (const Problem& problem : refused.problems) {
+    if (problem.found != unknown_key) continue;
+    unknown.push_back(problem);
+    unknown.back().place = study.file.string() + "#" + problem.place.substr(problem.place.find('#') + 1);
+  }
+  if (!unknown.empty()) throw InputError(std::move(unknown));
+}
+
+std::vector<std::string> command_of(const Study& study, const Settings& settings)
+{
+  const Measure& measure = study.measure;
+  std::vector<std::string> command;
+  switch (measure.kind) {
+    case Measure::Kind::run:
+      command = {"run", measure.file.string(), "--threads", std::to_string(study.n_threads)};
+      break;
+    case Measure::Kind::drive:
+      command = {"drive", measure.file.string(), measure.along.string(), "--increment",
+                 fmt::format("{}", measure.increment)};
+      break;
+    case Measure::Kind::modulus:
+      command = {"modulus", measure.file.string(), "--states", measure.along.string()};
+      break;
+  }
+  for (const std::string& assignment : assignments_of(settings)) {
+    command.insert(command.end(), {"--set", assignment});
+  }
+  return command;
+}
+
+Measurement measurement_of(const Study& study, const Settings& settings)
+{
+  Measurement measurement{"", "", command_of(study, settings)};
+  try {
+    std::string text = resolved(study.measure, settings).dump() + std::to_string(study.n_threads);
+    if (!study.measure.along.empty()) {
+      text += read_input_file(study.measure.along) + fmt::format("{}", study.measure.increment);
+    }
+    measurement.key = hash_of(text);
+  } catch (const InputError& error) {
+    expect_known_keys(study, error);
+    measurement.refusal = error.what();
+  }
+  return measurement;
+}
+
+}  // namespace
+
+std::vector<Measurement> measurements_of(const Study& study, const std::vector<Point>& points)
+{
+  const Json base = resolved(study.measure, {});
+  std::vector<Measurement> measurements;
+  for (const Point& point : points) {
+    expect_places(study, base, point.settings);
+    measurements.push_back(measurement_of(study, point.settings));
+  }
+  return measurements;
+}
+
+std::vector<std::string> command_into(const Study& study, const Measurement& measurement,
+                                      const std::filesystem::path& folder)
+{
+  std::vector<std::string> command = measurement.command;
+  if (study.measure.kind == Measure::Kind::run) {
+    command.insert(command.end(), {"--quiet", "--out", folder.string()});
+  } else {
+    command.insert(command.end(),
+                   {"--out", (folder / "history.csv").string(), "--summary", (folder / "summary.json").string()});
+  }
+  return command;
+}
+
+}  // namespace tamp::tools::study

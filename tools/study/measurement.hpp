@@ -1,0 +1,31 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "tools/study/points.hpp"
+
+namespace tamp::tools::study
+{
+
+/// How a point is measured.
+struct Measurement {
+  /// Why its settings are refused; empty where they are not.
+  std::string refusal;
+  /// A hash of all that its answers depend on, but for the program: what is measured with every default filled in, and
+  /// the content of every file. Empty where it is refused.
+  std::string key;
+  /// The command line that remakes it, but for where the results go: `run SCENE --set ...`.
+  std::vector<std::string> command;
+};
+
+/// Checks each point's settings, as the program would before it runs them. Throws InputError where what is measured
+/// cannot be read without them, and for a pointer to a place that it does not have.
+std::vector<Measurement> measurements_of(const Study& study, const std::vector<Point>& points);
+
+/// The same command with where its results go: `history.csv` and `summary.json` in this folder.
+std::vector<std::string> command_into(const Study& study, const Measurement& measurement,
+                                      const std::filesystem::path& folder);
+
+}  // namespace tamp::tools::study

@@ -1,0 +1,56 @@
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "tools/scene/document.hpp"
+#include "tools/study/study.hpp"
+
+namespace tamp::tools::study
+{
+
+/// Why a point ended.
+enum class End { done, limit, unstable, refused };
+
+std::string to_text(End end);
+
+/// What one run of a point cost, by the keys of `cost_kinds`.
+using Cost = std::map<std::string, double>;
+
+/// A kind of cost; the first of a study is its charts' axis.
+struct CostKind {
+  std::string key, name, unit;
+};
+std::vector<CostKind> cost_kinds(Measure::Kind kind);
+
+/// What is known of a point. It is kept in a folder of its own, with what the point wrote: `history.csv` and
+/// `summary.json`.
+struct PointResult {
+  End end = End::done;
+  /// In words where it is not done.
+  std::string reason;
+  /// Of every timing.
+  std::vector<Cost> costs;
+  /// The processor time that it was given [s].
+  double limit = 0;
+  std::filesystem::path folder;
+
+  /// Median, least and greatest of a cost; empty where it is not known.
+  struct Spread {
+    double median, least, greatest;
+  };
+  std::optional<Spread> cost(const std::string& key) const;
+};
+
+/// The result that a folder keeps; empty where it keeps none.
+std::optional<PointResult> read_result(const std::filesystem::path& folder);
+void write_result(const PointResult& result);
+
+/// The columns of a point's `history.csv` by name; NaN where a row has no number.
+using Columns = std::map<std::string, std::vector<double>>;
+Columns columns_of(const PointResult& result);
+
+}  // namespace tamp::tools::study

@@ -1,0 +1,141 @@
+#include "tools/study/points.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+
+namespace tamp::tools::study
+{
+
+namespace
+{
+
+/// All combinations of the axes' values, the last axis fastest.
+std::vector<Settings> combinations(const std::vector<Axis>& axes)
+{
+  std::vector<Settings> all{{}};
+  for (const Axis& axis : axes) {
+    std::vector<Settings> longer;
+    for (const Settings& settings : all) {
+      for (const Json& value : axis.values) longer.push_back(merged(settings, {{axis.pointer, value}}));
+    }
+    all = std::move(longer);
+  }
+  return all;
+}
+
+std::string label_of(const Settings& settings)
+{
+  std::vector<std::string> texts;
+  for (const auto& [pointer, value] : settings) texts.push_back(setting_text(pointer, value));
+  return fmt::format("{}", fmt::join(texts, ", "));
+}
+
+class PointList
+{
+ public:
+  explicit PointList(const Study& study) : study_(study) {}
+
+  void add(Point::Role role, const std::string& method, const std::string& label, const Settings& settings)
+  {
+    points_.push_back({static_cast<int>(points_.size()) + 1, role, method, label, settings});
+  }
+
+  void add_methods()
+  {
+    for (const Method& method : study_.methods) {
+      const Settings common = merged(study_.settings, method.settings);
+      std::vector<Settings> all = method.listed;
+      if (!method.sweep.empty() || all.empty()) {
+        const std::vector<Settings> swept = combinations(method.sweep);
+        all.insert(all.begin(), swept.begin(), swept.end());
+      }
+      for (const Settings& own : all) add(Point::Role::chart, method.name, label_of(own), merged(common, own));
+    }
+  }
+
+  void add_reference()
+  {
+    const ReferenceRuns& reference = *study_.reference;
+    const Settings common = merged(study_.settings, reference.settings);
+    std::vector<Axis> axes;
+    if (!reference.refinement.values.empty()) axes.push_back(reference.refinement);
+    for (const Settings& own : combinations(axes)) {
+      add(Point::Role::reference, reference_name, label_of(own), merged(common, own));
+    }
+  }
+
+  void add_budget()
+  {
+    for (const BudgetBase& base : study_.budget->bases) {
+      add(Point::Role::variation, budget_name, base.name, base_settings(study_, base));
+      for (const BudgetPart& part : study_.budget->parts) {
+        for (const Settings& variation : part.variations) {
+          add(Point::Role::variation, budget_name, base.name + ", " + label_of(variation),
+              varied_settings(study_, base, variation));
+        }
+      }
+    }
+  }
+
+  std::vector<Point> points() { return std::move(points_); }
+
+ private:
+  const Study& study_;
+  std::vector<Point> points_;
+};
+
+}  // namespace
+
+Settings merged(Settings settings, const Settings& others)
+{
+  for (const auto& [pointer, value] : others) {
+    const auto same = std::find_if(settings.begin(), settings.end(), [&](const auto& s) { return s.first == pointer; });
+    if (same != settings.end()) {
+      same->second = value;
+    } else {
+      settings.emplace_back(pointer, value);
+    }
+  }
+  return settings;
+}
+
+Json Point::setting(const std::string& pointer) const
+{
+  const auto at = std::find_if(settings.begin(), settings.end(), [&](const auto& s) { return s.first == pointer; });
+  return at == settings.end() ? Json(nullptr) : at->second;
+}
+
+std::vector<Point> points_of(const Study& study)
+{
+  PointList list(study);
+  list.add_methods();
+  if (study.reference) list.add_reference();
+  if (study.budget) list.add_budget();
+  return list.points();
+}
+
+Settings base_settings(const Study& study, const BudgetBase& base)
+{
+  return merged(study.settings, base.settings);
+}
+
+Settings varied_settings(const Study& study, const BudgetBase& base, const Settings& variation)
+{
+  return merged(base_settings(study, base), variation);
+}
+
+std::string setting_text(const std::string& pointer, const Json& value)
+{
+  return pointer_name(pointer) + " " + (value.is_string() ? value.get<std::string>() : value.dump());
+}
+
+std::string pointer_name(const std::string& pointer)
+{
+  std::string name = JsonPointer(pointer).back();
+  std::replace(name.begin(), name.end(), '_', ' ');
+  return name;
+}
+
+}  // namespace tamp::tools::study

@@ -1,0 +1,44 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "tools/study/study.hpp"
+
+namespace tamp::tools::study
+{
+
+/// `settings` with `others` over them.
+Settings merged(Settings settings, const Settings& others);
+
+/// One combination of settings.
+struct Point {
+  enum class Role { chart, reference, variation };
+  /// Its place in the list, from 1.
+  int id = 0;
+  Role role = Role::chart;
+  std::string method;
+  /// What tells it from the other points of its method, for people.
+  std::string label;
+  Settings settings;
+
+  /// Null where a pointer is not set.
+  Json setting(const std::string& pointer) const;
+};
+
+/// The names that references and variations go by among the methods.
+inline constexpr char reference_name[] = "reference", budget_name[] = "error budget";
+
+/// All points of a study: those of its methods, then of its reference, then of its error budget.
+std::vector<Point> points_of(const Study& study);
+
+/// The settings of a budget's base, and of its variations, as points have them.
+Settings base_settings(const Study& study, const BudgetBase& base);
+Settings varied_settings(const Study& study, const BudgetBase& base, const Settings& variation);
+
+/// A pointer and its value as a person would say them: "cell size 0.02".
+std::string setting_text(const std::string& pointer, const Json& value);
+/// The last part of a pointer, with blanks for underscores.
+std::string pointer_name(const std::string& pointer);
+
+}  // namespace tamp::tools::study

@@ -1,0 +1,349 @@
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+
+#include "tools/scene/json_reader.hpp"
+#include "tools/study/points.hpp"
+#include "tools/study/study.hpp"
+#include "tools/study/study_keys.hpp"
+
+namespace tamp::tools::study
+{
+
+namespace
+{
+
+constexpr std::size_t fewest_grids = 3;
+
+bool is_pointer(const std::string& text)
+{
+  try {
+    return !JsonPointer(text).empty();
+  } catch (const Json::exception&) {
+    return false;
+  }
+}
+
+/// Numbers above 0 that fall or rise.
+bool are_spacings(const std::vector<Json>& values)
+{
+  const auto is_bad = [](const Json& value) { return !value.is_number() || value.get<double>() <= 0; };
+  if (std::any_of(values.begin(), values.end(), is_bad)) return false;
+  const auto rises = [](const Json& a, const Json& b) { return a.get<double>() < b.get<double>(); };
+  const auto falls = [](const Json& a, const Json& b) { return a.get<double>() > b.get<double>(); };
+  const auto all_are = [&](auto in_order) {
+    return std::adjacent_find(values.begin(), values.end(),
+                              [&](const Json& a, const Json& b) { return !in_order(a, b); }) == values.end();
+  };
+  return all_are(rises) || all_are(falls);
+}
+
+/// Reads a study, noting all that is wrong.
+class StudyReader
+{
+ public:
+  explicit StudyReader(Document& document) : document_(document), root_(document, study_keys()) {}
+
+  Study read()
+  {
+    study_.file = document_.file();
+    study_.title = root_.text("title", document_.file().stem().string());
+    study_.about = root_.text("about", "");
+    study_.takes = root_.text("takes", "");
+    read_measure();
+    study_.settings = settings(root_, "set");
+    read_methods();
+    read_points();
+    study_.refine = pointer(root_, "refine");
+    read_quantities();
+    read_reference();
+    read_budget();
+    read_limits();
+    root_.finish();
+    expect_answers();
+    return std::move(study_);
+  }
+
+ private:
+  void read_measure()
+  {
+    JsonReader reader = root_.object("measure");
+    using Kind = Measure::Kind;
+    const std::vector<std::pair<std::string, Kind>> kinds{
+        {"run", Kind::run}, {"drive", Kind::drive}, {"modulus", Kind::modulus}};
+    const auto is_there = [&](const auto& kind) { return reader.has(kind.first); };
+    if (std::count_if(kinds.begin(), kinds.end(), is_there) != 1) {
+      root_.add_problem("measure", "not one thing to measure", "expected one of run, drive, modulus");
+      return;
+    }
+    const auto& [key, kind] = *std::find_if(kinds.begin(), kinds.end(), is_there);
+    study_.measure.kind = kind;
+    study_.measure.file = from_here(reader.existing_file(key));
+    if (kind == Kind::drive) study_.measure.along = from_here(reader.existing_file("path"));
+    if (kind == Kind::drive) study_.measure.increment = reader.number("increment");
+    if (kind == Kind::modulus) study_.measure.along = from_here(reader.existing_file("states"));
+    reader.finish();
+  }
+
+  void read_methods()
+  {
+    const std::vector<Axis> sweep = axes(root_, "sweep");
+    for (JsonReader& reader : root_.objects("methods")) {
+      Method method;
+      method.name = reader.text("name", "");
+      if (method.name.empty()) reader.add_problem("name", "no name", "expected a text");
+      if (method.name == reference_name || method.name == budget_name || find_method(method.name) != nullptr) {
+        reader.add_problem("name", fmt::format("\"{}\", which is taken", method.name), "expected another name");
+      }
+      method.family = reader.text("family", method.name);
+      method.dashed = reader.flag("dashed");
+      method.settings = settings(reader, "set");
+      method.sweep = reader.has("sweep") ? axes(reader, "sweep") : sweep;
+      reader.finish();
+      study_.methods.push_back(std::move(method));
+    }
+    if (study_.methods.empty()) root_.add_problem("methods", "no method", "expected one at least");
+  }
+
+  void read_points()
+  {
+    for (JsonReader& reader : root_.objects("points")) {
+      const std::string name = reader.text("method", "");
+      Method* method = find_method(name);
+      if (method == nullptr) {
+        reader.add_problem("method", fmt::format("\"{}\"", name), "expected the name of a method");
+      } else {
+        method->listed.push_back(settings(reader, "set"));
+      }
+      reader.finish();
+    }
+  }
+
+  void read_quantities()
+  {
+    for (JsonReader& reader : root_.objects("quantities")) {
+      Quantity quantity;
+      quantity.name = reader.text("name", "");
+      if (quantity.name.empty() || find_quantity(quantity.name)) {
+        reader.add_problem("name", quantity.name.empty() ? "no name" : "a name that is taken",
+                           "expected a name of its own");
+      }
+      quantity.take = reader.choice<Take>("take");
+      read_place(reader, quantity);
+      quantity.exact = reader.optional_number("exact");
+      quantity.scale = reader.optional_number("scale");
+      if (quantity.exact == 0.0 && !quantity.scale) quantity.scale = 1;
+      reader.finish();
+      study_.quantities.push_back(std::move(quantity));
+    }
+    if (study_.quantities.empty()) {
+      root_.add_problem("quantities", "no quantity", "expected one at least: a column, and how it is taken");
+    }
+  }
+
+  void read_place(JsonReader& reader, Quantity& quantity)
+  {
+    if (quantity.take != Take::quantile) {
+      quantity.column = reader.text("column", "");
+      if (quantity.column.empty()) reader.add_problem("column", "missing", "expected the name of a column");
+      if (quantity.take == Take::value) quantity.time = reader.number("at");
+      return;
+    }
+    quantity.field = reader.text("field", "");
+    quantity.material = reader.text("material", "");
+    quantity.quantile = reader.number("quantile");
+    if (quantity.field.empty()) reader.add_problem("field", "missing", "expected a field of the particles");
+    if (quantity.material.empty()) reader.add_problem("material", "missing", "expected the name of a material");
+    if (study_.measure.kind != Measure::Kind::run) {
+      reader.add_problem("take", "a quantile of a field", "expected it in studies of runs only");
+    }
+  }
+
+  void read_reference()
+  {
+    auto reader = root_.optional_object("reference");
+    if (!reader) return;
+    ReferenceRuns reference;
+    reference.settings = settings(*reader, "set");
+    reference.refinement.pointer = pointer(*reader, "refine");
+    reference.refinement.values = list(*reader, "values");
+    if (!reference.refinement.pointer.empty() && reference.refinement.values.size() < fewest_grids) {
+      reader->add_problem(
+          "values", fmt::format("{} values", reference.refinement.values.size()),
+          fmt::format("expected {} at least, from coarse to fine: an order takes as many", fewest_grids));
+    }
+    if (!are_spacings(reference.refinement.values)) {
+      reader->add_problem("values", "values that are no spacings",
+                          "expected numbers above 0, each less than the one before, or each greater");
+    }
+    if (reference.refinement.pointer.empty() && !reference.refinement.values.empty()) {
+      reader->add_problem("refine", "missing", "expected the JSON pointer whose values are given");
+    }
+    reader->finish();
+    study_.reference = std::move(reference);
+  }
+
+  void read_budget()
+  {
+    auto reader = root_.optional_object("budget");
+    if (!reader) return;
+    Budget budget;
+    for (const Json& name : list(*reader, "quantities")) {
+      if (name.is_string() && find_quantity(name.get<std::string>())) {
+        budget.quantities.push_back(name);
+      } else {
+        reader->add_problem("quantities", name.dump(), "expected names of quantities");
+      }
+    }
+    for (JsonReader& base : reader->objects("of")) {
+      budget.bases.push_back({base.text("name", ""), settings(base, "set")});
+      base.finish();
+    }
+    for (JsonReader& part : reader->objects("parts")) budget.parts.push_back(budget_part(part));
+    reader->finish();
+    study_.budget = std::move(budget);
+  }
+
+  BudgetPart budget_part(JsonReader& reader)
+  {
+    BudgetPart part;
+    part.name = reader.text("name", "");
+    part.to_reference = reader.flag("to_reference");
+    for (const Json& one : list(reader, "set")) part.variations.push_back(settings_of(one, reader, "set"));
+    if (part.to_reference == !part.variations.empty()) {
+      reader.add_problem("set", part.to_reference ? "given beside to_reference" : "missing",
+                         "expected either changes, or to_reference");
+    }
+    if (part.to_reference && !study_.reference) {
+      reader.add_problem("to_reference", "true", "expected a study with a reference");
+    }
+    reader.finish();
+    return part;
+  }
+
+  void read_limits()
+  {
+    study_.repeat = root_.whole_number("repeat");
+    study_.repeat_below = root_.number("repeat_below_s");
+    study_.limit = root_.optional_number("limit_s").value_or(study_.limit);
+    study_.limit_over_fastest = root_.optional_number("limit_times_fastest").value_or(study_.limit_over_fastest);
+    study_.n_threads = root_.whole_number("threads");
+  }
+
+  /// Columns mean something only beside another.
+  void expect_answers()
+  {
+    for (const Quantity& quantity : study_.quantities) {
+      if (quantity.is_column() && !study_.reference) {
+        root_.add_problem("quantities", fmt::format("\"{}\", a column, without a reference", quantity.name),
+                          "expected a reference to compare it with");
+      }
+      if (quantity.is_column() && quantity.exact) {
+        root_.add_problem("quantities", fmt::format("\"{}\", a column, with an exact number", quantity.name),
+                          "expected a number that is taken of it");
+      }
+    }
+  }
+
+  std::string pointer(JsonReader& reader, const std::string& key)
+  {
+    const std::string text = reader.text(key, "");
+    if (!text.empty() && !is_pointer(text)) {
+      reader.add_problem(key, fmt::format("\"{}\"", text), "expected a JSON pointer, such as /grid/cell_size");
+      return {};
+    }
+    return text;
+  }
+
+  std::vector<Json> list(JsonReader& reader, const std::string& key)
+  {
+    if (!reader.has(key)) return {};
+    const Json& value = document_.root.at(reader.pointer(key));
+    if (value.is_array()) return {value.begin(), value.end()};
+    reader.add_problem(key, value.type_name(), "expected a list");
+    return {};
+  }
+
+  Settings settings(JsonReader& reader, const std::string& key)
+  {
+    if (!reader.has(key)) return {};
+    return settings_of(document_.root.at(reader.pointer(key)), reader, key);
+  }
+
+  Settings settings_of(const Json& object, JsonReader& reader, const std::string& key)
+  {
+    if (!object.is_object()) {
+      reader.add_problem(key, object.type_name(), "expected an object: JSON pointer → value");
+      return {};
+    }
+    Settings settings;
+    for (const auto& [text, value] : object.items()) {
+      if (!is_pointer(text)) {
+        reader.add_problem(key, fmt::format("\"{}\"", text), "expected a JSON pointer, such as /grid/cell_size");
+      } else {
+        settings.emplace_back(text, with_file_from_here(value));
+      }
+    }
+    return settings;
+  }
+
+  std::vector<Axis> axes(JsonReader& reader, const std::string& key)
+  {
+    std::vector<Axis> axes;
+    for (const auto& [text, value] : settings(reader, key)) {
+      if (!value.is_array() || value.empty()) {
+        reader.add_problem(key, fmt::format("{} at {}", value.dump(), text), "expected a list of values");
+        continue;
+      }
+      Axis axis{text, {}};
+      for (const Json& one : value) axis.values.push_back(with_file_from_here(one));
+      axes.push_back(std::move(axis));
+    }
+    return axes;
+  }
+
+  /// Files are named from the study's folder; commands name them from the current one.
+  Json with_file_from_here(const Json& value) const
+  {
+    if (!value.is_string()) return value;
+    const std::filesystem::path file = document_.file().parent_path() / value.get<std::string>();
+    std::error_code none;
+    return std::filesystem::is_regular_file(file, none) ? Json(from_here(file).string()) : value;
+  }
+
+  static std::filesystem::path from_here(const std::filesystem::path& file)
+  {
+    return file.empty() ? file : std::filesystem::proximate(file);
+  }
+
+  Method* find_method(const std::string& name)
+  {
+    const auto at = std::find_if(study_.methods.begin(), study_.methods.end(),
+                                 [&](const Method& method) { return method.name == name; });
+    return at == study_.methods.end() ? nullptr : &*at;
+  }
+
+  bool find_quantity(const std::string& name) const
+  {
+    return std::any_of(study_.quantities.begin(), study_.quantities.end(),
+                       [&](const Quantity& quantity) { return quantity.name == name; });
+  }
+
+  Document& document_;
+  JsonReader root_;
+  Study study_;
+};
+
+}  // namespace
+
+Study read_study(const std::filesystem::path& file, bool in_short)
+{
+  Document document(file);
+  if (in_short && document.root.contains("short")) document.root.merge_patch(Json(document.root["short"]));
+  Study study = StudyReader(document).read();
+  if (!document.problems.empty()) throw InputError(std::move(document.problems));
+  return study;
+}
+
+}  // namespace tamp::tools::study

@@ -1,0 +1,258 @@
+#include "tools/study/run_points.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <csignal>
+#include <fstream>
+#include <memory>
+
+#include "runtime/file_error.hpp"
+#include "tools/child_process.hpp"
+#include "tools/console.hpp"
+#include "tools/errors.hpp"
+#include "tools/study/quantities.hpp"
+
+namespace tamp::tools::study
+{
+
+namespace
+{
+
+namespace fs = std::filesystem;
+
+/// What the program said on standard error, in one line.
+std::string complaint(const fs::path& errors)
+{
+  std::ifstream stream(errors);
+  std::string text;
+  for (std::string line; std::getline(stream, line);) {
+    constexpr std::string_view prefix = "tamp: ";
+    if (line.starts_with(prefix)) line.erase(0, prefix.size());
+    text += (text.empty() ? "" : "; ") + line;
+  }
+  return text;
+}
+
+bool hit_limit(const ChildEnd& end)
+{
+  return end.exit_code == static_cast<int>(ExitCode::signal) + SIGXCPU || end.signal == SIGXCPU ||
+         end.signal == SIGKILL;
+}
+
+Cost cost_of(const Study& study, const Json& summary, double user_s)
+{
+  Cost cost{{"core_s", user_s}};
+  if (study.measure.kind == Measure::Kind::run) {
+    cost["steps"] = summary.at("steps").get<double>();
+    cost["particle_steps"] = cost["steps"] * summary.at("particles").at("total").get<double>();
+    return cost;
+  }
+  for (const CostKind& kind : cost_kinds(study.measure.kind)) cost[kind.key] = summary.at(kind.key).get<double>();
+  return cost;
+}
+
+/// Points that are measured alike, and what is known of them.
+struct Task {
+  const Measurement* measurement;
+  std::string label{};
+  /// Charts are drawn of it, so that its cost counts.
+  bool timed_well = false;
+  /// Only charts' points have to keep up with the fastest.
+  bool only_charted = true;
+  std::optional<PointResult> result{};
+};
+
+class PointRunner
+{
+ public:
+  PointRunner(const Study& study, fs::path cache, bool quiet) : study_(study), cache_(std::move(cache)), quiet_(quiet)
+  {
+  }
+
+  void add(const Point& point, const Measurement& measurement)
+  {
+    Task*& task = task_of_key_[measurement.key];
+    if (task == nullptr) {
+      tasks_.push_back(std::make_unique<Task>(Task{&measurement, point.method + ", " + point.label}));
+      task = tasks_.back().get();
+      task->result = kept(measurement.key);
+      if (task->result) note_time(*task->result);
+    }
+    const bool charted = point.role == Point::Role::chart;
+    task->timed_well |= charted;
+    task->only_charted &= charted;
+  }
+
+  void run()
+  {
+    for (int round = 0; round < study_.repeat; ++round) {
+      for (std::size_t k = 0; k < tasks_.size(); ++k) {
+        Task& task = *tasks_[(k + static_cast<std::size_t>(round)) % tasks_.size()];
+        if (wants_timing(task, round)) time(task, round);
+      }
+    }
+  }
+
+  const PointResult& result(const std::string& key) const { return *task_of_key_.at(key)->result; }
+
+ private:
+  fs::path folder_of(const std::string& key) const { return cache_ / key; }
+
+  /// A result that is whole, and was not ended by a limit shorter than the one now.
+  std::optional<PointResult> kept(const std::string& key) const
+  {
+    auto result = read_result(folder_of(key));
+    if (!result) return std::nullopt;
+    if (result->end == End::limit && result->limit < study_.limit) return std::nullopt;
+    if (result->end == End::done && !has_all(study_, *result)) return std::nullopt;
+    return result;
+  }
+
+  bool wants_timing(const Task& task, int round) const
+  {
+    if (!task.result) return true;
+    if (round == 0 || !task.timed_well || task.result->end != End::done) return false;
+    return static_cast<int>(task.result->costs.size()) <= round &&
+           task.result->cost("core_s")->median < study_.repeat_below;
+  }
+
+  void note_time(const PointResult& result)
+  {
+    if (result.end == End::done) fastest_ = std::min(fastest_, result.cost("core_s")->median);
+  }
+
+  double limit_of(const Task& task) const
+  {
+    if (!task.only_charted) return study_.limit;
+    return std::min(study_.limit, study_.limit_over_fastest * fastest_);
+  }
+
+  void time(Task& task, int round)
+  {
+    const fs::path folder = folder_of(task.measurement->key);
+    PointResult result = one_run(task, folder.string() + ".new");
+    if (task.result) {
+      task.result->costs.push_back(result.costs.front());
+      task.result->folder = folder;
+    } else {
+      task.result = std::move(result);
+    }
+    fs::remove_all(folder);
+    fs::rename(folder.string() + ".new", folder);
+    task.result->folder = folder;
+    if (task.result->end == End::done) {
+      note_time(*task.result);
+      expect_all(study_, *task.result);
+    }
+    write_result(*task.result);
+    tell(task, round);
+  }
+
+  PointResult one_run(const Task& task, const fs::path& folder) const
+  {
+    fs::remove_all(folder);
+    fs::create_directories(folder);
+    const fs::path errors = cache_ / "errors.txt";
+    const double limit = limit_of(task);
+    const ChildEnd end = run_child({command_into(study_, *task.measurement, folder), errors, limit});
+    PointResult result{End::done, "", {}, limit, folder};
+    if (end.done()) {
+      const Json summary = Json::parse(std::ifstream(folder / "summary.json"), nullptr, false);
+      if (summary.is_discarded()) throw runtime::FileError((folder / "summary.json").string(), "cannot be read");
+      result.costs.push_back(cost_of(study_, summary, end.user_s));
+    } else {
+      result.costs.push_back({{"core_s", end.user_s}});
+      note_failure(end, complaint(errors), result);
+    }
+    remove_what_is_not_asked_for(folder);
+    return result;
+  }
+
+  void note_failure(const ChildEnd& end, const std::string& said, PointResult& result) const
+  {
+    if (hit_limit(end)) {
+      result.end = End::limit;
+      result.reason = fmt::format("not done after {:.3g} s of processor time", end.user_s);
+    } else if (end.exit_code == static_cast<int>(ExitCode::bad_simulation)) {
+      result.end = End::unstable;
+      result.reason = said;
+    } else if (end.exit_code == static_cast<int>(ExitCode::bad_input)) {
+      result.end = End::refused;
+      result.reason = said;
+    } else {
+      throw runtime::FileError(result.folder.string(),
+                               said.empty() ? fmt::format("a run ended with signal {}", end.signal) : said);
+    }
+  }
+
+  /// Fields and checkpoints are large.
+  void remove_what_is_not_asked_for(const fs::path& folder) const
+  {
+    std::vector<fs::path> found;
+    for (const auto& entry : fs::directory_iterator(folder)) {
+      const std::string name = entry.path().filename().string();
+      const bool stays = name == "history.csv" || name == "summary.json" || name == "scene.json" ||
+                         (name == "fields.h5" && asks_for_fields(study_));
+      if (!stays) found.push_back(entry.path());
+    }
+    for (const fs::path& file : found) fs::remove_all(file);
+  }
+
+  void tell(const Task& task, int round) const
+  {
+    if (quiet_) return;
+    const auto is_known = [](const auto& one) { return one->result.has_value(); };
+    const auto n_known = std::count_if(tasks_.begin(), tasks_.end(), is_known);
+    const double seconds = task.result->costs.back().at("core_s");
+    print_err("{} of {}{}: {}: {}, {:.3g} s\n", n_known, tasks_.size(),
+              round == 0 ? "" : fmt::format(", timing {}", round + 1), task.label, to_text(task.result->end), seconds);
+  }
+
+  const Study& study_;
+  fs::path cache_;
+  bool quiet_;
+  std::vector<std::unique_ptr<Task>> tasks_;
+  std::map<std::string, Task*> task_of_key_;
+  /// User time of the fastest point that is done [s].
+  double fastest_ = std::numeric_limits<double>::infinity();
+};
+
+/// Which points are too slow may not depend on the order in which they ran.
+void apply_relative_limit(const Study& study, const std::vector<Point>& points, std::vector<PointResult>& results)
+{
+  double fastest = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (points[i].role != Point::Role::chart || results[i].end != End::done) continue;
+    fastest = std::min(fastest, results[i].cost("core_s")->median);
+  }
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (points[i].role != Point::Role::chart || results[i].end != End::done) continue;
+    const double seconds = results[i].cost("core_s")->median;
+    if (seconds <= study.limit_over_fastest * fastest) continue;
+    results[i].end = End::limit;
+    results[i].reason = fmt::format("took {:.3g} times as long as the fastest point", seconds / fastest);
+  }
+}
+
+}  // namespace
+
+std::vector<PointResult> run_points(const Study& study, const std::vector<Point>& points,
+                                    const std::vector<Measurement>& measurements, const fs::path& cache, bool quiet)
+{
+  PointRunner runner(study, cache, quiet);
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (measurements[i].refusal.empty()) runner.add(points[i], measurements[i]);
+  }
+  runner.run();
+  std::vector<PointResult> results;
+  for (const Measurement& measurement : measurements) {
+    results.push_back(measurement.refusal.empty() ? runner.result(measurement.key)
+                                                  : PointResult{End::refused, measurement.refusal, {}, 0, {}});
+  }
+  apply_relative_limit(study, points, results);
+  return results;
+}
+
+}  // namespace tamp::tools::study

@@ -1,0 +1,79 @@
+#include "tools/study/run_study.hpp"
+
+#include <fmt/format.h>
+
+#include "runtime/storage/whole_file.hpp"
+#include "tasks/simulation_error.hpp"
+#include "tools/charts.hpp"
+#include "tools/console.hpp"
+#include "tools/study/run_points.hpp"
+#include "tools/study/study_folder.hpp"
+#include "tools/study/study_report.hpp"
+
+namespace tamp::tools::study
+{
+
+namespace
+{
+
+std::string command_of(const StudyOptions& options)
+{
+  return fmt::format("tamp study {}{}{}", options.file.string(), options.in_short ? " --short" : "",
+                     options.folder.empty() ? "" : " --out " + options.folder.string());
+}
+
+/// What can be refused is refused before anything runs.
+void expect_sound_reference(const Study& study, const std::vector<Point>& points,
+                            const std::vector<Measurement>& measurements)
+{
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (points[i].role != Point::Role::reference || measurements[i].refusal.empty()) continue;
+    throw InputError({study.file.string() + "#/reference", measurements[i].refusal, "expected runs that can be done"});
+  }
+}
+
+StudyResults measure_all(const Study& study, const StudyOptions& options, const std::filesystem::path& cache)
+{
+  const std::vector<Point> points = points_of(study);
+  StudyResults results{study, command_of(options), {}, measurements_of(study, points), {}};
+  expect_sound_reference(study, points, results.measurements);
+  const auto measured = run_points(study, points, results.measurements, cache, options.quiet);
+  for (std::size_t i = 0; i < points.size(); ++i) results.points.push_back({points[i], measured[i]});
+  results.findings = findings_of(study, results.points);
+  return results;
+}
+
+void write(const StudyResults& results, const std::filesystem::path& folder)
+{
+  runtime::write_whole_file(folder / "points.csv", to_csv(results));
+  runtime::write_whole_file(folder / "study.json", to_json(results).dump(1) + "\n");
+}
+
+/// A study whose reference has failed shows its points, and is no success.
+void complain_of_reference(const StudyResults& results)
+{
+  for (const MeasuredPoint& one : results.points) {
+    if (one.point.role != Point::Role::reference || one.done()) continue;
+    throw tasks::SimulationError(fmt::format("the reference, {}, ended with {}: {}", one.point.label,
+                                             to_text(one.result.end), one.result.reason),
+                                 "", -1, {});
+  }
+}
+
+}  // namespace
+
+void run_study(const StudyOptions& options)
+{
+  const Study study = read_study(options.file, options.in_short);
+  const std::filesystem::path folder =
+      options.folder.empty() ? std::filesystem::path("studies") / study.file.stem() : options.folder;
+  const StudyFolder own(folder, options.force);
+  const StudyResults results = measure_all(study, options, own.points());
+  write(results, folder);
+  if (!options.quiet) print_out("{}", to_text(results));
+  draw_page("draw_study.py", folder);
+  if (!options.quiet) print_out("  written to {}: index.html, points.csv, charts\n", folder.string());
+  complain_of_reference(results);
+}
+
+}  // namespace tamp::tools::study

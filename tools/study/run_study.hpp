@@ -1,0 +1,23 @@
+#pragma once
+
+#include <filesystem>
+
+namespace tamp::tools::study
+{
+
+struct StudyOptions {
+  std::filesystem::path file;
+  /// By default `studies/` and the file's name.
+  std::filesystem::path folder;
+  bool in_short = false;
+  /// Remove what another program has found.
+  bool force = false;
+  bool quiet = false;
+};
+
+/// Reads a study, runs what has no result yet, and fills its folder: `points.csv`, `study.json`, and the page with its
+/// charts. Throws InputError before anything runs; FileError; Interrupted, with all results so far kept; and
+/// SimulationError, after all is written, for a reference that is not done.
+void run_study(const StudyOptions& options);
+
+}  // namespace tamp::tools::study

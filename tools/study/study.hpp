@@ -1,0 +1,135 @@
+#pragma once
+
+#include <filesystem>
+#include <limits>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "tools/scene/document.hpp"
+
+/// What a study file says: what is measured, with which settings, and against what.
+namespace tamp::tools::study
+{
+
+/// Values at JSON pointers of what is measured, in the order in which they are set; each pointer once.
+using Settings = std::vector<std::pair<std::string, Json>>;
+
+/// What a point runs.
+struct Measure {
+  enum class Kind {
+    run,     ///< a scene, by `tamp run`
+    drive,   ///< a material along a path, by `tamp drive`
+    modulus  ///< a material's modulus at given states, by `tamp modulus`
+  };
+  Kind kind = Kind::run;
+  /// The scene or the material.
+  std::filesystem::path file;
+  /// The path of deformation, or the states.
+  std::filesystem::path along;
+  /// Largest strain of an increment along a path.
+  double increment = 1e-3;
+};
+
+/// Values of one pointer, from coarse to fine where they refine something.
+struct Axis {
+  std::string pointer;
+  std::vector<Json> values;
+};
+
+/// A line of the charts.
+struct Method {
+  std::string name;
+  /// Methods of one family share a colour.
+  std::string family;
+  bool dashed = false;
+  Settings settings;
+  /// Its points are all combinations of these, and those that are listed besides.
+  std::vector<Axis> sweep;
+  std::vector<Settings> listed;
+};
+
+/// How a number is taken from what a point has written.
+enum class Take {
+  greatest,
+  least,
+  last,
+  value,             ///< at a time
+  time_of_greatest,  ///< from the parabola through the three rows around it
+  curve,             ///< over time: greatest difference from the reference's, over its greatest magnitude
+  rows_rms,          ///< root mean square over the rows of the difference relative to the reference's row
+  rows_max,          ///< the greatest of those
+  quantile           ///< of a field over a material's particles, at the last output
+};
+
+/// What is asked of a point.
+struct Quantity {
+  std::string name;
+  Take take = Take::last;
+  std::string column;
+  /// Where the value is taken [s].
+  double time = 0;
+  std::string field, material;
+  double quantile = 0.99;
+  /// The exact answer, if it is known.
+  std::optional<double> exact;
+  /// What errors are relative to, where that is not the reference.
+  std::optional<double> scale;
+
+  /// Whether a point's answer is a column, which only a reference makes a number.
+  bool is_column() const { return take == Take::curve || take == Take::rows_rms || take == Take::rows_max; }
+};
+
+/// What points are compared with where no exact answer is known: one run, or, where `refinement` has values, the limit
+/// that its runs tend to.
+struct ReferenceRuns {
+  Settings settings;
+  Axis refinement;
+};
+
+/// A source of error: what it changes, in one way or several.
+struct BudgetPart {
+  std::string name;
+  /// The distance from the reference instead of from a changed run.
+  bool to_reference = false;
+  std::vector<Settings> variations;
+};
+
+/// The settings whose error is asked for.
+struct BudgetBase {
+  std::string name;
+  Settings settings;
+};
+
+struct Budget {
+  std::vector<std::string> quantities;
+  std::vector<BudgetBase> bases;
+  std::vector<BudgetPart> parts;
+};
+
+struct Study {
+  std::filesystem::path file;
+  std::string title, about, takes;
+  Measure measure;
+  Settings settings;
+  std::vector<Method> methods;
+  /// The pointer along which errors should fall; empty for none.
+  std::string refine;
+  std::vector<Quantity> quantities;
+  std::optional<ReferenceRuns> reference;
+  std::optional<Budget> budget;
+  /// Timings of each point; of one that takes longer than `repeat_below` [s] only one.
+  int repeat = 3;
+  double repeat_below = 60;
+  /// Processor time that a point may take [s], and that over the fastest point's.
+  double limit = std::numeric_limits<double>::infinity();
+  double limit_over_fastest = std::numeric_limits<double>::infinity();
+  int n_threads = 1;
+};
+
+/// Reads a study's file, with its key `short` laid over the rest if `in_short`. Throws FileError if it cannot be read,
+/// and InputError with every problem. Settings are not looked at (measurement.hpp does that).
+Study read_study(const std::filesystem::path& file, bool in_short);
+
+}  // namespace tamp::tools::study

@@ -1,0 +1,84 @@
+#include "tools/study/study_folder.hpp"
+
+#include <fmt/format.h>
+
+#include <fstream>
+
+#include "runtime/file_error.hpp"
+#include "runtime/storage/whole_file.hpp"
+#include "tools/errors.hpp"
+#include "tools/scene/document.hpp"
+#include "tools/scene/input_file.hpp"
+#include "tools/version.hpp"
+
+namespace tamp::tools::study
+{
+
+namespace
+{
+
+namespace fs = std::filesystem;
+
+constexpr const char* study_mark = ".tamp-study";
+
+/// This program, by its content.
+std::string program_hash()
+{
+  static const std::string hash = hash_of(read_input_file("/proc/self/exe"));
+  return hash;
+}
+
+bool holds_no_file(const fs::path& folder)
+{
+  for (const auto& entry : fs::directory_iterator(folder)) {
+    if (entry.path().filename() != runtime::FolderLock::file_name) return false;
+  }
+  return true;
+}
+
+void expect_study(const fs::path& folder)
+{
+  if (!fs::exists(folder)) return;
+  if (!fs::is_directory(folder)) {
+    throw InputError({folder.string(), "is a file", "expected a folder for the study, or a new name for one"});
+  }
+  if (fs::exists(folder / study_mark) || holds_no_file(folder)) return;
+  throw InputError({folder.string(), fmt::format("a folder that no study has marked as its own ({})", study_mark),
+                    "expected an empty or new folder (--out), or that of an earlier run of a study"});
+}
+
+}  // namespace
+
+StudyFolder::StudyFolder(const fs::path& folder, bool force) : folder_(folder)
+{
+  try {
+    expect_study(folder);
+    fs::create_directories(folder);
+    try {
+      lock_ = std::make_unique<runtime::FolderLock>(folder);
+    } catch (const runtime::FolderInUse& in_use) {
+      throw InputError({folder.string(), in_use.what(), "expected a folder of its own for each study"});
+    }
+    expect_own_program(force);
+    fs::create_directories(points());
+  } catch (const fs::filesystem_error& error) {
+    throw runtime::FileError(folder.string(), error.code().message());
+  }
+}
+
+void StudyFolder::expect_own_program(bool force) const
+{
+  const Json mark = Json::parse(std::ifstream(folder_ / study_mark), nullptr, false);
+  const std::string other = mark.is_object() ? mark.value("program", "") : "";
+  if (!mark.is_discarded() && other != program_hash()) {
+    if (!force) {
+      throw InputError({folder_.string(), fmt::format("results of another program ({})", mark.value("version", "")),
+                        "expected results of this one; --force removes them, --out names another folder"});
+    }
+    fs::remove_all(points());
+  }
+  runtime::write_whole_file(folder_ / study_mark,
+                            Json{{"program", program_hash()}, {"version", version()}}.dump() + "\n");
+}
+
+}  // namespace tamp::tools::study

@@ -1,0 +1,135 @@
+#include "tools/study/study_keys.hpp"
+
+#include "tools/study/study.hpp"
+
+namespace tamp::tools::study
+{
+
+namespace
+{
+
+const ObjectKeys& measure_keys()
+{
+  static const ObjectKeys keys{
+      "",
+      {{"run", File{}, "", none, "a scene, which `tamp run` runs"},
+       {"drive", File{}, "", none, "a material, which `tamp drive` takes along `path`"},
+       {"path", File{}, "", none, "the path of deformation"},
+       {"increment", Number{{.lower = 1e-9, .upper = 0.1}}, "", {1e-3}, "largest strain of an increment along it"},
+       {"modulus", File{}, "", none, "a material, whose modulus `tamp modulus` gives at `states`"},
+       {"states", File{}, "", none, "a table of elastic and plastic volumetric strains"}}};
+  return keys;
+}
+
+const ObjectKeys& method_keys()
+{
+  static const ObjectKeys keys{
+      "",
+      {{"name", Text{}, "", compulsory, "what the charts call it"},
+       {"family", Text{}, "", {}, "methods of one family share a colour; its name where left out"},
+       {"dashed", Flag{}, "", {false}, "whether its line is dashed, as suits what others are measured by"},
+       {"set", Anything{}, "", {}, "an object: JSON pointer → value, over the study's"},
+       {"sweep", Anything{}, "", {}, "its own, instead of the study's"}}};
+  return keys;
+}
+
+const ObjectKeys& point_keys()
+{
+  static const ObjectKeys keys{"",
+                               {{"method", Text{}, "", compulsory, "the name of a method"},
+                                {"set", Anything{}, "", compulsory, "an object: JSON pointer → value"}}};
+  return keys;
+}
+
+const ObjectKeys& quantity_keys()
+{
+  static const ObjectKeys keys{
+      "",
+      {{"name", Text{}, "", compulsory, "what the charts call it"},
+       choice<Take>("take", Take::last,
+                    {{"greatest", Take::greatest},
+                     {"least", Take::least},
+                     {"last", Take::last},
+                     {"value", Take::value},
+                     {"time_of_greatest", Take::time_of_greatest},
+                     {"curve", Take::curve},
+                     {"rows_rms", Take::rows_rms},
+                     {"rows_max", Take::rows_max},
+                     {"quantile", Take::quantile}},
+                    "how it is taken"),
+       {"column", Text{}, "", {}, "of `history.csv`, or of what `tamp drive` or `tamp modulus` writes"},
+       {"at", Number{zero_or_above}, "s", none, "the time of a `value`"},
+       {"field", Text{}, "", {}, "of a `quantile`: a scalar field of the particles, such as `p`"},
+       {"material", Text{}, "", {}, "of a `quantile`"},
+       {"quantile", Number{{.lower = 0, .upper = 1}}, "", {0.99}, "the part of the particles that lies below it"},
+       {"exact", Number{}, "", none, "the exact answer"},
+       {"scale", Number{above_zero}, "", none, "what errors are relative to, instead of the reference"}}};
+  return keys;
+}
+
+const ObjectKeys& reference_keys()
+{
+  static const ObjectKeys keys{
+      "",
+      {{"set", Anything{}, "", {}, "an object: JSON pointer → value, over the study's"},
+       {"refine", Text{}, "", {}, "a JSON pointer; without it the reference is one run, taken as it is"},
+       {"values", Anything{}, "", {}, "of that pointer, from coarse to fine, three at least"}}};
+  return keys;
+}
+
+const ObjectKeys& base_keys()
+{
+  static const ObjectKeys keys{"",
+                               {{"name", Text{}, "", compulsory, "of the settings whose error is asked for"},
+                                {"set", Anything{}, "", {}, "an object: JSON pointer → value, over the study's"}}};
+  return keys;
+}
+
+const ObjectKeys& part_keys()
+{
+  static const ObjectKeys keys{
+      "",
+      {{"name", Text{}, "", compulsory, "of the source of error"},
+       {"to_reference", Flag{}, "", {false}, "its size is the distance from the reference"},
+       {"set", Anything{}, "", {}, "a list of objects, JSON pointer → value: what differs most counts"}}};
+  return keys;
+}
+
+const ObjectKeys& budget_keys()
+{
+  static const ObjectKeys keys{"",
+                               {{"quantities", Anything{}, "", compulsory, "a list of their names"},
+                                {"of", Objects{base_keys}, "", compulsory, "settings whose error is asked for"},
+                                {"parts", Objects{part_keys}, "", compulsory, "sources of error"}}};
+  return keys;
+}
+
+}  // namespace
+
+const ObjectKeys& study_keys()
+{
+  constexpr int most_threads = 1024, most_repeats = 1000;
+  static const ObjectKeys keys{
+      "study",
+      {{"title", Text{}, "", {}, "one line for people"},
+       {"about", Text{}, "", {}, "what is asked, for people"},
+       {"takes", Text{}, "", {}, "how long it takes, for people"},
+       {"measure", Object{measure_keys}, "", compulsory, "what each point runs"},
+       {"set", Anything{}, "", {}, "an object: JSON pointer → value, for all points"},
+       {"methods", Objects{method_keys}, "", compulsory, "the lines of the charts"},
+       {"sweep", Anything{}, "", {}, "an object: JSON pointer → list of values; every method has all combinations"},
+       {"points", Objects{point_keys}, "", none, "points besides"},
+       {"refine", Text{}, "", {}, "the JSON pointer along which errors should fall"},
+       {"quantities", Objects{quantity_keys}, "", compulsory, "what is asked of each point"},
+       {"reference", Object{reference_keys}, "", none, "what points are compared with"},
+       {"budget", Object{budget_keys}, "", none, "which errors are how large"},
+       {"repeat", WholeNumber{1, most_repeats}, "", {3}, "timings of each point"},
+       {"repeat_below_s", Number{above_zero}, "s", {60.0}, "a point that takes longer is timed once"},
+       {"limit_s", Number{above_zero}, "s", none, "processor time that a point may take"},
+       {"limit_times_fastest", Number{above_zero}, "", none, "the same over that of the fastest point"},
+       {"threads", WholeNumber{1, most_threads}, "", {1}, "of each run"},
+       {"short", Anything{}, "", {}, "laid over the study (RFC 7386) by `--short`"}}};
+  return keys;
+}
+
+}  // namespace tamp::tools::study

@@ -1,0 +1,11 @@
+#pragma once
+
+#include "tools/scene/keys.hpp"
+
+namespace tamp::tools::study
+{
+
+/// The keys of a study file, see docs/study.md.
+const ObjectKeys& study_keys();
+
+}  // namespace tamp::tools::study

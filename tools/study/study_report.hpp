@@ -1,0 +1,33 @@
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "tools/study/findings.hpp"
+#include "tools/study/measurement.hpp"
+
+namespace tamp::tools::study
+{
+
+/// All that a report of a study is made of.
+struct StudyResults {
+  const Study& study;
+  /// The command line that remakes all of it.
+  std::string command;
+  std::vector<MeasuredPoint> points;
+  /// One for each point.
+  std::vector<Measurement> measurements;
+  Findings findings;
+};
+
+/// `study.json`, which the page is drawn from, see docs/study.md.
+Json to_json(const StudyResults& results);
+
+/// `points.csv`: a row for each point.
+std::string to_csv(const StudyResults& results);
+
+/// For a person at a terminal: each quantity's reference, its Pareto front, and the error budgets.
+std::string to_text(const StudyResults& results);
+
+}  // namespace tamp::tools::study
