@@ -71,16 +71,19 @@ std::vector<std::vector<const MeasuredPoint*>> refined_groups(const Study& study
 OrderFit order_fit(const Study& study, std::vector<const MeasuredPoint*> group, const std::map<int, double>& errors)
 {
   const Point& first = group.front()->point;
-  OrderFit fit{first.method, first.label, {}, std::nullopt, ""};
+  OrderFit fit{first.method, first.label, {}, std::nullopt, std::nullopt, ""};
   std::vector<Json> values;
-  std::vector<double> of_points;
+  std::vector<double> of_points, costs;
   for (const MeasuredPoint* one : group) {
     const auto error = errors.find(one->point.id);
     if (error == errors.end()) continue;
     fit.points.push_back(one->point.id);
     values.push_back(one->point.setting(study.refine));
     of_points.push_back(error->second);
+    costs.push_back(first_cost(study, *one));
   }
+  const double power = fitted_order(spacings_of(values), costs, 2);
+  if (std::isfinite(power)) fit.cost_power = power;
   const double order = fitted_order(spacings_of(values), of_points);
   if (std::isnan(order)) {
     fit.note = "no order: fewer than three errors above 0";

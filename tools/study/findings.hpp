@@ -17,6 +17,8 @@ struct OrderFit {
   std::vector<int> points;
   /// Empty where errors do not fall, or there are fewer than three.
   std::optional<double> order;
+  /// With which power of the refined setting the first cost goes: -3 where half the setting costs eight times as much.
+  std::optional<double> cost_power;
   std::string note;
 };
 

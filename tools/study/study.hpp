@@ -70,12 +70,12 @@ struct Quantity {
   std::string column;
   /// Where the value is taken [s].
   double time = 0;
-  std::string field, material;
+  std::string field{}, material{};
   double quantile = 0.99;
   /// The exact answer, if it is known.
-  std::optional<double> exact;
+  std::optional<double> exact{};
   /// What errors are relative to, where that is not the reference.
-  std::optional<double> scale;
+  std::optional<double> scale{};
 
   /// Whether a point's answer is a column, which only a reference makes a number.
   bool is_column() const { return take == Take::curve || take == Take::rows_rms || take == Take::rows_max; }

@@ -48,6 +48,7 @@ Json orders_json(const QuantityFindings& found)
                    {"label", fit.label},
                    {"points", fit.points},
                    {"order", value_or_null(fit.order)},
+                   {"cost_power", value_or_null(fit.cost_power)},
                    {"note", fit.note}});
   }
   return all;

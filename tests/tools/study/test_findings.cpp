@@ -1,0 +1,125 @@
+#include "tools/study/findings.hpp"
+
+#include <catch2/catch.hpp>
+#include <cmath>
+
+#include "tests/tools/problems.hpp"
+
+using namespace tamp;
+using namespace tamp::test;
+using namespace tamp::tools::study;
+
+namespace
+{
+
+/// A study whose points have answered by hand-written files.
+class AnsweredStudy
+{
+ public:
+  AnsweredStudy()
+  {
+    study.refine = "/h";
+    study.quantities = {{"depth", Take::greatest, "depth[m]"}};
+    study.methods = {{"a", "a", false, {}, {{"/h", {4, 2, 1}}}, {}}};
+  }
+
+  /// As many depths as points of the study, each reached after 1 s of three, and what each point costs [s].
+  Findings findings(const std::vector<double>& depths, const std::vector<double>& costs)
+  {
+    const std::vector<Point> points = points_of(study);
+    REQUIRE(points.size() == depths.size());
+    std::vector<MeasuredPoint> measured;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      const auto file = folder_.write(std::to_string(i) + "/history.csv",
+                                      "time[s],depth[m]\n0,0\n1," + std::to_string(depths[i]) + "\n3,0\n");
+      PointResult result{End::done, "", {{{"core_s", costs[i]}}}, HUGE_VAL, file.parent_path()};
+      if (std::isnan(depths[i])) result.end = End::unstable;
+      measured.push_back({points[i], result});
+    }
+    return findings_of(study, measured);
+  }
+
+  Study study;
+
+ private:
+  TemporaryFolder folder_;
+};
+
+}  // namespace
+
+TEST_CASE("errors are those against the limit of the finest runs")
+{
+  AnsweredStudy answered;
+  answered.study.reference = ReferenceRuns{{}, {"/h", {4, 2, 1}}};
+
+  // Depth 1 - 0.01 h^2: the limit is 1.
+  const std::vector<double> depths{0.84, 0.96, 0.99, 0.84, 0.96, 0.99};
+  const QuantityFindings found = answered.findings(depths, {1, 8, 64, 1, 8, 64}).quantities[0];
+
+  CHECK(found.reference.kind == Reference::Kind::extrapolated);
+  CHECK(found.reference.answer.value == Approx(1).epsilon(1e-9));
+  CHECK(*found.reference.uncertainty == Approx(0.0125).epsilon(1e-6));
+  CHECK(found.errors.at(1) == Approx(0.16));
+  CHECK(found.errors.at(3) == Approx(0.01));
+  CHECK(found.front == std::vector<int>{1, 2, 3});
+  CHECK(*found.orders[0].order == Approx(2));
+  CHECK(*found.orders[0].cost_power == Approx(-3));
+}
+
+TEST_CASE("runs whose differences do not fall bound nothing")
+{
+  AnsweredStudy answered;
+  answered.study.reference = ReferenceRuns{{}, {"/h", {4, 2, 1}}};
+
+  const QuantityFindings found = answered.findings({1.0, 1.1, 1.3, 1.0, 1.1, 1.3}, {1, 2, 3, 1, 2, 3}).quantities[0];
+
+  CHECK(found.reference.kind == Reference::Kind::finest);
+  CHECK_FALSE(found.reference.bound);
+  CHECK_FALSE(found.reference.uncertainty);
+  CHECK(found.reference.note.starts_with("no bound"));
+  CHECK(found.errors.at(1) == Approx(0.3 / 1.3));
+}
+
+TEST_CASE("a reference that is not done is none, and failed points have no error")
+{
+  AnsweredStudy answered;
+  answered.study.reference = ReferenceRuns{{}, {"/h", {4, 2, 1}}};
+
+  const QuantityFindings found = answered.findings({1, 1, NAN, 1, 1, NAN}, {1, 2, 3, 1, 2, 3}).quantities[0];
+
+  CHECK(found.reference.kind == Reference::Kind::none);
+  CHECK_THAT(found.reference.note, Catch::StartsWith("no reference: h 1 ended with unstable"));
+  CHECK(found.errors.empty());
+  CHECK(found.values.size() == 4);
+}
+
+TEST_CASE("the front has the points than which none is cheaper and better")
+{
+  AnsweredStudy answered;
+  answered.study.quantities[0].exact = 1;
+  answered.study.methods[0].sweep[0].values = {1, 2, 3, 4, 5};
+
+  const QuantityFindings found = answered.findings({0.8, 0.7, 0.9, 0.9, 1}, {1, 2, 3, 4, 5}).quantities[0];
+
+  CHECK(found.front == std::vector<int>{1, 3, 5});
+  CHECK(found.reference.kind == Reference::Kind::exact);
+}
+
+TEST_CASE("an error budget has the greatest change of each part, and the distance from the reference")
+{
+  AnsweredStudy answered;
+  answered.study.methods[0].sweep.clear();
+  answered.study.methods[0].settings = {{"/h", 2}};
+  answered.study.reference = ReferenceRuns{{}, {"/h", {4, 2, 1}}};
+  answered.study.budget = Budget{{"depth"}, {{"base", {{"/h", 2}}}}, {}};
+  answered.study.budget->parts = {{"grid", true, {}}, {"step", false, {{{"/m", 0.5}}, {{"/m", 0.25}}}}};
+
+  // The method's point; the reference's three; the base and its two variations.
+  const Findings found = answered.findings({0.96, 0.84, 0.96, 0.99, 0.96, 0.936, 0.9696}, {1, 1, 1, 1, 1, 1, 1});
+
+  const ErrorBudget& budget = found.budgets.at(0);
+  CHECK(*budget.value == Approx(0.96));
+  CHECK(*budget.parts[0].amount == Approx(0.04 + 0.0125).epsilon(1e-6));
+  CHECK(*budget.parts[1].amount == Approx(0.025));
+  CHECK_THAT(budget.parts[1].note, Catch::Contains("m 0.5: -2.5 %") && Catch::Contains("m 0.25: +1 %"));
+}

@@ -1,0 +1,76 @@
+#include "tools/study/quantities.hpp"
+
+#include <catch2/catch.hpp>
+
+#include "tests/tools/problems.hpp"
+
+using namespace tamp;
+using namespace tamp::test;
+using namespace tamp::tools::study;
+
+namespace
+{
+
+/// What is taken of a table of times and depths.
+Answer taken(const Quantity& quantity, const std::string& rows = "0,1\n1,3\n2,2\n4,0\n")
+{
+  const TemporaryFolder folder;
+  folder.write("history.csv", "time[s],depth[m]\n" + rows);
+  return answer_of(Study{}, quantity, PointResult{End::done, "", {}, 1, folder.path()});
+}
+
+Quantity depth(Take take, double time = 0)
+{
+  Quantity quantity{"depth", take, "depth[m]"};
+  quantity.time = time;
+  return quantity;
+}
+
+}  // namespace
+
+TEST_CASE("numbers are taken of a column")
+{
+  CHECK(taken(depth(Take::greatest)).value == 3);
+  CHECK(taken(depth(Take::least)).value == 0);
+  CHECK(taken(depth(Take::last)).value == 0);
+  CHECK(taken(depth(Take::value, 3)).value == Approx(1));
+  CHECK(taken(depth(Take::value, 9)).value == 0);
+}
+
+TEST_CASE("the time of the greatest value is that of the parabola through its neighbours")
+{
+  // 5 - (t - 1.2)^2 at 0, 1 and 3
+  CHECK(taken(depth(Take::time_of_greatest), "0,3.56\n1,4.96\n3,1.76\n").value == Approx(1.2));
+  CHECK(taken(depth(Take::time_of_greatest), "0,3\n1,2\n").value == 0);
+}
+
+TEST_CASE("curves are apart by the greatest difference over the reference's greatest value")
+{
+  const Answer reference = taken(depth(Take::curve), "0,0\n1,4\n2,0\n");
+  const Answer other = taken(depth(Take::curve), "0,0\n0.5,2\n1.5,3\n2,1\n");
+  CHECK(distance(depth(Take::curve), reference, other) == Approx(1.5 / 4));
+}
+
+TEST_CASE("rows are apart relative to the reference's, where that is not 0")
+{
+  const Answer reference = taken(depth(Take::rows_max), "0,1\n1,2\n2,0\n");
+  const Answer other = taken(depth(Take::rows_max), "0,1.1\n1,1.6\n2,5\n");
+  CHECK(distance(depth(Take::rows_max), reference, other) == Approx(0.2));
+  CHECK(distance(depth(Take::rows_rms), reference, other) == Approx(std::sqrt((0.01 + 0.04) / 2)));
+}
+
+TEST_CASE("a column that is not there is told, with those that are")
+{
+  CHECK_THAT(problems_of_reading(TemporaryFolder(),
+                                 [] {
+                                   taken({"speed", Take::last, "speed[m/s]"});
+                                 }),
+             Catch::Contains("there is no column \"speed[m/s]\"; expected one of depth[m], time[s]"));
+}
+
+TEST_CASE("the unit of a quantity is its column's")
+{
+  CHECK(unit_of(depth(Take::greatest)) == "m");
+  CHECK(unit_of(depth(Take::time_of_greatest)) == "s");
+  CHECK(unit_of({"strain", Take::last, "strain[-]"}).empty());
+}

@@ -1,0 +1,114 @@
+#include <catch2/catch.hpp>
+
+#include "tests/tools/problems.hpp"
+#include "tools/study/study.hpp"
+
+using namespace tamp;
+using namespace tamp::test;
+using Catch::Contains;
+using tools::Json;
+
+namespace
+{
+
+/// The least that a study needs, with a patch laid over it.
+Json study_with(const std::string& patch)
+{
+  Json study = Json::parse(R"({
+    "measure": { "run": "scene.json" },
+    "methods": [{ "name": "one" }],
+    "quantities": [{ "name": "depth", "column": "punch.depth[m]", "take": "greatest" }]
+  })");
+  study.merge_patch(Json::parse(patch));
+  return study;
+}
+
+std::string problems_of_study(const std::string& patch)
+{
+  const TemporaryFolder folder;
+  folder.write("scene.json", "{}");
+  const auto file = folder.write("study.json", study_with(patch).dump());
+  return problems_of_reading(folder, [&] { tools::study::read_study(file, false); });
+}
+
+}  // namespace
+
+TEST_CASE("the least study is sound")
+{
+  CHECK(problems_of_study("{}").empty());
+}
+
+TEST_CASE("a study that asks for nothing is refused")
+{
+  CHECK_THAT(problems_of_study(R"({"quantities": []})"), Contains("study.json#/quantities: no quantity"));
+  CHECK_THAT(problems_of_study(R"({"quantities": null})"), Contains("study.json#/quantities"));
+  CHECK_THAT(problems_of_study(R"({"methods": []})"), Contains("study.json#/methods: no method"));
+  CHECK_THAT(problems_of_study(R"({"measure": {"run": null}})"), Contains("expected one of run, drive, modulus"));
+  CHECK_THAT(problems_of_study(R"({"measure": {"run": "none.json"}})"), Contains("there is no file"));
+}
+
+TEST_CASE("an order takes three grids, from coarse to fine")
+{
+  const auto with_values = [](const std::string& values) {
+    return problems_of_study(R"({"reference": {"refine": "/grid/cell_size", "values": )" + values + "}}");
+  };
+  CHECK(with_values("[4, 2, 1]").empty());
+  CHECK_THAT(with_values("[4, 2]"), Contains("study.json#/reference/values: 2 values; expected 3 at least"));
+  CHECK_THAT(with_values("[4, 2, 3]"), Contains("values that are no spacings"));
+  CHECK_THAT(with_values("[4, 2, \"x\"]"), Contains("values that are no spacings"));
+}
+
+TEST_CASE("what is misspelt or of the wrong kind is told with its place")
+{
+  CHECK_THAT(problems_of_study(R"({"metods": []})"), Contains("unknown key; did you mean \"methods\"?"));
+  CHECK_THAT(problems_of_study(R"({"refine": "cell_size"})"), Contains("study.json#/refine: \"cell_size\""));
+  CHECK_THAT(problems_of_study(R"({"sweep": {"/grid/cell_size": 4}})"), Contains("expected a list of values"));
+  CHECK_THAT(problems_of_study(R"({"set": [1]})"), Contains("study.json#/set: array; expected an object"));
+  CHECK_THAT(problems_of_study(R"({"points": [{"method": "two", "set": {}}]})"),
+             Contains("study.json#/points/0/method: \"two\""));
+  CHECK_THAT(problems_of_study(R"({"methods": [{"name": "a"}, {"name": "a"}]})"),
+             Contains("study.json#/methods/1/name: \"a\", which is taken"));
+  CHECK_THAT(problems_of_study(R"({"quantities": [{"name": "d", "column": "x", "take": "most"}]})"),
+             Contains("study.json#/quantities/0/take"));
+}
+
+TEST_CASE("columns and budgets need the reference that they are measured by")
+{
+  CHECK_THAT(problems_of_study(R"({"quantities": [{"name": "d", "column": "x", "take": "curve"}]})"),
+             Contains("\"d\", a column, without a reference"));
+  CHECK_THAT(problems_of_study(R"({"budget": {"quantities": ["depth"], "of": [{"name": "base"}],
+                                              "parts": [{"name": "grid", "to_reference": true}]}})"),
+             Contains("expected a study with a reference"));
+  CHECK_THAT(problems_of_study(R"({"budget": {"quantities": ["speed"], "of": [{"name": "base"}], "parts": []}})"),
+             Contains("\"speed\"; expected names of quantities"));
+}
+
+TEST_CASE("files among the settings are named from the study's folder")
+{
+  const TemporaryFolder folder;
+  folder.write("scene.json", "{}");
+  folder.write("sizes/small.json", "{}");
+  const auto file = folder.write(
+      "study.json", study_with(R"({"set": {"/modulus/svr": "sizes/small.json", "/title": "no.json"}})").dump());
+
+  const tools::study::Study study = tools::study::read_study(file, false);
+
+  CHECK(std::filesystem::equivalent(study.settings[0].second.get<std::string>(), folder.path() / "sizes/small.json"));
+  CHECK(study.settings[1].second == "no.json");
+}
+
+TEST_CASE("the short form is laid over the study")
+{
+  const TemporaryFolder folder;
+  folder.write("scene.json", "{}");
+  const auto file = folder.write(
+      "study.json",
+      study_with(R"({"repeat": 5, "set": {"/a": 1, "/b": 2}, "short": {"repeat": 1, "set": {"/a": 3}}})").dump());
+
+  const tools::study::Study whole = tools::study::read_study(file, false);
+  const tools::study::Study in_short = tools::study::read_study(file, true);
+
+  CHECK(whole.repeat == 5);
+  CHECK(in_short.repeat == 1);
+  CHECK(in_short.settings == tools::study::Settings{{"/a", 3}, {"/b", 2}});
+}

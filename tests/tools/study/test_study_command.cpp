@@ -1,0 +1,266 @@
+#include <catch2/catch.hpp>
+#include <csignal>
+#include <nlohmann/json.hpp>
+#include <thread>
+
+#include "tests/tools/background_program.hpp"
+#include "tests/tools/program.hpp"
+#include "tests/tools/scene/small_scene.hpp"
+
+using namespace tamp::test;
+using Catch::Contains;
+using Json = nlohmann::json;
+
+namespace
+{
+
+/// A block of steel that flies through an empty box, and a study of it: its depth needs no grid to be exact.
+class FlightStudy
+{
+ public:
+  FlightStudy()
+  {
+    folder_.write("flight.json", R"({
+      "dimension": 2, "grid": { "upper": [1, 1], "cell_size": 0.1 }, "time": { "end": 1e-3 },
+      "materials": { "steel": { "type": "hypoelastic", "density": 8000, "bulk_modulus": 1e9, "shear_modulus": 7e8 } },
+      "bodies": { "block": { "material": "steel", "velocity": [0, -100],
+                             "geometry": { "type": "box", "lower": [0.4, 0.6], "upper": [0.6, 0.8] } } },
+      "output": { "history_interval": 1e-4, "fields_interval": 1e-3 }
+    })");
+  }
+
+  /// `tamp study` of the study with a patch laid over it.
+  Outcome run(const std::string& patch = "{}", const std::string& options = "") const
+  {
+    return tamp_with(arguments(patch) + options);
+  }
+
+  std::string arguments(const std::string& patch) const
+  {
+    Json study = Json::parse(R"({
+      "measure": { "run": "flight.json" },
+      "methods": [{ "name": "flight" }],
+      "sweep": { "/grid/cell_size": [0.2, 0.1, 0.05] },
+      "quantities": [{ "name": "depth", "column": "block.depth[m]", "take": "greatest", "exact": 0.1 }],
+      "repeat": 1
+    })");
+    study.merge_patch(Json::parse(patch));
+    folder_.write("study.json", study.dump());
+    return "study " + (path() / "study.json").string() + " --quiet --out " + out().string() + " ";
+  }
+
+  Json results() const { return Json::parse(read_text(out() / "study.json")); }
+  const std::filesystem::path& path() const { return folder_.path(); }
+  std::filesystem::path out() const { return path() / "out"; }
+  std::size_t n_kept() const
+  {
+    std::size_t n = 0;
+    if (!std::filesystem::exists(out() / "points")) return n;
+    for (const auto& entry : std::filesystem::directory_iterator(out() / "points")) {
+      n += std::filesystem::exists(entry.path() / "result.json") ? 1 : 0;
+    }
+    return n;
+  }
+
+ private:
+  TemporaryFolder folder_;
+};
+
+/// Something that another process does.
+template <class Condition>
+void wait_until(const Condition& holds)
+{
+  const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(60);
+  while (!holds()) {
+    REQUIRE(std::chrono::steady_clock::now() < end);
+    std::this_thread::sleep_for(std::chrono::milliseconds(2));
+  }
+}
+
+}  // namespace
+
+TEST_CASE("a study measures its points, and their errors against the exact answer")
+{
+  const FlightStudy study;
+
+  const Outcome outcome = study.run(R"({"repeat": 2})");
+
+  INFO(outcome.err);
+  REQUIRE(outcome.exit_code == 0);
+  const Json points = study.results()["points"];
+  REQUIRE(points.size() == 3);
+  for (const Json& point : points) {
+    CHECK(point["ended"] == "done");
+    CHECK(point["values"]["depth"].get<double>() == Approx(0.1).epsilon(1e-9));
+    CHECK(point["errors"]["depth"].get<double>() < 1e-9);
+    CHECK(point["cost"]["core_s_low"].get<double>() <= point["cost"]["core_s_high"].get<double>());
+  }
+  CHECK_THAT(points[0]["command"].get<std::string>(), Contains("--set /grid/cell_size=0.2"));
+  CHECK_THAT(read_text(study.out() / "points.csv"), Contains("id,method,/grid/cell_size,ended,reason,core_s"));
+}
+
+TEST_CASE("a study that has all its results runs nothing, and writes the same again")
+{
+  const FlightStudy study;
+  REQUIRE(study.run().exit_code == 0);
+  const std::string table = read_text(study.out() / "points.csv"), json = read_text(study.out() / "study.json");
+  const auto since = std::filesystem::file_time_type::clock::now();
+
+  REQUIRE(study.run().exit_code == 0);
+
+  CHECK(read_text(study.out() / "points.csv") == table);
+  CHECK(read_text(study.out() / "study.json") == json);
+  for (const auto& entry : std::filesystem::directory_iterator(study.out() / "points")) {
+    CHECK(std::filesystem::last_write_time(entry.path()) < since);
+  }
+}
+
+TEST_CASE("what a file holds decides whether a result is still one")
+{
+  const FlightStudy study;
+  REQUIRE(study.run().exit_code == 0);
+  std::string scene = read_text(study.path() / "flight.json");
+  scene.replace(scene.find("-100"), 4, "-50");
+  std::ofstream(study.path() / "flight.json") << scene;
+
+  REQUIRE(study.run().exit_code == 0);
+
+  CHECK(study.results()["points"][0]["values"]["depth"].get<double>() == Approx(0.05).epsilon(1e-9));
+}
+
+TEST_CASE("points that become unstable, take too long or are refused are there with their reasons")
+{
+  const FlightStudy study;
+
+  const Outcome outcome = study.run(R"({
+    "limit_s": 1, "sweep": null,
+    "points": [{ "method": "flight", "set": { "/grid/cell_size": 0.1 } },
+               { "method": "flight", "set": { "/time/minimum_step": 1 } },
+               { "method": "flight", "set": { "/time/end": 1e3, "/output/history_interval": 1, "/output/fields_interval": 100, "/limits/energy_error": "off" } },
+               { "method": "flight", "set": { "/grid/cell_size": 0.3 } }]
+  })");
+
+  INFO(outcome.err);
+  REQUIRE(outcome.exit_code == 0);
+  const Json points = study.results()["points"];
+  CHECK(points[0]["ended"] == "done");
+  CHECK(points[1]["ended"] == "unstable");
+  CHECK_THAT(points[1]["reason"].get<std::string>(), Contains("step"));
+  CHECK(points[2]["ended"] == "limit");
+  CHECK_THAT(points[2]["reason"].get<std::string>(), Contains("not done after"));
+  CHECK(points[3]["ended"] == "refused");
+  CHECK_THAT(points[3]["reason"].get<std::string>(), Contains("#/grid"));
+  CHECK_FALSE(points[1]["errors"].contains("depth"));
+}
+
+TEST_CASE("a study that is killed goes on where it was")
+{
+  const FlightStudy study;
+  const std::string patch = R"({"sweep": {"/grid/cell_size": [0.2, 0.1, 0.05, 0.04, 0.025, 0.02, 0.0125]}})";
+  {
+    const BackgroundProgram program(TAMP_PROGRAM, study.arguments(patch));
+    wait_until([&] { return study.n_kept() >= 2; });
+  }  // killed
+  const std::size_t n_before = study.n_kept();
+  const auto since = std::filesystem::file_time_type::clock::now();
+
+  REQUIRE(study.run(patch).exit_code == 0);
+
+  CHECK(n_before < 7);
+  CHECK(study.n_kept() == 7);
+  std::size_t n_older = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(study.out() / "points")) {
+    if (!std::filesystem::is_directory(entry)) continue;
+    n_older += std::filesystem::last_write_time(entry.path() / "result.json") < since ? 1 : 0;
+  }
+  CHECK(n_older == n_before);
+}
+
+TEST_CASE("a study that is asked to stop ends the run under way, and says so")
+{
+  const FlightStudy study;
+  BackgroundProgram program(
+      TAMP_PROGRAM,
+      study.arguments(
+          R"({"sweep": null, "set": {"/time/end": 1e3, "/output/history_interval": 1, "/output/fields_interval": 100}})"));
+  wait_until([&] { return !program.children().empty(); });
+  const pid_t child = program.children().front();
+
+  program.send(SIGTERM);
+
+  CHECK(program.exit_code() == 128 + SIGTERM);
+  CHECK_FALSE(is_running(child));
+}
+
+TEST_CASE("results of another program are refused, and removed only when asked")
+{
+  const FlightStudy study;
+  REQUIRE(study.run().exit_code == 0);
+  std::ofstream(study.out() / ".tamp-study") << R"({"program": "another", "version": "0.0.9"})";
+
+  const Outcome refused = study.run();
+  const std::size_t n_kept = study.n_kept();
+  const Outcome forced = study.run("{}", "--force");
+
+  CHECK(refused.exit_code == 2);
+  CHECK_THAT(refused.err, Contains("results of another program (0.0.9)") && Contains("--force"));
+  CHECK(n_kept == 3);
+  CHECK(forced.exit_code == 0);
+}
+
+TEST_CASE("a folder that is no study's is left alone")
+{
+  const FlightStudy study;
+  std::filesystem::create_directories(study.out());
+  std::ofstream(study.out() / "letter.txt") << "dear";
+  CHECK(study.run("{}", "--force").exit_code == 2);
+  CHECK(read_text(study.out() / "letter.txt") == "dear");
+}
+
+TEST_CASE("a pointer to nothing ends a study before anything runs")
+{
+  const FlightStudy study;
+  const Outcome misspelt = study.run(R"({"sweep": {"/grid/cel_size": [0.1]}})");
+  const Outcome nowhere = study.run(R"({"set": {"/materials/sand/tolerance": 1}})");
+
+  CHECK(misspelt.exit_code == 2);
+  CHECK_THAT(misspelt.err, Contains("study.json#/grid/cel_size: unknown key; did you mean \"cell_size\"?"));
+  CHECK(nowhere.exit_code == 2);
+  CHECK_THAT(nowhere.err, Contains("/materials/sand/tolerance: there is no such place"));
+  CHECK(study.n_kept() == 0);
+}
+
+TEST_CASE("a column that the runs do not have ends a study after the first of them")
+{
+  const FlightStudy study;
+  const Outcome outcome = study.run(R"({"quantities": [{"name": "q", "column": "sand.q_max[Pa]"}]})");
+  CHECK(outcome.exit_code == 2);
+  CHECK_THAT(outcome.err, Contains("there is no column \"sand.q_max[Pa]\"") && Contains("block.depth[m]"));
+}
+
+TEST_CASE("a reference that fails ends a study with 3, after all it has found is written")
+{
+  const FlightStudy study;
+  const Outcome outcome = study.run(R"({
+    "quantities": [{"name": "depth", "column": "block.depth[m]", "take": "greatest"}],
+    "reference": {"set": {"/time/minimum_step": 1}}
+  })");
+
+  CHECK(outcome.exit_code == 3);
+  CHECK_THAT(outcome.err, Contains("the reference") && Contains("unstable"));
+  CHECK(study.results()["points"].size() == 4);
+  CHECK_THAT(study.results()["quantities"][0]["reference"]["note"].get<std::string>(), Contains("no reference"));
+}
+
+TEST_CASE("a reference that would be refused ends a study before anything runs")
+{
+  const FlightStudy study;
+  const Outcome outcome = study.run(R"({
+    "quantities": [{"name": "depth", "column": "block.depth[m]", "take": "greatest"}],
+    "reference": {"refine": "/grid/cell_size", "values": [0.2, 0.1, 0.03]}
+  })");
+
+  CHECK(outcome.exit_code == 2);
+  CHECK_THAT(outcome.err, Contains("study.json#/reference") && Contains("cell"));
+  CHECK(study.n_kept() == 0);
+}
