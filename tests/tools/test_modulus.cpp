@@ -1,6 +1,7 @@
 #include <catch2/catch.hpp>
 
 #include <cmath>
+#include <nlohmann/json.hpp>
 #include <sstream>
 #include <vector>
 
@@ -106,7 +107,7 @@ TEST_CASE("a command line that asks for nothing sensible ends with 2 and says wh
     CHECK_THAT(complaint("--at '" + at + "'"),
                Catch::StartsWith("tamp: --at " + at + ": not 2 finite numbers; expected EE,EP"));
   }
-  CHECK_THAT(complaint(""), Catch::Contains("--at is required"));
+  CHECK_THAT(complaint(""), Catch::Contains("--at or --states is required"));
   CHECK_THAT(complaint("--at 0,0 --nu 0.5"), Catch::StartsWith("tamp: --nu: 0.5; expected a number above -1"));
   CHECK_THAT(complaint("--at 0,0 --set /density=1"), Catch::Contains("expected a material"));
   CHECK_THAT(complaint("--at 0,0 --scaling 1,2,3,4,5,6"), Catch::Contains("no network"));
@@ -137,4 +138,99 @@ TEST_CASE("files that are no model end with 2 and their place, those that cannot
   CHECK_THAT(complaint("words.txt"), Catch::Contains(":1: columns some words; expected plastic_volumetric[-]"));
   CHECK_THAT(complaint("steel.json"), Catch::Contains("#/type: a material without a model of its moduli"));
   CHECK(modulus("/no/such/model.h5", "--at 0,0").exit_code == 4);
+}
+
+TEST_CASE("the states of a file are answered as those of the command line")
+{
+  const TemporaryFolder folder;
+  const auto curves = folder.write("unloading.csv",
+                                   "plastic_volumetric[-],elastic_volumetric[-],pressure[Pa]\n"
+                                   "0.05,0,0\n0.05,0.005,5e6\n0.05,0.01,1e7\n0.1,0,0\n0.1,0.005,1e7\n0.1,0.01,2e7\n");
+  const auto states =
+      folder.write("states.csv", "# two\nplastic_volumetric[-],elastic_volumetric[-]\n0.05,0.005\n0,-0.001\n");
+
+  const Outcome outcome = modulus(curves, "--states " + states.string());
+  modulus(curves, "--states " + states.string() + " --out " + (folder.path() / "out.csv").string());
+
+  CHECK(outcome.exit_code == 0);
+  CHECK(outcome.out == modulus(curves, "--at 0.005,0.05 --at -0.001,0").out);
+  CHECK(read_text(folder.path() / "out.csv") == outcome.out);
+}
+
+TEST_CASE("a sand in rate form answers the states of a file with the integral of K, and tells how far it is off")
+{
+  const TemporaryFolder folder;
+  write_sand(folder);
+  // K is 1 GPa on the first curve and 2 GPa on the second; what is said to be measured is less on the first.
+  const auto states = folder.write("states.csv",
+                                   "elastic_volumetric[-],plastic_volumetric[-],pressure[Pa],bulk_modulus[Pa]\n"
+                                   "0.005,0.05,4e6,0.5e9\n0.01,0.1,2e7,2e9\n");
+
+  const Outcome outcome = modulus(folder.path() / "sand.json", "--states " + states.string());
+
+  CHECK_THAT(outcome.out, Catch::StartsWith("elastic_v[-],plastic_v[-],p[Pa],K[Pa],G[Pa],dK_dplastic[Pa],in_range,"
+                                            "p_error[-],p_error_rms[-],K_error[-],K_error_rms[-]\n"));
+  const std::vector<double> first = row(outcome, 0), second = row(outcome, 1);
+  REQUIRE(first.size() == 11);
+  CHECK(first[2] == Approx(5e6));
+  CHECK(first[3] == Approx(1e9));
+  CHECK(first[7] == Approx(0.25));
+  CHECK(first[8] == Approx(0.25));
+  CHECK(first[9] == Approx(1));
+  REQUIRE(second.size() == 11);
+  CHECK(second[2] == Approx(2e7));
+  CHECK(second[7] == Approx(0).margin(1e-9));
+  CHECK(second[8] == Approx(0.25 / std::sqrt(2)));
+  CHECK(second[10] == Approx(1 / std::sqrt(2)));
+}
+
+TEST_CASE("the cost of evaluations is told with their number and the bytes of the model")
+{
+  const TemporaryFolder folder;
+  const std::string sand = TAMP_SOURCE_DIR "/inputs/materials/concrete-sand/svr.json";
+  const auto states =
+      folder.write("states.csv", "plastic_volumetric[-],elastic_volumetric[-]\n0.05,0.005\n0.1,0.01\n0.2,0.01\n");
+  const auto summary_with = [&](const std::string& options) {
+    const auto file = folder.path() / "summary.json";
+    CHECK(modulus(sand, "--states " + states.string() + " --summary " + file.string() + options).exit_code == 0);
+    return nlohmann::json::parse(read_text(file));
+  };
+
+  const auto coarse = summary_with(" --set /modulus/compile=1e-2"), fine = summary_with(" --set /modulus/compile=1e-3");
+
+  CHECK(coarse["evaluations"] == 3);
+  CHECK(coarse["ns_per_evaluation"] > 0);
+#ifndef __SANITIZE_ADDRESS__  // which has a heap of its own
+  // At least the four numbers of each corner of the fewest patches there can be.
+  CHECK(coarse["bytes"] > 16 * sizeof(double));
+  CHECK(fine["bytes"] > coarse["bytes"]);
+#endif
+}
+
+TEST_CASE("files of states that cannot be answered end with 2 and their place")
+{
+  const TemporaryFolder folder;
+  write_sand(folder);
+  const std::string header = "elastic_volumetric[-],plastic_volumetric[-],pressure[Pa],bulk_modulus[Pa]\n";
+  const auto complaint = [&](const std::string& content) {
+    const Outcome outcome =
+        modulus(folder.path() / "sand.json", "--states " + folder.write("states.csv", content).string());
+    CHECK(outcome.exit_code == 2);
+    CHECK(outcome.out.empty());
+    return outcome.err;
+  };
+  const std::string place = "tamp: " + (folder.path() / "states.csv").string();
+
+  CHECK_THAT(complaint("plastic_volumetric[-]\n0\n"),
+             Catch::StartsWith(place + ":1: columns plastic_volumetric[-]; expected elastic_volumetric[-],plastic"));
+  CHECK_THAT(complaint("elastic_volumetric[-],plastic_volumetric[-],pressure[Pa]\n0,0,1\n"),
+             Catch::Contains("expected elastic_volumetric[-],plastic_volumetric[-],pressure[Pa],bulk_modulus[Pa]"));
+  CHECK_THAT(complaint(header + "0,0,1,1\n0,0,0,1\n"),
+             Catch::StartsWith(place + ":3: pressure[Pa] 0; expected a number above 0"));
+  CHECK_THAT(complaint(header + "0,0,1,-2\n"),
+             Catch::StartsWith(place + ":2: bulk_modulus[Pa] -2; expected a number above 0"));
+  const std::string sand = (folder.path() / "sand.json").string(), states = folder.write("s.csv", header).string();
+  CHECK(tamp_with("modulus " + sand + " --at 0,0 --states " + states).exit_code == 2);
+  CHECK(tamp_with("modulus " + sand + " --at 0,0 --out " + (folder.path() / "out.csv").string()).exit_code == 2);
+  CHECK(tamp_with("modulus " + sand + " --states /no/such/file.csv").exit_code == 4);
 }

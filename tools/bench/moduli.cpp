@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <ctime>
 #include <functional>
 #include <limits>
 #include <random>
@@ -19,6 +18,7 @@
 #include "tools/scene/read_support_vectors.hpp"
 #include "tools/scene/unloading_curves.hpp"
 #include "tools/statistics.hpp"
+#include "tools/thread_time.hpp"
 
 namespace tamp::tools::bench
 {
@@ -34,7 +34,6 @@ using components::UnloadingTable;
 
 constexpr std::size_t n_states = 4096;
 constexpr int moduli_rounds = 15;
-constexpr double least_seconds = 2e-3;  // of one measurement
 
 struct States {
   std::vector<double> pressure, elastic, plastic;
@@ -101,26 +100,10 @@ EvaluationLoop batch_rate_of(const Model& model)
   };
 }
 
-/// Processor time of this thread [s]: what others do on the machine does not count.
-double seconds_now()
-{
-  timespec now{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
-  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
-}
-
 /// Nanoseconds a state.
 double measured(const EvaluationLoop& loop, const States& states, Points& points)
 {
-  const double start = seconds_now();
-  double seconds = 0;
-  int n = 0;
-  while (seconds < least_seconds) {
-    loop(states, points);
-    ++n;
-    seconds = seconds_now() - start;
-  }
-  return seconds / n / static_cast<double>(points.size()) * 1e9;
+  return seconds_of([&] { loop(states, points); }) / static_cast<double>(points.size()) * 1e9;
 }
 
 /// One form of a model: as it is used, and by its definition. `multiply_adds` is about what one state needs.

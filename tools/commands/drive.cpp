@@ -2,13 +2,16 @@
 #include <fmt/ranges.h>
 
 #include <memory>
+#include <nlohmann/json.hpp>
 #include <optional>
 
 #include "runtime/storage/csv_writer.hpp"
+#include "runtime/storage/whole_file.hpp"
 #include "tools/commands/commands.hpp"
 #include "tools/console.hpp"
 #include "tools/drive/columns.hpp"
 #include "tools/drive/drive.hpp"
+#include "tools/drive/drive_costs.hpp"
 #include "tools/drive/read_path.hpp"
 #include "tools/scene/read_material.hpp"
 
@@ -24,7 +27,21 @@ struct DriveArguments {
   std::vector<std::string> assignments;
   std::string out;
   double increment = 1e-3;
+  std::string summary;
+  int repeat = 5;
 };
+
+void write_summary(const DriveCosts& costs, const std::filesystem::path& file)
+{
+  const auto per_update = [&](std::size_t n) { return static_cast<double>(n) / static_cast<double>(costs.n_updates); };
+  const nlohmann::ordered_json summary{{"updates", costs.n_updates},
+                                       {"substeps", costs.counts.substeps},
+                                       {"limited_substeps", costs.counts.limited_substeps},
+                                       {"modulus_evaluations", costs.counts.modulus_evaluations},
+                                       {"evaluations_per_update", per_update(costs.counts.modulus_evaluations)},
+                                       {"ns_per_update", costs.ns_per_update}};
+  runtime::write_whole_file(file, summary.dump(2) + "\n");
+}
 
 void drive_point(const DriveArguments& options)
 {
@@ -36,7 +53,9 @@ void drive_point(const DriveArguments& options)
   } else {
     file.emplace(options.out, drive_columns(material.model));
   }
+  std::vector<MaterialPoint> points;
   drive(material, path, options.increment, [&](double time, const MaterialPoint& point) {
+    if (!options.summary.empty()) points.push_back(point);
     const std::vector<double> values = drive_values(material.model, time, point);
     if (file) {
       file->write_row(values);
@@ -44,6 +63,8 @@ void drive_point(const DriveArguments& options)
       print_out("{}\n", fmt::join(values, ","));
     }
   });
+  if (points.empty()) return;
+  write_summary(drive_costs(material.model, points, options.repeat), options.summary);
 }
 
 }  // namespace
@@ -59,6 +80,11 @@ CLI::App* add_drive_command(CLI::App& app)
   command->add_option("--increment", options->increment, "largest strain of an increment")
       ->check(CLI::Range(1e-9, 0.1));
   command->add_option("--out", options->out, "write to this file");
+  CLI::Option* summary =
+      command->add_option("--summary", options->summary, "write what the updates cost to this file, as JSON");
+  command->add_option("--repeat", options->repeat, "rounds that the updates are timed in for --summary, by default 5")
+      ->check(CLI::Range(1, 1000))
+      ->needs(summary);
   command->callback([options] { drive_point(*options); });
   return command;
 }

@@ -3,11 +3,14 @@
 #include <charconv>
 #include <cmath>
 #include <memory>
+#include <nlohmann/json.hpp>
 
 #include "components/materials/tabular_cap.hpp"
+#include "runtime/storage/whole_file.hpp"
 #include "tools/commands/commands.hpp"
 #include "tools/console.hpp"
 #include "tools/errors.hpp"
+#include "tools/modulus/modulus_states.hpp"
 #include "tools/scene/file_kind.hpp"
 #include "tools/scene/parse_json.hpp"
 #include "tools/scene/read_material.hpp"
@@ -26,11 +29,16 @@ struct ModulusArguments {
   std::vector<std::string> assignments;
   std::string scaling;
   std::optional<double> poisson_ratio;
+  std::string states, out, summary;
 };
 
 struct AskedModel {
   components::Modulus modulus;
   double poisson_ratio;
+  components::ElasticUpdate form;
+
+  /// G / K
+  double shear_ratio() const { return 1.5 * (1 - 2 * poisson_ratio) / (1 + poisson_ratio); }
 };
 
 /// Numbers separated by commas, as many as `n`.
@@ -72,7 +80,8 @@ AskedModel model_of_material(const ModulusArguments& options)
   if (sand == nullptr) {
     throw InputError({options.file + "#/type", "a material without a model of its moduli", "expected tabular_cap"});
   }
-  return {sand->parameters().modulus, options.poisson_ratio.value_or(sand->poisson_ratio())};
+  return {sand->parameters().modulus, options.poisson_ratio.value_or(sand->poisson_ratio()),
+          sand->parameters().elastic_update};
 }
 
 AskedModel model_of_file(const ModulusArguments& options)
@@ -85,7 +94,18 @@ AskedModel model_of_file(const ModulusArguments& options)
     scaling = numbers("--scaling", options.scaling, 6, "expected mean_e,sd_e,mean_p,sd_p,mean_K,sd_K");
     check_scaling(*scaling, "--scaling");
   }
-  return {read_model_file(options.file, scaling), options.poisson_ratio.value_or(0.189)};
+  return {read_model_file(options.file, scaling), options.poisson_ratio.value_or(0.189),
+          components::ElasticUpdate::state};
+}
+
+AskedModel asked_model(const ModulusArguments& options)
+{
+  AskedModel model = is_material(options.file) ? model_of_material(options) : model_of_file(options);
+  const double nu = model.poisson_ratio;
+  if (!(nu > -1 && nu < 0.5)) {
+    throw InputError({"--nu", fmt::format("{}", nu), "expected a number above -1 and below 0.5"});
+  }
+  return model;
 }
 
 void print_moduli(const ModulusArguments& options)
@@ -94,25 +114,41 @@ void print_moduli(const ModulusArguments& options)
   for (const std::string& text : options.at) {
     states.push_back(numbers("--at", text, 2, "expected EE,EP, elastic and plastic volumetric strain"));
   }
-  const AskedModel model = is_material(options.file) ? model_of_material(options) : model_of_file(options);
-  const double nu = model.poisson_ratio;
-  if (!(nu > -1 && nu < 0.5)) {
-    throw InputError({"--nu", fmt::format("{}", nu), "expected a number above -1 and below 0.5"});
-  }
-  const double shear_ratio = 1.5 * (1 - 2 * nu) / (1 + nu);
-
-  print_out("elastic_v[-],plastic_v[-],p[Pa],K[Pa],G[Pa],dK_dplastic[Pa],in_range\n");
+  const AskedModel model = asked_model(options);
+  print_out("{}\n", modulus_header());
   for (const std::vector<double>& state : states) {
-    const double elastic = state[0], plastic = state[1];
-    std::visit(
-        [&](const auto& modulus) {
-          const components::ElasticPoint point = modulus.at(elastic, plastic);
-          print_out("{:.17g},{:.17g},{:.17g},{:.17g},{:.17g},{:.17g},{:d}\n", elastic, plastic, point.pressure,
-                    point.bulk_modulus, shear_ratio * point.bulk_modulus, modulus.modulus_by_plastic(elastic, plastic),
-                    modulus.in_range(elastic, plastic));
-        },
-        model.modulus);
+    const ModulusAnswer answer = answer_at(model.modulus, components::ElasticUpdate::state, state[0], state[1]);
+    print_out("{}\n", modulus_row(state[0], state[1], answer, model.shear_ratio()));
   }
+}
+
+void write_costs(const AskedModel& model, const ModulusStates& states, const std::filesystem::path& file)
+{
+  constexpr int n_rounds = 5;
+  const ModulusCosts costs = modulus_costs(model.modulus, model.form, states, n_rounds);
+  const nlohmann::ordered_json summary{
+      {"evaluations", costs.n_evaluations}, {"ns_per_evaluation", costs.ns_per_evaluation}, {"bytes", costs.bytes}};
+  runtime::write_whole_file(file, summary.dump(2) + "\n");
+}
+
+void answer_states(const ModulusArguments& options)
+{
+  const ModulusStates states = read_modulus_states(options.states);
+  const AskedModel model = asked_model(options);
+  const std::string table = modulus_table(model.modulus, model.form, model.shear_ratio(), states);
+  if (options.out.empty()) {
+    print_out("{}", table);
+  } else {
+    runtime::write_whole_file(options.out, table);
+  }
+  if (!options.summary.empty()) write_costs(model, states, options.summary);
+}
+
+void answer(const ModulusArguments& options)
+{
+  if (!options.states.empty()) return answer_states(options);
+  if (options.at.empty()) throw CLI::RequiredError("--at or --states");
+  print_moduli(options);
 }
 
 }  // namespace
@@ -127,17 +163,26 @@ CLI::App* add_modulus_command(CLI::App& app)
                    "a material (JSON), or a model: unloading curves (CSV), a published table or support-vector "
                    "regression (JSON), a Keras network (HDF5)")
       ->required();
-  command
-      ->add_option("--at", options->at,
-                   "EE,EP: elastic and plastic volumetric strain, compression positive, may be repeated")
-      ->required()
-      ->allow_extra_args(false);
+  CLI::Option* at =
+      command
+          ->add_option("--at", options->at,
+                       "EE,EP: elastic and plastic volumetric strain, compression positive, may be repeated")
+          ->allow_extra_args(false);
+  CLI::Option* states =
+      command
+          ->add_option("--states", options->states,
+                       "CSV (elastic_volumetric[-],plastic_volumetric[-], with pressure[Pa],bulk_modulus[Pa] where "
+                       "measured): answers in the form of the material's elastic_update, and how far they are off")
+          ->excludes(at);
+  command->add_option("--out", options->out, "write what --states answers to this file")->needs(states);
+  command->add_option("--summary", options->summary, "write what an evaluation of --states costs to this file, as JSON")
+      ->needs(states);
   command->add_option("--set", options->assignments, "POINTER=VALUE: replace a value of the material, may be repeated")
       ->allow_extra_args(false);
   command->add_option("--nu", options->poisson_ratio, "Poisson's ratio; the material's, or 0.189 for a model's file");
   command->add_option("--scaling", options->scaling,
                       "mean_e,sd_e,mean_p,sd_p,mean_K,sd_K: what a network's file was standardised with, if not in it");
-  command->callback([options] { print_moduli(*options); });
+  command->callback([options] { answer(*options); });
   return command;
 }
 

@@ -1,8 +1,7 @@
 #include "tools/compare/modulus_timing.hpp"
 
-#include <chrono>
-
 #include "components/moduli/elastic_model.hpp"
+#include "tools/thread_time.hpp"
 
 namespace tamp::tools::compare
 {
@@ -31,9 +30,11 @@ std::span<const double> scalars(const runtime::ParticleBlock& block, const std::
 
 }  // namespace
 
-ModulusTiming::ModulusTiming(const components::TabularCap& sand, std::span<const double> pressure,
-                             std::span<const double> elastic, std::span<const double> plastic)
-    : sand_(sand),
+ModulusTiming::ModulusTiming(const components::Modulus& modulus, components::ElasticUpdate form,
+                             std::span<const double> pressure, std::span<const double> elastic,
+                             std::span<const double> plastic)
+    : modulus_(modulus),
+      form_(form),
       pressure_(thinned(pressure)),
       elastic_(thinned(elastic)),
       plastic_(thinned(plastic)),
@@ -42,21 +43,24 @@ ModulusTiming::ModulusTiming(const components::TabularCap& sand, std::span<const
 {
 }
 
-double ModulusTiming::seconds()
+void ModulusTiming::evaluate()
 {
-  const components::TabularCapParameters& parameters = sand_.parameters();
-  const bool rate_form = parameters.elastic_update == components::ElasticUpdate::rate;
-  const auto start = std::chrono::steady_clock::now();
   std::visit(
       [&](const auto& model) {
-        if (rate_form) {
+        if (form_ == components::ElasticUpdate::rate) {
           components::evaluate_rate(model, pressure_, elastic_, plastic_, bulk_modulus_);
         } else {
           components::evaluate(model, elastic_, plastic_, points_);
         }
       },
-      parameters.modulus);
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+      modulus_);
+}
+
+double ModulusTiming::seconds()
+{
+  const double start = thread_seconds();
+  evaluate();
+  return thread_seconds() - start;
 }
 
 std::vector<ModulusTiming> modulus_timings(tasks::Simulation& simulation)
@@ -66,8 +70,8 @@ std::vector<ModulusTiming> modulus_timings(tasks::Simulation& simulation)
   for (std::size_t m = 0; m < blocks.size(); ++m) {
     const auto* sand = std::get_if<components::TabularCap>(&simulation.scene().materials[m].model);
     if (sand == nullptr || blocks[m].n == 0) continue;
-    timings.emplace_back(*sand, scalars(blocks[m], "p"), scalars(blocks[m], "elastic_volumetric"),
-                         scalars(blocks[m], "plastic_volumetric"));
+    timings.emplace_back(sand->parameters().modulus, sand->parameters().elastic_update, scalars(blocks[m], "p"),
+                         scalars(blocks[m], "elastic_volumetric"), scalars(blocks[m], "plastic_volumetric"));
   }
   return timings;
 }

@@ -8,20 +8,23 @@
 namespace tamp::tools::compare
 {
 
-/// States of one sand, to evaluate its elastic model on.
+/// States of one sand, to evaluate its elastic model on. The model has to outlive this.
 class ModulusTiming
 {
  public:
-  /// `pressure` is compression positive; spans of equal length.
-  ModulusTiming(const components::TabularCap& sand, std::span<const double> pressure, std::span<const double> elastic,
-                std::span<const double> plastic);
+  /// The form that the sand's update uses; `pressure` is compression positive; spans of equal length.
+  ModulusTiming(const components::Modulus& modulus, components::ElasticUpdate form, std::span<const double> pressure,
+                std::span<const double> elastic, std::span<const double> plastic);
 
-  /// Evaluates the model once on every state, in the form that the sand's update uses [s].
+  /// Evaluates the model once on every state, in lanes as the update does.
+  void evaluate();
+  /// The processor time that this takes [s].
   double seconds();
   std::size_t n_states() const { return elastic_.size(); }
 
  private:
-  const components::TabularCap& sand_;
+  const components::Modulus& modulus_;
+  components::ElasticUpdate form_;
   std::vector<double> pressure_, elastic_, plastic_;
   std::vector<double> bulk_modulus_;
   std::vector<components::ElasticPoint> points_;

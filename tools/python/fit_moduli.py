@@ -20,6 +20,11 @@ from fitting import errors, network, page, support_vectors  # noqa: E402
 from fitting.curves import read_curves, read_table  # noqa: E402
 
 
+def layers(text):
+    """Neurons of each layer, as 64,32,32."""
+    return tuple(int(number) for number in text.split(","))
+
+
 def arguments():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("folder", type=pathlib.Path, metavar="FOLDER")
@@ -27,6 +32,7 @@ def arguments():
     parser.add_argument("--page", type=pathlib.Path, metavar="PAGE.html", help="plots of the fits")
     parser.add_argument("--c", type=float, default=10, help="SVR: weight of errors (%(default)s)")
     parser.add_argument("--epsilon", type=float, default=0.001, help="SVR: free error, of the range of p (%(default)s)")
+    parser.add_argument("--layers", type=layers, default=network.LAYERS, help="MLP: neurons of each (64,32,32)")
     parser.add_argument("--epochs", type=int, default=800, help="MLP (%(default)s)")
     parser.add_argument("--batch", type=int, default=32, help="MLP (%(default)s)")
     parser.add_argument("--seed", type=int, default=1, help="MLP (%(default)s)")
@@ -41,7 +47,7 @@ def main():
     out.mkdir(parents=True, exist_ok=True)
 
     support_vectors.write(support_vectors.fit(curves, options.c, options.epsilon), out / "support_vectors.json")
-    network.write(*network.fit(curves, options.epochs, options.batch, options.seed), out / "network.h5")
+    network.write(*network.fit(curves, options.epochs, options.batch, options.seed, options.layers), out / "network.h5")
 
     # What is shown is what the files say.
     models = [support_vectors.SupportVectors(out / "support_vectors.json"), network.Network(out / "network.h5")]

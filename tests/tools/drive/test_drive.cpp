@@ -8,6 +8,7 @@
 #include "tests/components/materials/concrete_sand.hpp"
 #include "tests/components/materials/random_paths.hpp"
 #include "tools/drive/columns.hpp"
+#include "tools/drive/drive_costs.hpp"
 #include "tools/scene/read_material.hpp"
 
 using namespace tamp;
@@ -240,4 +241,26 @@ TEST_CASE("a point that fails says when, and on the way to which row")
     CHECK_THAT(error.what(), Catch::Contains(expected) && Catch::Contains("larger than 0.2"));
   }
   CHECK(n_shown == 1);
+}
+
+TEST_CASE("the updates of a drive, made side by side for their cost, take the substeps and evaluations that they took")
+{
+  for (const char* form : {"state", "rate"}) {
+    const auto material = tools::read_material_file(TAMP_SOURCE_DIR "/inputs/materials/concrete-sand/table.json",
+                                                    {std::string("/elastic_update=") + form});
+    const auto points = points_along(material, multiaxial_path(), 5e-3);
+    components::UpdateCounts alone;
+    for (const MaterialPoint& point : points) alone.add(point.last_update);
+
+    const tools::DriveCosts costs = tools::drive_costs(material.model, points, 1);
+
+    CAPTURE(form);
+    CHECK(costs.n_updates == points.size() - 1);
+    CHECK(costs.counts.split_updates > 0);
+    CHECK(costs.counts.split_updates == alone.split_updates);
+    CHECK(costs.counts.substeps == alone.substeps);
+    CHECK(costs.counts.modulus_evaluations == alone.modulus_evaluations);
+    CHECK(costs.counts.failures == 0);
+    CHECK(costs.ns_per_update > 0);
+  }
 }

@@ -1,4 +1,6 @@
 #include <catch2/catch.hpp>
+#include <nlohmann/json.hpp>
+#include <sstream>
 
 #include "tests/tools/program.hpp"
 
@@ -12,6 +14,25 @@ const std::string compression =
     "time,F11,F12,F13,F21,F22,F23,F31,F32,F33\n"
     "0,1,0,0,0,1,0,0,0,1\n"
     "1,0.99,0,0,0,1,0,0,0,1\n";
+
+/// The sum of a column of a table that drive wrote.
+double sum_of(const std::string& table, const std::string& name)
+{
+  std::istringstream lines(table);
+  std::vector<std::string> names;
+  double sum = 0;
+  for (std::string line; std::getline(lines, line);) {
+    std::istringstream fields(line);
+    std::vector<std::string> row;
+    for (std::string field; std::getline(fields, field, ',');) row.push_back(field);
+    if (names.empty()) {
+      names = row;
+    } else {
+      sum += std::stod(row[static_cast<std::size_t>(std::find(names.begin(), names.end(), name) - names.begin())]);
+    }
+  }
+  return sum;
+}
 
 }  // namespace
 
@@ -55,4 +76,47 @@ TEST_CASE("drive ends with 2 for a bad path, material or increment, and with 4 f
   CHECK(tamp_with("drive " + sand + " " + path + " --set /poisson_ratio=1").exit_code == 2);
   CHECK(tamp_with("drive " + sand + " " + path + " --increment 0.5").exit_code == 2);
   CHECK(tamp_with("drive " + sand + " " + path + " --out /no/such/folder/out.csv").exit_code == 4);
+}
+
+TEST_CASE("drive tells what the updates of a path cost, and writes the same stresses")
+{
+  const TemporaryFolder folder;
+  const std::string line = "drive " + sand + " " + folder.write("path.csv", compression).string();
+  const std::filesystem::path file = folder.path() / "summary.json";
+
+  const Outcome outcome = tamp_with(line + " --repeat 2 --summary " + file.string());
+
+  CHECK(outcome.exit_code == 0);
+  CHECK(outcome.out == tamp_with(line).out);
+  const auto summary = nlohmann::json::parse(read_text(file));
+  CHECK(summary["updates"] == std::count(outcome.out.begin(), outcome.out.end(), '\n') - 2);
+  CHECK(summary["substeps"] == sum_of(outcome.out, "substeps"));
+  CHECK(summary["modulus_evaluations"] >= summary["substeps"]);
+  CHECK(summary["evaluations_per_update"].get<double>() ==
+        Approx(summary["modulus_evaluations"].get<double>() / summary["updates"].get<double>()));
+  CHECK(summary["ns_per_update"] > 0);
+}
+
+TEST_CASE("drive tells that a steel's updates evaluate no model of moduli, and take one substep each")
+{
+  const TemporaryFolder folder;
+  const auto steel =
+      folder.write("steel.json", R"({"type":"hypoelastic","density":8000,"bulk_modulus":1e10,"shear_modulus":7e9})");
+  const std::filesystem::path path = folder.write("path.csv", compression), file = folder.path() / "summary.json";
+
+  tamp_with("drive " + steel.string() + " " + path.string() + " --increment 0.1 --summary " + file.string());
+
+  const auto summary = nlohmann::json::parse(read_text(file));
+  CHECK(summary["updates"] == 1);
+  CHECK(summary["modulus_evaluations"] == 0);
+}
+
+TEST_CASE("drive refuses rounds of a timing that is not asked for, and ends with 4 where a summary cannot be written")
+{
+  const TemporaryFolder folder;
+  const std::string line = "drive " + sand + " " + folder.write("path.csv", compression).string();
+
+  CHECK(tamp_with(line + " --repeat 3").exit_code == 2);
+  CHECK(tamp_with(line + " --repeat 0 --summary " + (folder.path() / "s.json").string()).exit_code == 2);
+  CHECK(tamp_with(line + " --summary /no/such/folder/summary.json").exit_code == 4);
 }

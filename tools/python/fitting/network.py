@@ -32,13 +32,13 @@ def points(curves):
     return np.concatenate(inputs), np.concatenate(outputs)
 
 
-def fit(curves, epochs, batch, seed):
+def fit(curves, epochs, batch, seed, layers=LAYERS):
     """(kernels and biases, scaling, range) of the file."""
     inputs, output = points(curves)
     x_mean, x_deviation, y_mean, y_deviation = inputs.mean(axis=0), inputs.std(axis=0), output.mean(), output.std()
     # Patience as long as the training: all epochs are run.
     model = MLPRegressor(
-        LAYERS, activation="relu", solver="adam", alpha=0, batch_size=batch, max_iter=epochs,
+        layers, activation="relu", solver="adam", alpha=0, batch_size=batch, max_iter=epochs,
         n_iter_no_change=epochs, tol=0, random_state=seed,
     )  # fmt: skip
     with warnings.catch_warnings():
