@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Make the path of deformation that inputs/studies/return_mapping_*.json take a point of sand along.
+"""Make the path of deformation that inputs/studies/return_mapping.json take a point of sand along.
 
     python3 tools/studies/return_path.py [--out inputs/studies/return_mapping/path.csv]
 

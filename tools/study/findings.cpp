@@ -95,19 +95,60 @@ OrderFit order_fit(const Study& study, std::vector<const MeasuredPoint*> group, 
   return fit;
 }
 
+/// What each method is compared with.
+class References
+{
+ public:
+  References(const Study& study, const Quantity& quantity, const std::vector<MeasuredPoint>& points)
+  {
+    if (!study.reference || !study.reference->of_each_method) {
+      common_ = reference_of(study, quantity, points);
+      return;
+    }
+    for (const Method& method : study.methods) own_[method.name] = reference_of(study, quantity, points, method.name);
+    sum_up();
+  }
+
+  /// For all points, or the least certain of those of the methods.
+  const Reference& common() const { return common_; }
+
+  const Reference& of(const Point& point) const
+  {
+    const auto own = own_.find(point.role == Point::Role::reference ? point.reference_of : point.method);
+    return own == own_.end() ? common_ : own->second;
+  }
+
+ private:
+  void sum_up()
+  {
+    const auto less_certain = [](const auto& a, const auto& b) {
+      const Reference &first = a.second, &second = b.second;
+      if (first.bound != second.bound) return first.bound;
+      return first.uncertainty.value_or(0) < second.uncertainty.value_or(0);
+    };
+    const auto& [method, reference] = *std::max_element(own_.begin(), own_.end(), less_certain);
+    common_ = reference;
+    common_.note = fmt::format("of each method its own, least certain that of {}: {}", method, reference.note);
+  }
+
+  Reference common_;
+  std::map<std::string, Reference> own_;
+};
+
 QuantityFindings findings_of_one(const Study& study, const Quantity& quantity, const std::vector<MeasuredPoint>& points)
 {
   QuantityFindings found;
-  found.reference = reference_of(study, quantity, points);
+  const References references(study, quantity, points);
+  found.reference = references.common();
   for (const MeasuredPoint& one : points) {
     if (!one.done()) continue;
     const Answer answer = answer_of(study, quantity, one.result);
     if (!quantity.is_column()) found.values[one.point.id] = answer.value;
-    const auto error = found.reference.error(quantity, answer);
+    const Reference& reference = references.of(one.point);
+    const auto error = reference.error(quantity, answer);
     // A run that is the reference itself has no error that is known.
-    const bool is_reference = one.point.id == found.reference.point &&
-                              found.reference.kind != Reference::Kind::extrapolated &&
-                              found.reference.kind != Reference::Kind::exact;
+    const bool is_reference = one.point.id == reference.point && reference.kind != Reference::Kind::extrapolated &&
+                              reference.kind != Reference::Kind::exact;
     if (error && !is_reference) found.errors[one.point.id] = *error;
   }
   found.front = pareto_front(study, points, found.errors);

@@ -55,14 +55,22 @@ class PointList
     }
   }
 
-  void add_reference()
+  void add_references()
+  {
+    if (!study_.reference->of_each_method) return add_reference(study_.settings, "");
+    for (const Method& method : study_.methods) add_reference(merged(study_.settings, method.settings), method.name);
+  }
+
+  void add_reference(const Settings& settings, const std::string& of_method)
   {
     const ReferenceRuns& reference = *study_.reference;
-    const Settings common = merged(study_.settings, reference.settings);
+    const Settings common = merged(settings, reference.settings);
+    const std::string prefix = of_method.empty() ? "" : of_method + ", ";
     std::vector<Axis> axes;
     if (!reference.refinement.values.empty()) axes.push_back(reference.refinement);
     for (const Settings& own : combinations(axes)) {
-      add(Point::Role::reference, reference_name, label_of(own), merged(common, own));
+      add(Point::Role::reference, reference_name, prefix + label_of(own), merged(common, own));
+      points_.back().reference_of = of_method;
     }
   }
 
@@ -111,7 +119,7 @@ std::vector<Point> points_of(const Study& study)
 {
   PointList list(study);
   list.add_methods();
-  if (study.reference) list.add_reference();
+  if (study.reference) list.add_references();
   if (study.budget) list.add_budget();
   return list.points();
 }

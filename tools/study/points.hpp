@@ -21,6 +21,8 @@ struct Point {
   /// What tells it from the other points of its method, for people.
   std::string label;
   Settings settings;
+  /// Of a reference of one method alone, that method.
+  std::string reference_of{};
 
   /// Null where a pointer is not set.
   Json setting(const std::string& pointer) const;

@@ -168,6 +168,7 @@ class StudyReader
     reference.settings = settings(*reader, "set");
     reference.refinement.pointer = pointer(*reader, "refine");
     reference.refinement.values = list(*reader, "values");
+    reference.of_each_method = reader->flag("of_each_method");
     if (!reference.refinement.pointer.empty() && reference.refinement.values.size() < fewest_grids) {
       reader->add_problem(
           "values", fmt::format("{} values", reference.refinement.values.size()),
@@ -217,6 +218,9 @@ class StudyReader
     }
     if (part.to_reference && !study_.reference) {
       reader.add_problem("to_reference", "true", "expected a study with a reference");
+    }
+    if (part.to_reference && study_.reference && study_.reference->of_each_method) {
+      reader.add_problem("to_reference", "true", "expected one reference for all methods");
     }
     reader.finish();
     return part;

@@ -68,7 +68,8 @@ std::optional<double> Reference::error(const Quantity& quantity, const Answer& o
   return std::abs(distance(quantity, answer, other)) / scale;
 }
 
-Reference reference_of(const Study& study, const Quantity& quantity, const std::vector<MeasuredPoint>& points)
+Reference reference_of(const Study& study, const Quantity& quantity, const std::vector<MeasuredPoint>& points,
+                       const std::string& method)
 {
   if (quantity.exact) {
     Reference reference = exact_reference(quantity);
@@ -78,7 +79,7 @@ Reference reference_of(const Study& study, const Quantity& quantity, const std::
   std::vector<Answer> answers;
   Reference reference;
   for (const MeasuredPoint& one : points) {
-    if (one.point.role != Point::Role::reference) continue;
+    if (one.point.role != Point::Role::reference || one.point.reference_of != method) continue;
     if (!one.done()) {
       reference.note = fmt::format("no reference: {} ended with {}: {}", one.point.label, to_text(one.result.end),
                                    one.result.reason);

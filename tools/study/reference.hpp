@@ -44,8 +44,10 @@ struct MeasuredPoint {
   bool done() const { return result.end == End::done; }
 };
 
-/// A reference whose runs are not all done is none, and its note says why.
-Reference reference_of(const Study& study, const Quantity& quantity, const std::vector<MeasuredPoint>& points);
+/// A reference whose runs are not all done is none, and its note says why. `method` is empty where all methods have the
+/// same.
+Reference reference_of(const Study& study, const Quantity& quantity, const std::vector<MeasuredPoint>& points,
+                       const std::string& method = "");
 
 /// What a value of a refined setting is as a spacing: itself, or where values rise its inverse.
 std::vector<double> spacings_of(const std::vector<Json>& values);

@@ -86,6 +86,9 @@ struct Quantity {
 struct ReferenceRuns {
   Settings settings;
   Axis refinement;
+  /// Whether each method is compared with runs that have its own settings besides: of methods that tend to different
+  /// answers.
+  bool of_each_method = false;
 };
 
 /// A source of error: what it changes, in one way or several.

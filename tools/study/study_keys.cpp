@@ -73,7 +73,8 @@ const ObjectKeys& reference_keys()
       "",
       {{"set", Anything{}, "", {}, "an object: JSON pointer → value, over the study's"},
        {"refine", Text{}, "", {}, "a JSON pointer; without it the reference is one run, taken as it is"},
-       {"values", Anything{}, "", {}, "of that pointer, from coarse to fine, three at least"}}};
+       {"values", Anything{}, "", {}, "of that pointer, from coarse to fine, three at least"},
+       {"of_each_method", Flag{}, "", {false}, "compares each method with runs of its own settings, under these"}}};
   return keys;
 }
 

@@ -77,7 +77,8 @@ Json methods_json(const StudyResults& results)
   }
   // Their points tell of no method that one would choose.
   if (results.study.reference) {
-    all.push_back({{"name", reference_name}, {"family", reference_name}, {"dashed", true}, {"line", true}});
+    const bool is_one = !results.study.reference->of_each_method;
+    all.push_back({{"name", reference_name}, {"family", reference_name}, {"dashed", true}, {"line", is_one}});
   }
   if (results.study.budget) {
     all.push_back({{"name", budget_name}, {"family", budget_name}, {"dashed", false}, {"line", false}});
