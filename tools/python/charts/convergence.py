@@ -1,0 +1,53 @@
+"""Error against what is refined, with the order at which it falls."""
+
+from math import exp, log
+
+from charts import point_chart
+from charts.lines import lines_of_methods
+from charts.point_chart import Across, Plan
+from charts.words import number_text
+
+ABOUT = "Towards the left everything is finer. An order is the slope of a line through the errors: halving {} divides them by two to its power."
+
+
+def charts(study, quantity, prefix):
+    if not study.refine or not quantity.has_reference or not any(p.refine for p in study.points):
+        return []
+    name = study.refine.get("name", study.refine.get("pointer", ""))
+    lines, guides = lines_with_orders(study, quantity)
+    across = Across(name, lambda p: p.refine, study.refine_text, ticks_at_values=True)
+    about = ABOUT.format(name) + "".join(f" {label}: {note}." for label, note in notes(quantity))
+    return [point_chart.make(Plan(study, quantity, across, lines, None, guides), f"{prefix}-convergence",
+                             f"Error of {quantity.name} against {name}", about)]  # fmt: skip
+
+
+def lines_with_orders(study, quantity):
+    """Fitted lines as the study says; methods of which it says nothing, without an order."""
+    by_id = {p.id: p for p in study.points}
+    lines, guides = [], []
+    for fit in quantity.orders:
+        points = [by_id[i] for i in fit.get("points", []) if i in by_id]
+        order = fit.get("order")
+        words = "no order" if order is None else f"order {number_text(order)}"
+        lines.append((fit["method"], f"{fit.get('label') or fit['method']}: {words}", points))
+        if order is not None:
+            guides += guide(fit["method"], order, points, quantity)
+    said = {fit["method"] for fit in quantity.orders}
+    for method, groups in lines_of_methods(study):
+        if method not in said:
+            lines += [(method, method, [p for p in points if p.refine]) for points in groups]
+    return lines, guides
+
+
+def guide(method, order, points, quantity):
+    """Through the middle of the points, which is where a fit of least squares passes."""
+    known = [(p.refine, abs(p.error(quantity))) for p in points if p.refine and p.error(quantity) and not p.failed]
+    if len(known) < 2:
+        return []
+    middle_x, middle_y = (sum(log(pair[k]) for pair in known) / len(known) for k in (0, 1))
+    xs = [min(x for x, _ in known), max(x for x, _ in known)]
+    return [(method, xs, [exp(middle_y + order * (log(x) - middle_x)) for x in xs])]
+
+
+def notes(quantity):
+    return [(fit.get("label") or fit["method"], fit["note"].rstrip(".")) for fit in quantity.orders if fit.get("note")]

@@ -1,0 +1,44 @@
+"""Pages that need nothing but themselves: one HTML file with its drawings, style and script inside."""
+
+import pathlib
+
+from charts import picture, theme
+from charts.words import escaped
+
+HERE = pathlib.Path(__file__).resolve().parent
+
+
+def whole_page(title, content, script=""):
+    style = theme.style_sheet() + (HERE / "page.css").read_text(encoding="utf-8")
+    script = f"<script>\n{script}</script>\n" if script else ""
+    return (
+        f'<!DOCTYPE html>\n<html lang="en">\n<head>\n<meta charset="utf-8">\n'
+        f'<meta name="viewport" content="width=device-width, initial-scale=1">\n<link rel="icon" href="data:,">\n'
+        f"<title>{escaped(title)}</title>\n<style>\n{style}</style>\n</head>\n<body>\n{content}{script}</body>\n</html>\n")
+
+
+def as_html(table):
+    def row(cells):
+        return "<tr>" + "".join(f"<td>{escaped(cell)}</td>" for cell in cells) + "</tr>\n"
+
+    head = "".join(f'<th scope="col">{escaped(cell)}</th>' for cell in table.head)
+    return (f'<div class="wide" tabindex="0" role="region" aria-label="Table"><table>\n<thead><tr>{head}</tr></thead>\n<tbody>\n'
+            f"{''.join(map(row, table.rows))}</tbody>\n</table></div>\n")  # fmt: skip
+
+
+def figure(chart, labels=None):
+    """`labels`: what each point is called, of those that can be chosen."""
+    drawings = "".join(drawing(one, kind, labels or {}) for kind, one in [("broad", chart.wide), ("narrow", chart.narrow)])
+    details = f"<details><summary>The figures of this chart</summary>\n{as_html(chart.table)}</details>\n" if chart.table.rows else ""
+    return (f'<figure class="chart" id="chart-{chart.name}">\n{drawings}<figcaption>{escaped(chart.caption)}</figcaption>\n'
+            f"{details}</figure>\n")  # fmt: skip
+
+
+def drawing(one, kind, labels):
+    """With a button over each point, of which the first is reached by Tab and the others by arrow keys."""
+    buttons = "".join(
+        f'<button type="button" class="point" data-point="{place.point}" tabindex="{0 if k == 0 else -1}" '
+        f'style="left:{100 * place.x:.2f}%;top:{100 * place.y:.2f}%" aria-label="{escaped(labels[place.point])}"></button>\n'
+        for k, place in enumerate(sorted((p for p in one.places if p.point in labels), key=lambda p: (p.x, p.y))))
+    group = f'<div role="group" aria-label="Points">\n{buttons}</div>\n' if buttons else ""
+    return f'<div class="drawing {kind}">\n{picture.within_page(one)}{group}</div>\n'

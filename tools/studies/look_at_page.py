@@ -1,0 +1,87 @@
+#!/usr/bin/env python3
+"""Opens a page in Chromium without a window, wide, dark and as narrow as a phone, and says what its console complains of.
+
+    tools/studies/look_at_page.py PAGE.html OUT_FOLDER [--chromium chromium] [--height 4000] [--hash '#id']
+
+Written are OUT_FOLDER/wide.png, dark.png and phone.png. On each page it chooses points by script, as a person would, and
+measures whether the page is wider than the window. The exit code is 1 where the console complains, the page scrolls
+sideways, or a point that is chosen shows nothing. The tests do not need a browser; Debian's chromium is used."""
+
+import argparse
+import html
+import pathlib
+import re
+import subprocess
+import sys
+import tempfile
+
+# A window of Chromium is 500 pixels wide at least; a phone is a frame within it.
+LOOKS = {"wide": (1280, []), "dark": (1280, ["--blink-settings=preferredColorScheme=0"]), "phone": (360, [])}
+FLAGS = ["--headless", "--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run", "--disable-background-networking",
+         "--disable-component-update", "--disable-sync", "--allow-file-access-from-files", "--enable-logging=stderr", "--v=0",
+         "--hide-scrollbars", "--virtual-time-budget=4000"]  # fmt: skip
+
+# Chooses every point, and leaves what it finds in the title of the outer page.
+PROBE = """
+const frame = document.querySelector("iframe");
+frame.onload = () => {
+  const page = frame.contentDocument;
+  const visible = [...page.querySelectorAll(".point")].filter(point => point.offsetParent !== null);
+  let n_empty = 0;
+  for (const point of visible) {
+    point.focus();
+    const shown = page.querySelector("#chosen h2");
+    if (!shown || !point.getAttribute("aria-label").startsWith(shown.textContent)) n_empty += 1;
+  }
+  page.dispatchEvent(new KeyboardEvent("keydown", {key: "Escape"}));
+  const left = page.querySelector("#chosen.shown") ? 1 : 0;
+  if (CHOSEN && visible.length) visible[Math.min(2, visible.length - 1)].click();
+  frame.contentWindow.scrollTo(0, 0);
+  document.title = `${visible.length} points, ${n_empty} that show nothing, ${left} panels left open, ` +
+    `${page.documentElement.scrollWidth - frame.clientWidth} pixels too wide`;
+};
+"""
+
+
+def framed(page, width, height, chosen):
+    return (f'<!DOCTYPE html><html><head><title>not loaded</title><link rel="icon" href="data:,"></head><body style="margin:0">'
+            f'<iframe src="{html.escape(page.resolve().as_uri())}" style="border:0;width:{width}px;height:{height}px"></iframe>'
+            f"<script>{PROBE.replace('CHOSEN', str(chosen).lower())}</script></body></html>")  # fmt: skip
+
+
+def chromium(options, folder, page, flags):
+    command = [options.chromium, *FLAGS, f"--user-data-dir={folder}/profile", *flags, page.as_uri()]
+    return subprocess.run(command, capture_output=True, text=True, timeout=180)
+
+
+def look(options, name, width, flags, folder):
+    outer = folder / f"{name}.html"
+    outer.write_text(framed(options.page, width, options.height, options.chosen))
+    size = f"--window-size={max(width, 500)},{options.height}"
+    found = chromium(options, folder / name, outer, [*flags, size, "--dump-dom"])
+    picture = chromium(options, folder / name, outer, [*flags, size, f"--screenshot={options.out.resolve()}/{name}.png"])
+    said = re.search("<title>(.*?)</title>", found.stdout)
+    complaints = [line for line in (found.stderr + picture.stderr).splitlines() if "CONSOLE" in line]
+    said = said[1] if said else "not loaded"
+    print(f"{name}: {said}; {len(complaints)} complaints")
+    print("".join(f"  {line}\n" for line in dict.fromkeys(complaints)), end="")
+    too_wide = re.search(r"(-?\d+) pixels too wide", said)
+    return not complaints and ", 0 that show nothing, 0 panels" in said and too_wide is not None and int(too_wide[1]) <= 0
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("page", type=pathlib.Path)
+    parser.add_argument("out", type=pathlib.Path)
+    parser.add_argument("--chromium", default="chromium")
+    parser.add_argument("--height", type=int, default=4000, help="of the window (%(default)s)")
+    parser.add_argument("--chosen", action="store_true", help="leave a point chosen in the pictures")
+    options = parser.parse_args()
+    options.out.mkdir(parents=True, exist_ok=True)
+    with tempfile.TemporaryDirectory() as folder:
+        sound = [look(options, name, width, flags, pathlib.Path(folder)) for name, (width, flags) in LOOKS.items()]
+    return 0 if all(sound) else 1
+
+
+if __name__ == "__main__":
+    sys.exit(main())
