@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "tools/study/error_budget.hpp"
 #include "tools/study/reference.hpp"
 
 namespace tamp::tools::study
@@ -30,20 +31,6 @@ struct QuantityFindings {
   /// Ids of points of the charts than which none is cheaper and better at once.
   std::vector<int> front;
   std::vector<OrderFit> orders;
-};
-
-struct BudgetAmount {
-  std::string name;
-  /// Relative to the base's answer; empty where there is no bound, or a run is missing.
-  std::optional<double> amount;
-  std::string note;
-};
-
-/// What the error of one quantity consists of, at one base.
-struct ErrorBudget {
-  std::string quantity, base;
-  std::optional<double> value;
-  std::vector<BudgetAmount> parts;
 };
 
 struct Findings {

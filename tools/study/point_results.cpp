@@ -35,7 +35,7 @@ std::vector<CostKind> cost_kinds(Measure::Kind kind)
 {
   switch (kind) {
     case Measure::Kind::run:
-      return {{"core_s", "user time", "s"}, {"particle_steps", "particle-steps", ""}, {"steps", "steps", ""}};
+      return {{"core_s", "user time", "s"}, {"particle_steps", "particle-steps", ""}};
     case Measure::Kind::drive:
       return {{"ns_per_update", "time of an update", "ns"},
               {"evaluations_per_update", "modulus evaluations an update", ""}};

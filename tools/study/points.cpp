@@ -25,13 +25,6 @@ std::vector<Settings> combinations(const std::vector<Axis>& axes)
   return all;
 }
 
-std::string label_of(const Settings& settings)
-{
-  std::vector<std::string> texts;
-  for (const auto& [pointer, value] : settings) texts.push_back(setting_text(pointer, value));
-  return fmt::format("{}", fmt::join(texts, ", "));
-}
-
 class PointList
 {
  public:
@@ -51,7 +44,7 @@ class PointList
         const std::vector<Settings> swept = combinations(method.sweep);
         all.insert(all.begin(), swept.begin(), swept.end());
       }
-      for (const Settings& own : all) add(Point::Role::chart, method.name, label_of(own), merged(common, own));
+      for (const Settings& own : all) add(Point::Role::chart, method.name, settings_text(own), merged(common, own));
     }
   }
 
@@ -69,7 +62,7 @@ class PointList
     std::vector<Axis> axes;
     if (!reference.refinement.values.empty()) axes.push_back(reference.refinement);
     for (const Settings& own : combinations(axes)) {
-      add(Point::Role::reference, reference_name, prefix + label_of(own), merged(common, own));
+      add(Point::Role::reference, reference_name, prefix + settings_text(own), merged(common, own));
       points_.back().reference_of = of_method;
     }
   }
@@ -80,7 +73,7 @@ class PointList
       add(Point::Role::variation, budget_name, base.name, base_settings(study_, base));
       for (const BudgetPart& part : study_.budget->parts) {
         for (const Settings& variation : part.variations) {
-          add(Point::Role::variation, budget_name, base.name + ", " + label_of(variation),
+          add(Point::Role::variation, budget_name, base.name + ", " + settings_text(variation),
               varied_settings(study_, base, variation));
         }
       }
@@ -134,9 +127,13 @@ Settings varied_settings(const Study& study, const BudgetBase& base, const Setti
   return merged(base_settings(study, base), variation);
 }
 
-std::string setting_text(const std::string& pointer, const Json& value)
+std::string settings_text(const Settings& settings)
 {
-  return pointer_name(pointer) + " " + (value.is_string() ? value.get<std::string>() : value.dump());
+  std::vector<std::string> texts;
+  for (const auto& [pointer, value] : settings) {
+    texts.push_back(pointer_name(pointer) + " " + (value.is_string() ? value.get<std::string>() : value.dump()));
+  }
+  return fmt::format("{}", fmt::join(texts, ", "));
 }
 
 std::string pointer_name(const std::string& pointer)

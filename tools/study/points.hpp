@@ -38,8 +38,8 @@ std::vector<Point> points_of(const Study& study);
 Settings base_settings(const Study& study, const BudgetBase& base);
 Settings varied_settings(const Study& study, const BudgetBase& base, const Settings& variation);
 
-/// A pointer and its value as a person would say them: "cell size 0.02".
-std::string setting_text(const std::string& pointer, const Json& value);
+/// As a person would say them: "cell size 0.02, transfer flip".
+std::string settings_text(const Settings& settings);
 /// The last part of a pointer, with blanks for underscores.
 std::string pointer_name(const std::string& pointer);
 

@@ -86,12 +86,24 @@ Json methods_json(const StudyResults& results)
   return all;
 }
 
+/// Of all that is known, not only of what the charts show.
+std::vector<std::string> cost_keys(Measure::Kind kind)
+{
+  switch (kind) {
+    case Measure::Kind::run:
+      return {"core_s", "particle_steps", "steps"};
+    case Measure::Kind::drive:
+      return {"core_s", "ns_per_update", "evaluations_per_update"};
+    case Measure::Kind::modulus:
+      return {"core_s", "ns_per_evaluation"};
+  }
+  return {};
+}
+
 Json cost_json(const StudyResults& results, const PointResult& result)
 {
   Json cost = Json::object();
-  std::vector<std::string> keys{"core_s"};
-  for (const CostKind& kind : cost_kinds(results.study.measure.kind)) keys.push_back(kind.key);
-  for (const std::string& key : keys) {
+  for (const std::string& key : cost_keys(results.study.measure.kind)) {
     const auto spread = result.cost(key);
     if (!spread) continue;
     cost[key] = spread->median;
@@ -219,11 +231,8 @@ std::vector<std::pair<std::string, Json>> row_of(const StudyResults& results, co
   for (const std::string& pointer : pointers) row.emplace_back(pointer, cell(point["settings"], pointer));
   row.emplace_back("ended", point["ended"]);
   row.emplace_back("reason", point["reason"]);
-  row.emplace_back("core_s", cell(point["cost"], "core_s"));
-  row.emplace_back("core_s_low", cell(point["cost"], "core_s_low"));
-  row.emplace_back("core_s_high", cell(point["cost"], "core_s_high"));
-  for (const CostKind& kind : cost_kinds(results.study.measure.kind)) {
-    if (kind.key != "core_s") row.emplace_back(kind.key, cell(point["cost"], kind.key));
+  for (const std::string& key : cost_keys(results.study.measure.kind)) {
+    for (const char* part : {"", "_low", "_high"}) row.emplace_back(key + part, cell(point["cost"], key + part));
   }
   for (const Quantity& quantity : results.study.quantities) {
     const auto on_front = std::count(point["front"].begin(), point["front"].end(), Json(quantity.name)) > 0;
