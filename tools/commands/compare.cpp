@@ -8,10 +8,10 @@
 
 #include "runtime/storage/whole_file.hpp"
 #include "tasks/simulation_error.hpp"
+#include "tools/charts.hpp"
 #include "tools/commands/commands.hpp"
 #include "tools/compare/comparison_report.hpp"
 #include "tools/compare/peak_memory.hpp"
-#include "tools/compare/report_page.hpp"
 #include "tools/console.hpp"
 #include "tools/run/forecast.hpp"
 #include "tools/usable_cores.hpp"
@@ -48,7 +48,6 @@ void write(const compare::Comparison& comparison, const std::filesystem::path& f
 {
   runtime::write_whole_file(folder / "compare.csv", to_csv(comparison));
   runtime::write_whole_file(folder / "compare.json", to_json(comparison).dump(1) + "\n");
-  runtime::write_whole_file(folder / "report.html", report_page(comparison));
 }
 
 /// The models that went wrong, in the way of a single run.
@@ -76,6 +75,7 @@ void compare_models(CompareArguments& options)
   if (!options.comparison.quiet) {
     print_out("{}  written to {}\n", to_text(comparison), options.comparison.folder.string());
   }
+  draw_page("draw_compare.py", options.comparison.folder);
   complain_of_unstable(comparison);
 }
 

@@ -5,18 +5,14 @@
 
 Debian's python3-matplotlib is used. The same study.json gives the same files, byte for byte."""
 
-import argparse
-import pathlib
-
-from charts import study_page
-from charts.study import read_study
+from charts.script import folder_of_arguments
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("folder", type=pathlib.Path, metavar="FOLDER")
-    folder = parser.parse_args().folder
-    study_page.write(read_study(folder), folder)
+    folder = folder_of_arguments(__doc__)
+    from charts import study, study_page
+
+    study_page.write(study.read_study(folder), folder)
 
 
 if __name__ == "__main__":

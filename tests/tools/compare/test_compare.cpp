@@ -3,7 +3,7 @@
 #include <catch2/catch.hpp>
 
 #include "tasks/simulation.hpp"
-#include "tests/tools/scene/small_scene.hpp"
+#include "tests/tools/impact.hpp"
 #include "tools/compare/compare.hpp"
 
 using namespace tamp;
@@ -12,27 +12,6 @@ using tools::Json;
 
 namespace
 {
-
-/// A block of steel driven into a bed of sand, for a few dozen steps.
-std::filesystem::path write_impact(const test::TemporaryFolder& folder)
-{
-  test::write_sand(folder);
-  return folder.write("impact.json", R"({
-    "dimension": 2,
-    "grid": { "upper": [0.4, 0.4], "cell_size": 0.05 },
-    "time": { "end": 4e-4 },
-    "materials": {
-      "steel": { "type": "hypoelastic", "density": 8000, "bulk_modulus": 10e9, "shear_modulus": 7e9 },
-      "sand": { "file": "sand.json" }
-    },
-    "bodies": {
-      "block": { "material": "steel", "geometry": { "type": "box", "lower": [0.1, 0.2], "upper": [0.3, 0.3] },
-                 "velocity": [0, -20] },
-      "bed": { "material": "sand", "geometry": { "type": "box", "lower": [0, 0], "upper": [0.4, 0.2] } }
-    },
-    "output": { "history_interval": 2e-5 }
-  })");
-}
 
 struct Outcome {
   int exit_code;
@@ -53,7 +32,7 @@ Outcome compare_with(const test::TemporaryFolder& folder, const std::string& arg
 TEST_CASE("a comparison writes its table, its figures and its page")
 {
   const test::TemporaryFolder folder;
-  const auto scene = write_impact(folder);
+  const auto scene = test::write_impact(folder);
   const auto out = folder.path() / "out";
 
   const Outcome outcome = compare_with(folder, scene.string() + " --models table --steps 10 --out " + out.string());
@@ -71,15 +50,32 @@ TEST_CASE("a comparison writes its table, its figures and its page")
   CHECK(model["ratio_to_table"] == 1);
   CHECK_THAT(test::read_text(out / "compare.csv"),
              Catch::StartsWith("model,status,") && Contains("\ntable,completed,"));
-  CHECK_THAT(test::read_text(out / "report.html"), Contains("<svg") && Contains("Depth of block"));
+  const std::string page = test::read_text(out / "report.html");
+  CHECK_THAT(page, Contains("<svg") && Contains("Depth of block") && Contains("Largest mean stress in sand"));
+  CHECK_THAT(page, Contains("Ratio to Table") && Contains("</html>"));
   CHECK(std::filesystem::exists(out / "table/history.csv"));
   CHECK_FALSE(std::filesystem::exists(out / "table/alone"));
+}
+
+TEST_CASE("a comparison's page needs no other file and no network")
+{
+  const test::TemporaryFolder folder;
+  const auto out = folder.path() / "out";
+
+  const Outcome outcome =
+      compare_with(folder, test::write_impact(folder).string() + " --models table --steps 10 --out " + out.string());
+
+  INFO(outcome.err);
+  REQUIRE(outcome.exit_code == 0);
+  const std::string page = test::read_text(out / "report.html");
+  REQUIRE_THAT(page, Contains("<svg"));
+  CHECK_THAT(page, !Contains("src=") && !Contains("href=\"http") && !Contains("url(http") && !Contains("@import"));
 }
 
 TEST_CASE("a model that is compared with itself ends in the same state, that of a run of its own")
 {
   const test::TemporaryFolder folder;
-  const auto scenes = tools::compare::read_model_scenes(write_impact(folder), {}, {"table", "table"});
+  const auto scenes = tools::compare::read_model_scenes(test::write_impact(folder), {}, {"table", "table"});
   tools::compare::Options options;
   options.folder = folder.path() / "out";
   options.quiet = true;
@@ -103,7 +99,7 @@ TEST_CASE("a model that is compared with itself ends in the same state, that of 
 TEST_CASE("a model that goes wrong ends with 3, and the comparison is written all the same")
 {
   const test::TemporaryFolder folder;
-  const auto scene = write_impact(folder);
+  const auto scene = test::write_impact(folder);
   const auto out = folder.path() / "out";
 
   const Outcome outcome =
@@ -119,7 +115,7 @@ TEST_CASE("an unknown model ends with 2 and names the known ones")
 {
   const test::TemporaryFolder folder;
 
-  const Outcome outcome = compare_with(folder, write_impact(folder).string() + " --models table,oracle");
+  const Outcome outcome = compare_with(folder, test::write_impact(folder).string() + " --models table,oracle");
 
   CHECK(outcome.exit_code == 2);
   CHECK(outcome.err ==
@@ -138,7 +134,7 @@ TEST_CASE("a scene without sand cannot be compared")
 TEST_CASE("a comparison's folder that is not empty is refused unless force is given")
 {
   const test::TemporaryFolder folder;
-  const auto scene = write_impact(folder);
+  const auto scene = test::write_impact(folder);
   const std::string line = scene.string() + " --models table --steps 2 --out " + (folder.path() / "out").string();
   REQUIRE(compare_with(folder, line).exit_code == 0);
 

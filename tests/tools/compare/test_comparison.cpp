@@ -2,7 +2,6 @@
 
 #include "tools/compare/comparison.hpp"
 #include "tools/compare/comparison_report.hpp"
-#include "tools/compare/report_page.hpp"
 
 using namespace tamp::tools::compare;
 using Catch::Contains;
@@ -66,25 +65,4 @@ TEST_CASE("a reason with commas and quotes is one cell of the table")
   model.instability = "step 3, particle \"7\"";
 
   CHECK_THAT(to_csv(comparison_of({model})), Contains("unstable,\"step 3, particle \"\"7\"\"\","));
-}
-
-TEST_CASE("the page marks a model that went wrong, and says why")
-{
-  ModelResult bad = model_of("svr", {1, 2});
-  bad.instability = "step 3: lost";
-
-  const std::string page = report_page(comparison_of({model_of("table", {1, 1}), bad}));
-
-  CHECK_THAT(page, Contains("svr became unstable") && Contains("step 3: lost") && Contains("class=\"cross s1\""));
-}
-
-TEST_CASE("the page holds six plots, needs nothing from elsewhere, and takes no text for markup")
-{
-  const std::string page = report_page(comparison_of({model_of("table", {1, 1})}));
-
-  std::size_t n_plots = 0;
-  for (std::size_t at = page.find("<svg"); at != std::string::npos; at = page.find("<svg", at + 1)) ++n_plots;
-  CHECK(n_plots == 6);
-  CHECK_THAT(page, !Contains("http") && !Contains("src=") && !Contains("@import"));
-  CHECK_THAT(page, Contains("A &lt;punch&gt; &amp; sand") && !Contains("<punch>"));
 }

@@ -76,7 +76,7 @@ class Sheet:
         y_labels = wrapped(y_label, layout.width - 12, font) if y_label else []
         rows = legend_rows(legend, layout.width - 12, font)
         x_labels = wrapped(x_label, layout.width - left - RIGHT, font)
-        top = 8 + 16 * len(titles) + 15 * len(y_labels) + 6
+        top = 8 + 16 * len(titles) + 15 * len(y_labels) + 10
         bottom = 20 + 15 * len(x_labels) + 8 + ROW * len(rows) + (6 if rows else 0)
         self.edge_height = ROW * n_edge_rows + (8 if n_edge_rows else 0)
         inner = height or layout.height
@@ -138,6 +138,9 @@ class Sheet:
             if style.marker:
                 self.under.plot([x + LABEL_GAP - 2], [y], **marker_style(style, 6))
             self.text(x + LABEL_GAP + 6, y - 4, fitted(text, 190, self.layout.font))
+
+    def say_empty(self, words):
+        self.axis.text(0.5, 0.5, words, transform=self.axis.transAxes, ha="center", color=LIGHT["faint"], size=self.layout.font)
 
     def in_points(self, x, y):
         """From the data of the axes to points from the lower left corner of the figure."""
@@ -262,7 +265,7 @@ def set_ticks(axis, which, limits, text, logarithmic=True, ticks=None):
         if which == "y" or have_room(axis, major, text):
             break
     one.set_major_locator(FixedLocator(major))
-    one.set_major_formatter(FixedFormatter([text(tick) for tick in major]))
+    one.set_major_formatter(FixedFormatter([text(tick) if tick else "0" for tick in major]))
     one.set_minor_locator(FixedLocator(minor) if minor else NullLocator())
     one.set_minor_formatter(NullFormatter())
     axis.grid(True, axis=which, color=LIGHT["rule"], linewidth=0.8)

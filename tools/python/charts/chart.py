@@ -21,11 +21,11 @@ class Chart(NamedTuple):
     table: Table
 
 
-def make_chart(name, title, description, caption, table, draw):
+def make_chart(name, title, description, caption, table, draw, layouts=(WIDE, NARROW)):
     """`draw` makes the sheet for a layout and the places of its points."""
     drawings = []
-    for layout in (WIDE, NARROW):
+    for layout in layouts:
         sheet, places = draw(layout)
-        own_name = name if layout is WIDE else f"{name}-narrow"
+        own_name = f"{name}-narrow" if layout is NARROW else name
         drawings.append(picture.as_picture(sheet.figure, own_name, title, description, places, png=layout is WIDE))
     return Chart(name, title, description, caption, *drawings, table)

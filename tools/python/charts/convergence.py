@@ -4,7 +4,7 @@ from math import exp, log
 
 from charts import point_chart
 from charts.lines import lines_of_methods
-from charts.point_chart import Across, Plan
+from charts.plan import Across, Plan
 from charts.words import number_text
 
 ABOUT = "Towards the left everything is finer. An order is the slope of a line through the errors: halving {} divides them by two to its power."

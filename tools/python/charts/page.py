@@ -8,13 +8,24 @@ from charts.words import escaped
 HERE = pathlib.Path(__file__).resolve().parent
 
 
-def whole_page(title, content, script=""):
+def whole_page(title, content, kind, script=""):
+    """`kind` is the class of its body."""
     style = theme.style_sheet() + (HERE / "page.css").read_text(encoding="utf-8")
     script = f"<script>\n{script}</script>\n" if script else ""
-    return (
-        f'<!DOCTYPE html>\n<html lang="en">\n<head>\n<meta charset="utf-8">\n'
-        f'<meta name="viewport" content="width=device-width, initial-scale=1">\n<link rel="icon" href="data:,">\n'
-        f"<title>{escaped(title)}</title>\n<style>\n{style}</style>\n</head>\n<body>\n{content}{script}</body>\n</html>\n")
+    return f"""<!DOCTYPE html>
+<html lang="en">
+<head>
+<meta charset="utf-8">
+<meta name="viewport" content="width=device-width, initial-scale=1">
+<link rel="icon" href="data:,">
+<title>{escaped(title)}</title>
+<style>
+{style}</style>
+</head>
+<body class="{kind}">
+{content}{script}</body>
+</html>
+"""
 
 
 def as_html(table):
@@ -22,15 +33,21 @@ def as_html(table):
         return "<tr>" + "".join(f"<td>{escaped(cell)}</td>" for cell in cells) + "</tr>\n"
 
     head = "".join(f'<th scope="col">{escaped(cell)}</th>' for cell in table.head)
-    return (f'<div class="wide" tabindex="0" role="region" aria-label="Table"><table>\n<thead><tr>{head}</tr></thead>\n<tbody>\n'
-            f"{''.join(map(row, table.rows))}</tbody>\n</table></div>\n")  # fmt: skip
+    body = "".join(map(row, table.rows))
+    return wide(f"<table>\n<thead><tr>{head}</tr></thead>\n<tbody>\n{body}</tbody>\n</table>", "Figures")
+
+
+def wide(table, name):
+    """In a box of its own, which scrolls where the page is too narrow."""
+    return f'<div class="wide" tabindex="0" role="region" aria-label="{name}">{table}</div>\n'
 
 
 def figure(chart, labels=None):
     """`labels`: what each point is called, of those that can be chosen."""
     drawings = "".join(drawing(one, kind, labels or {}) for kind, one in [("broad", chart.wide), ("narrow", chart.narrow)])
+    caption = f"<figcaption>{escaped(chart.caption)}</figcaption>\n" if chart.caption else ""
     details = f"<details><summary>The figures of this chart</summary>\n{as_html(chart.table)}</details>\n" if chart.table.rows else ""
-    return (f'<figure class="chart" id="chart-{chart.name}">\n{drawings}<figcaption>{escaped(chart.caption)}</figcaption>\n'
+    return (f'<figure class="chart" id="chart-{chart.name}">\n{drawings}{caption}'
             f"{details}</figure>\n")  # fmt: skip
 
 

@@ -2,7 +2,7 @@
 
 from charts import point_chart
 from charts.lines import lines_of_methods
-from charts.point_chart import Across, Plan
+from charts.plan import Across, Plan
 from charts.words import si_text
 
 ABOUT = "User time over steps. Where points stand one above the other, accuracy comes from more steps, not from dearer ones."

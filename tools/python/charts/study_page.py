@@ -42,7 +42,7 @@ def whole_page(study, sections):
         content += "".join(page.figure(chart, names) for chart in charts) + "</section>\n"
     content += failed_runs(study) + closing(study) + "</main>\n" + panel(study)
     script = (HERE / "page.js").read_text(encoding="utf-8")
-    return page.whole_page(study.title, content, script).replace("<body>", '<body class="study">', 1)
+    return page.whole_page(study.title, content, "study", script)
 
 
 def head(study):

@@ -2,7 +2,7 @@
 
 from charts import point_chart
 from charts.lines import lines_of_methods
-from charts.point_chart import Across, Plan
+from charts.plan import Across, Plan
 
 ABOUT = """Further left is cheaper, further down is better. A line joins the runs of a method. Filled points are on the
 Pareto front; for the pale ones another run is at least as cheap and as good."""
