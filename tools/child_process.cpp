@@ -74,9 +74,11 @@ ChildEnd run_child(const Child& child)
   int status = 0;
   rusage usage{};
   bool asked = false;
-  while (wait4(pid, &status, WNOHANG, &usage) == 0) {
+  // Looks often at first, as many children are short.
+  for (std::chrono::microseconds pause{500}; wait4(pid, &status, WNOHANG, &usage) == 0;
+       pause = std::min<std::chrono::microseconds>(2 * pause, std::chrono::milliseconds(50))) {
     if (watch.noted() != 0 && !asked) asked = kill(pid, SIGTERM) == 0;
-    std::this_thread::sleep_for(std::chrono::milliseconds(2));
+    std::this_thread::sleep_for(pause);
   }
   if (watch.noted() != 0) throw Interrupted("stopped by a signal", watch.noted());
   ChildEnd end;

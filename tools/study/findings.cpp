@@ -71,7 +71,8 @@ std::vector<std::vector<const MeasuredPoint*>> refined_groups(const Study& study
 OrderFit order_fit(const Study& study, std::vector<const MeasuredPoint*> group, const std::map<int, double>& errors)
 {
   const Point& first = group.front()->point;
-  OrderFit fit{first.method, first.label, {}, std::nullopt, std::nullopt, ""};
+  const std::string others = settings_text(without(first.own, study.refine));
+  OrderFit fit{first.method, first.method + (others.empty() ? "" : ", " + others), {}, std::nullopt, std::nullopt, ""};
   std::vector<Json> values;
   std::vector<double> of_points, costs;
   for (const MeasuredPoint* one : group) {

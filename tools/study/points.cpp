@@ -30,9 +30,10 @@ class PointList
  public:
   explicit PointList(const Study& study) : study_(study) {}
 
-  void add(Point::Role role, const std::string& method, const std::string& label, const Settings& settings)
+  void add(Point::Role role, const std::string& method, const std::string& label, const Settings& settings,
+           const Settings& own = {})
   {
-    points_.push_back({static_cast<int>(points_.size()) + 1, role, method, label, settings});
+    points_.push_back({static_cast<int>(points_.size()) + 1, role, method, label, settings, own});
   }
 
   void add_methods()
@@ -44,7 +45,8 @@ class PointList
         const std::vector<Settings> swept = combinations(method.sweep);
         all.insert(all.begin(), swept.begin(), swept.end());
       }
-      for (const Settings& own : all) add(Point::Role::chart, method.name, settings_text(own), merged(common, own));
+      for (const Settings& own : all)
+        add(Point::Role::chart, method.name, settings_text(own), merged(common, own), own);
     }
   }
 
@@ -62,7 +64,7 @@ class PointList
     std::vector<Axis> axes;
     if (!reference.refinement.values.empty()) axes.push_back(reference.refinement);
     for (const Settings& own : combinations(axes)) {
-      add(Point::Role::reference, reference_name, prefix + settings_text(own), merged(common, own));
+      add(Point::Role::reference, reference_name, prefix + settings_text(own), merged(common, own), own);
       points_.back().reference_of = of_method;
     }
   }

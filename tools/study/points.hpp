@@ -20,7 +20,8 @@ struct Point {
   std::string method;
   /// What tells it from the other points of its method, for people.
   std::string label;
-  Settings settings;
+  /// All of them, and those in which the points of its method differ.
+  Settings settings, own{};
   /// Of a reference of one method alone, that method.
   std::string reference_of{};
 

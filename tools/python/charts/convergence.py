@@ -11,22 +11,24 @@ ABOUT = "Towards the left everything is finer. An order is the slope of a line t
 
 
 def charts(study, quantity, prefix):
-    if not study.refine or not quantity.has_reference or not any(p.refine for p in study.points):
+    if not study.refine or not quantity.has_reference or not any(p.refine for p in study.charted):
         return []
     name = study.refine.get("name", study.refine.get("pointer", ""))
     lines, guides = lines_with_orders(study, quantity)
     across = Across(name, lambda p: p.refine, study.refine_text, ticks_at_values=True)
-    about = ABOUT.format(name) + "".join(f" {label}: {note}." for label, note in notes(quantity))
+    about = ABOUT.format(name) + "".join(f" {label}: {note}." for label, note in notes(study, quantity))
     return [point_chart.make(Plan(study, quantity, across, lines, None, guides), f"{prefix}-convergence",
                              f"Error of {quantity.name} against {name}", about)]  # fmt: skip
 
 
 def lines_with_orders(study, quantity):
     """Fitted lines as the study says; methods of which it says nothing, without an order."""
-    by_id = {p.id: p for p in study.points}
+    by_id = {p.id: p for p in study.charted}
     lines, guides = [], []
     for fit in quantity.orders:
         points = [by_id[i] for i in fit.get("points", []) if i in by_id]
+        if not points:
+            continue
         order = fit.get("order")
         words = "no order" if order is None else f"order {number_text(order)}"
         lines.append((fit["method"], f"{fit.get('label') or fit['method']}: {words}", points))
@@ -49,5 +51,6 @@ def guide(method, order, points, quantity):
     return [(method, xs, [exp(middle_y + order * (log(x) - middle_x)) for x in xs])]
 
 
-def notes(quantity):
-    return [(fit.get("label") or fit["method"], fit["note"].rstrip(".")) for fit in quantity.orders if fit.get("note")]
+def notes(study, quantity):
+    return [(fit.get("label") or fit["method"], fit["note"].rstrip(".")) for fit in quantity.orders
+            if fit.get("note") and fit["method"] in {method["name"] for method in study.lines}]  # fmt: skip

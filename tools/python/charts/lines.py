@@ -7,8 +7,8 @@ def lines_of_methods(study):
     """A line joins points that differ by what is refined alone. Where nothing is, or where such lines have a point
     each, all points of the method are joined by their cost."""
     lines = []
-    for method in study.methods:
-        points = [p for p in study.points if p.method == method["name"]]
+    for method in study.lines:
+        points = [p for p in study.charted if p.method == method["name"]]
         groups = refined_alone(study, points)
         if not any(len(group) > 1 for group in groups):
             groups = [sorted(points, key=first_cost(study))]

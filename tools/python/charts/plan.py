@@ -35,10 +35,10 @@ class Plan(NamedTuple):
         return x is not None and x > 0
 
     def failed(self):
-        return self.study.failed()
+        return self.study.failed_in_charts()
 
     def left_out(self, drawn):
-        return [p for p in self.study.points if not p.failed and p not in drawn.points]
+        return [p for p in self.study.charted if not p.failed and p not in drawn.points]
 
 
 class Drawn(NamedTuple):
@@ -51,7 +51,7 @@ class Drawn(NamedTuple):
 
 
 def drawable(plan):
-    points = [p for p in plan.study.points if not p.failed and plan.up(p) is not None and plan.has_place(p)]
+    points = [p for p in plan.study.charted if not p.failed and plan.up(p) is not None and plan.has_place(p)]
     if not plan.quantity.has_reference:
         return Drawn(points, {p.id: plan.up(p) for p in points}, [], limits_of_values([plan.up(p) for p in points]))
     errors = {p.id: abs(plan.up(p)) for p in points}

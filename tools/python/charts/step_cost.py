@@ -9,7 +9,7 @@ ABOUT = "User time over steps. Where points stand one above the other, accuracy 
 
 
 def charts(study, quantity, prefix):
-    if not quantity.has_reference or not any(p.step_cost for p in study.points):
+    if not quantity.has_reference or not any(p.step_cost for p in study.charted):
         return []
     across = Across("user time of a step", lambda p: p.step_cost, lambda value: si_text(value, "s"))
     lines = [(method, method, points) for method, groups in lines_of_methods(study) for points in groups]

@@ -97,7 +97,11 @@ class Study:
         names = [method["name"] for method in listed]
         unlisted = dict.fromkeys(p.method for p in self.points if p.method not in names)
         self.methods = [*listed, *({"name": name} for name in unlisted)]
-        self.styles = styles_of_methods(self.methods)
+        # Variations of an error budget are no method that one would choose: the budget's chart tells of them.
+        self.lines = [method for method in self.methods if method.get("line", True)]
+        named = {method["name"] for method in self.lines}
+        self.charted = [p for p in self.points if p.method in named]
+        self.styles = styles_of_methods(self.lines)
         self.quantities = [
             Quantity(q["name"], q.get("unit", ""), q.get("relative", True), q.get("reference") or {}, q.get("orders") or [])
             for q in document.get("quantities", [])]  # fmt: skip
@@ -105,6 +109,9 @@ class Study:
 
     def failed(self):
         return [point for point in self.points if point.failed]
+
+    def failed_in_charts(self):
+        return [point for point in self.charted if point.failed]
 
     def refine_text(self, value):
         return si_text(value, self.refine.get("unit", "")) if self.refine else number_text(value)

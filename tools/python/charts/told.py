@@ -46,7 +46,7 @@ def table(plan):
     name = plan.quantity.name
     head = ["method", "settings", plan.across.name, f"error of {name}" if plan.quantity.has_reference else name]
     rows = []
-    for p in plan.study.points:
+    for p in plan.study.charted:
         x, y = plan.across.of(p), plan.up(p)
         result = p.why if p.failed else NO_NUMBER if y is None else plan.up_text(y)
         row = [p.method, p.label, NO_NUMBER if x is None else plan.across.text(x), result]

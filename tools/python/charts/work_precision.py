@@ -16,7 +16,7 @@ def charts(study, quantity, prefix):
         front = marked_front(study, quantity) if k == 0 else front_of(study, quantity, across)
         lines = [(method, method, points) for method, groups in lines_of_methods(study) for points in groups]
         plan = Plan(study, quantity, across, lines, front)
-        if k > 0 and not any(across.of(p) for p in study.points):
+        if k > 0 and not any(across.of(p) for p in study.charted):
             continue
         what = f"Error of {quantity.name}" if quantity.has_reference else quantity.name
         about = ABOUT if quantity.has_reference else ABOUT_VALUES
@@ -27,12 +27,12 @@ def charts(study, quantity, prefix):
 
 def marked_front(study, quantity):
     """That of error and first cost, as the study found it."""
-    return [p for p in study.points if quantity.name in p.front]
+    return [p for p in study.charted if quantity.name in p.front]
 
 
 def front_of(study, quantity, across):
     """The points that no other one beats in error and cost, or in one of them at the same of the other."""
-    known = [p for p in study.points if not p.failed and p.error(quantity) is not None and across.of(p) is not None]
+    known = [p for p in study.charted if not p.failed and p.error(quantity) is not None and across.of(p) is not None]
     figures = {p.id: (across.of(p), abs(p.error(quantity))) for p in known}
     return [p for p in known if not any(beats(figures[q.id], figures[p.id]) for q in known)]
 
