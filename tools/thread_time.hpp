@@ -11,15 +11,13 @@ template <class Work>
 double seconds_of(const Work& work)
 {
   constexpr double least_seconds = 2e-3;
-  const double start = thread_seconds();
-  double seconds = 0;
-  int n = 0;
-  while (seconds < least_seconds) {
-    work();
-    ++n;
-    seconds = thread_seconds() - start;
+  // Reading the clock may take longer than the work.
+  for (int n = 1;; n *= 2) {
+    const double start = thread_seconds();
+    for (int i = 0; i < n; ++i) work();
+    const double seconds = thread_seconds() - start;
+    if (seconds >= least_seconds) return seconds / n;
   }
-  return seconds / n;
 }
 
 }  // namespace tamp::tools
