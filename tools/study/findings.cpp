@@ -54,6 +54,7 @@ std::vector<std::vector<const MeasuredPoint*>> refined_groups(const Study& study
   std::vector<std::vector<const MeasuredPoint*>> groups;
   for (const MeasuredPoint& one : points) {
     if (one.point.role == Point::Role::variation || !one.point.setting(study.refine).is_number()) continue;
+    if (!one.point.reference_of.empty()) continue;
     const auto is_of = [&](const std::vector<const MeasuredPoint*>& group) {
       return group.front()->point.method == one.point.method &&
              without(group.front()->point.settings, study.refine) == without(one.point.settings, study.refine);

@@ -22,6 +22,7 @@ Study two_methods()
   Quantity pressure;
   pressure.name = pressure.column = "p[Pa]";
   study.quantities = {pressure};
+  study.refine = "/t";
   study.reference = ReferenceRuns{{}, {"/t", {Json(0.4), Json(0.2), Json(0.1)}}, true};
   return study;
 }
@@ -54,6 +55,7 @@ TEST_CASE("each method may have a reference of its own settings, which it alone 
   CHECK(found.errors.at(points[0].point.id) == Approx(0.16));
   CHECK(found.errors.at(points[1].point.id) == Approx(0.08));
   CHECK(found.reference.bound);
+  CHECK(found.orders.empty());
   CHECK_THAT(found.reference.note, Catch::StartsWith("of each method its own, least certain that of one: "));
 }
 
