@@ -7,7 +7,9 @@ SIZES = [0.04, 0.02, 0.01, 0.005]
 DEPTHS = {
     "flatter": [0.1837, 0.1899, 0.2025, 0.2085], "steel": [0.1971, 0.2019, 0.2069, 0.2106],
     "regression": [0.1905, 0.1982, 0.2038], "flatter, rigid": [0.1753, 0.1851, 0.2009, None]}  # fmt: skip
-TIMES = {"flatter": [0.6, 4.5, 36, 290], "steel": [0.7, 4.8, 38, 310], "regression": [0.9, 6.5, 52], "flatter, rigid": [0.3, 2.1, 17, 140]}
+TIMES = {
+    "flatter": [0.6, 4.5, 36, 290], "steel": [0.7, 4.8, 38, 310], "regression": [0.9, 6.5, 52],
+    "flatter, rigid": [0.3, 2.1, 17, 140]}  # fmt: skip
 REFERENCE = 0.2141
 FAMILIES = {"flatter": "deformable", "steel": "deformable", "regression": "fitted", "flatter, rigid": "rigid"}
 
@@ -20,8 +22,10 @@ def point(number, method, size, depth, time):
     made = {
         "id": number, "method": method, "label": f"cell size {size}",
         "settings": {"/grid/cell_size": size, "/contact/0/normal": method}, "refine": size, "ended": "done", "reason": "",
-        "cost": {"core_s": time, "core_s_low": 0.98 * time, "core_s_high": 1.07 * time, "particle_steps": 2e6 * time, "steps": steps},
-        "values": {"greatest depth": depth}, "errors": {"greatest depth": error, "depth over time": error and error / 2 + 0.002},
+        "cost": {"core_s": time, "core_s_low": 0.98 * time, "core_s_high": 1.07 * time, "particle_steps": 2e6 * time,
+                 "steps": steps},
+        "values": {"greatest depth": depth},
+        "errors": {"greatest depth": error, "depth over time": error and error / 2 + 0.002},
         "front": [], "command": command}  # fmt: skip
     return made if depth else failed(made, "limit", "600 s, 100 times as long as the fastest run")
 
@@ -61,11 +65,12 @@ def orders():
 
 STUDY = {
     "name": "punch", "title": "How deep the punch goes, and what a percent costs",
-    "about": "A steel punch is driven into sand. Which normal of contact, on which cells, gives its greatest depth for the least work?",
+    "about": "A steel punch is driven into sand. Which normal of contact gives its greatest depth for the least work?",
     "takes": "40 minutes on one core; --short 2 minutes", "command": "tamp study inputs/studies/punch.json",
     "program": "tamp 0.1.0, release, x86-64-v2\nEigen 3.4.0, oneTBB 2021.8",
     "machine": {"processor": "Example processor at 3 GHz", "instruction_set": "AVX2", "cores": 2}, "threads": 1, "repeat": 3,
-    "costs": [{"key": "core_s", "name": "user time", "unit": "s"}, {"key": "particle_steps", "name": "particle-steps", "unit": ""}],
+    "costs": [{"key": "core_s", "name": "user time", "unit": "s"},
+              {"key": "particle_steps", "name": "particle-steps", "unit": ""}],
     "refine": {"pointer": "/grid/cell_size", "name": "cell size", "unit": "m"},
     "methods": [{"name": name, "family": family, "dashed": name == "regression"} for name, family in FAMILIES.items()],
     "quantities": [
@@ -80,8 +85,10 @@ STUDY = {
     "points": points(),
     "budgets": [
         {"quantity": "greatest depth", "unit": "m", "of": of, "value": value, "parts": [
-            {"name": "grid", "amount": 0.034, "note": "to the reference"}, {"name": "time step", "amount": 0.0021, "note": "half the multiplier"},
-            {"name": "particles", "amount": 0.0124, "note": "16 a cell"}, {"name": "contact", "amount": 0.019, "note": "steel's normal"},
+            {"name": "grid", "amount": 0.034, "note": "to the reference"},
+            {"name": "time step", "amount": 0.0021, "note": "half the multiplier"},
+            {"name": "particles", "amount": 0.0124, "note": "16 a cell"},
+            {"name": "contact", "amount": 0.019, "note": "steel's normal"},
             {"name": "modulus model", "amount": 0.003 * k, "note": "against the measured curves"},
             {"name": "measured scatter", "amount": None, "note": "no bound: one test of each kind"}]}
         for k, (of, value) in enumerate([("Table", 0.2025), ("SVR", 0.2031), ("MLP", 0.2002)])]}  # fmt: skip

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
-"""Opens a page in Chromium without a window, wide, dark and as narrow as a phone, and says what its console complains of.
+"""Opens a page in Chromium without a window, wide, dark and as narrow as a phone, and says what its console says.
 
-    tools/studies/look_at_page.py PAGE.html OUT_FOLDER [--chromium chromium] [--height 4000] [--hash '#id']
+    tools/studies/look_at_page.py PAGE.html OUT_FOLDER [--chromium chromium] [--height 4000] [--chosen]
 
 Written are OUT_FOLDER/wide.png, dark.png and phone.png. On each page it chooses points by script, as a person would, and
 measures whether the page is wider than the window. The exit code is 1 where the console complains, the page scrolls

@@ -83,6 +83,12 @@ std::vector<std::string> command_of(const Study& study, const Settings& settings
   return command;
 }
 
+std::string in_one_line(std::string text)
+{
+  for (std::size_t at = text.find('\n'); at != std::string::npos; at = text.find('\n', at)) text.replace(at, 1, "; ");
+  return text;
+}
+
 Measurement measurement_of(const Study& study, const Settings& settings)
 {
   Measurement measurement{"", "", command_of(study, settings)};
@@ -94,7 +100,7 @@ Measurement measurement_of(const Study& study, const Settings& settings)
     measurement.key = hash_of(text);
   } catch (const InputError& error) {
     expect_known_keys(study, error);
-    measurement.refusal = error.what();
+    measurement.refusal = in_one_line(error.what());
   }
   return measurement;
 }

@@ -1,1 +1,1 @@
-"""Charts and pages of `tamp study` and `tamp compare`, from the JSON files that they write; the same file gives the same bytes."""
+"""Charts and pages of `tamp study` and `tamp compare`, from their JSON files; the same file gives the same bytes."""

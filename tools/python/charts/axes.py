@@ -26,7 +26,7 @@ class Layout(NamedTuple):
 
 WIDE = Layout("wide", 720, 310, 11.5, True)
 NARROW = Layout("narrow", 328, 270, 11, False)
-LEFT, RIGHT = 62, 14
+RIGHT = 14
 ROW = 17  # of a legend, and of failed points
 MOST_LABELS_BESIDE = 9
 LABEL_GAP = 26
@@ -43,9 +43,11 @@ def fitted(text, width, size):
     """Cut to a width, with an ellipsis."""
     if text_width(text, size) <= width:
         return text
-    while len(text) > 1 and text_width(text + "…", size) > width:
-        text = text[:-1]
-    return text.rstrip() + "…"
+    low, high = 1, len(text)  # characters that fit, and that do not
+    while high - low > 1:
+        middle = (low + high) // 2
+        low, high = (middle, high) if text_width(text[:middle] + "…", size) <= width else (low, middle)
+    return text[:low].rstrip() + "…"
 
 
 def wrapped(text, width, size, weight="normal"):
@@ -67,7 +69,7 @@ class Sheet:
     """A figure with a title, what is on the y axis in words, one pair of axes, and a legend below them. Above the axes
     is an edge of `n_edge_rows` rows, for points that have no place within them."""
 
-    def __init__(self, layout, title, y_label, x_label, legend=(), labels=(), n_edge_rows=0, height=None, left=LEFT):
+    def __init__(self, layout, title, y_label, x_label, legend=(), labels=(), n_edge_rows=0, height=None, left=14):
         self.layout, font = layout, layout.font
         self.labels = list(labels) if has_labels_beside(layout, labels) else []
         beside = max((text_width(fitted(text, 190, font), font) for text in self.labels), default=0)
@@ -104,7 +106,8 @@ class Sheet:
         self.draw_legend(rows, y - 8)
 
     def add_axes(self, x, y, width, height):
-        axis = self.figure.add_axes([x / self.layout.width, y / self.height, width / self.layout.width, height / self.height])
+        across, up = self.layout.width, self.height
+        axis = self.figure.add_axes([x / across, y / up, width / across, height / up])
         axis.patch.set_visible(False)
         for side in ["top", "right"]:
             axis.spines[side].set_visible(False)
@@ -140,7 +143,8 @@ class Sheet:
             self.text(x + LABEL_GAP + 6, y - 4, fitted(text, 190, self.layout.font))
 
     def say_empty(self, words):
-        self.axis.text(0.5, 0.5, words, transform=self.axis.transAxes, ha="center", color=LIGHT["faint"], size=self.layout.font)
+        self.axis.annotate(words, (0.5, 0.5), xycoords="axes fraction", ha="center", color=LIGHT["faint"],
+                           size=self.layout.font)  # fmt: skip
 
     def in_points(self, x, y):
         """From the data of the axes to points from the lower left corner of the figure."""
@@ -154,8 +158,9 @@ class Sheet:
 
 def marker_style(style, size, pale=False):
     face = LIGHT["paper"] if pale else style.colour
-    return {"marker": style.marker, "markersize": size, "color": style.colour, "markerfacecolor": face, "linestyle": "none",
-            "markeredgecolor": style.colour if pale else LIGHT["paper"], "markeredgewidth": 1.2 if pale else 0.6,
+    return {"marker": style.marker, "markersize": size, "color": style.colour, "markerfacecolor": face,
+            "linestyle": "none", "markeredgecolor": style.colour if pale else LIGHT["paper"],
+            "markeredgewidth": 1.2 if pale else 0.6,
             "alpha": 0.55 if pale else None, "clip_on": False}  # fmt: skip
 
 
@@ -165,7 +170,8 @@ def has_labels_beside(layout, labels):
 
 def draw_sample(axis, x, y, entry):
     if entry.filled:
-        axis.fill([x + 4, x + 26, x + 26, x + 4], [y - 5, y - 5, y + 5, y + 5], facecolor=entry.style.colour if not entry.hatch else LIGHT["paper"],
+        face = LIGHT["paper"] if entry.hatch else entry.style.colour
+        axis.fill([x + 4, x + 26, x + 26, x + 4], [y - 5, y - 5, y + 5, y + 5], facecolor=face,
                   edgecolor=entry.style.colour, hatch=entry.hatch, lw=0.8)  # fmt: skip
         return
     if entry.style.dashes != "":
@@ -244,6 +250,12 @@ def linear_ticks(low, high, n_wanted=6):
     spacing = next(step * decade for step in (1, 2, 5, 10) if step * decade >= wanted * (1 - 1e-9))
     first, last = math.ceil(low / spacing - 1e-9), math.floor(high / spacing + 1e-9)
     return [k * spacing for k in range(first, last + 1)]
+
+
+def room_for_ticks(limits, text, logarithmic):
+    """How wide the labels of the y axis are, with the margins beside them."""
+    ticks = log_ticks(*limits)[0] if logarithmic else linear_ticks(*limits, 7)
+    return 16 + max([text_width(text(tick), WIDE.font) for tick in ticks], default=30)
 
 
 def have_room(axis, ticks, text):

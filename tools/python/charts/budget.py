@@ -5,9 +5,9 @@ from charts.chart import Table, make_chart
 from charts.theme import HUES, LIGHT, Style, hue
 from charts.words import counted, is_number, percent_text
 
-ABOUT = """Amounts of all parts, one after the other, whatever their signs: how far the value may be off at worst. Hatched
-parts have no bound: how much they amount to is not known, and the bar goes on beyond what is drawn."""
-BAR, LINE, GAP, LEFT = 24, 14, 14, 14
+ABOUT = """Amounts of all parts, one after the other, whatever their signs: how far the value may be off at worst.
+Hatched parts have no bound: how much they amount to is not known, and the bar goes on beyond what is drawn."""
+BAR, LINE, GAP = 24, 14, 14
 
 
 def charts(study, quantity, prefix):
@@ -22,6 +22,10 @@ def charts(study, quantity, prefix):
 def amount_of(part):
     amount = part.get("amount")
     return abs(amount) if is_number(amount) else None
+
+
+def amount_text(part):
+    return "no bound" if amount_of(part) is None else percent_text(amount_of(part))
 
 
 def total(bar):
@@ -41,13 +45,14 @@ def draw(bars, quantity, title, layout):
     legend = [entry_of(name, colour, bars) for name, colour in colours.items()]
     labels = [wrapped(label_of(bar, quantity), layout.width - 40, layout.font) for bar in bars]
     heights = [BAR + LINE * len(label) + GAP for label in labels]
-    sheet = Sheet(layout, title, "", "relative to the value", legend, height=sum(heights) + 4, left=LEFT)
+    sheet = Sheet(layout, title, "", "relative to the value", legend, height=sum(heights) + 4)
     set_ticks(sheet.axis, "x", (0, limit), lambda tick: percent_text(tick, 2), logarithmic=False)
     sheet.axis.set(ylim=(0, sum(heights) + 4), yticks=[])
     top = sum(heights) + 4
     for bar, label, height in zip(bars, labels, heights):
         for k, line in enumerate(label):
-            sheet.axis.annotate(line, (0, top - LINE * (k + 1)), (3, 0), textcoords="offset points", size=layout.font, color=LIGHT["ink"])
+            sheet.axis.annotate(line, (0, top - LINE * (k + 1)), (3, 0), textcoords="offset points", size=layout.font,
+                                color=LIGHT["ink"])  # fmt: skip
         draw_bar(sheet, bar, colours, top - LINE * len(label) - BAR - 4, unknown)
         top -= height
     return sheet, []
@@ -78,14 +83,15 @@ def draw_bar(sheet, bar, colours, y, unknown):
         axis.barh(y, amount, BAR, x, align="edge", facecolor=colour, edgecolor=LIGHT["paper"], lw=1)
         label = percent_text(amount, 2)
         if text_width(label, font) + 6 < amount * scale:
-            axis.text(x + amount / 2, y + BAR / 2, label, ha="center", va="center_baseline", size=font, color=LIGHT["paper"])
+            axis.text(x + amount / 2, y + BAR / 2, label, ha="center", va="center_baseline", size=font,
+                      color=LIGHT["paper"])  # fmt: skip
         x += amount
 
 
 def describe(quantity, bars):
     said = [f"{counted(len(bars), 'bar')}."]
     for bar in bars:
-        parts = [f"{p['name']} {'no bound' if amount_of(p) is None else percent_text(amount_of(p))}" for p in bar["parts"]]
+        parts = [f"{part['name']} {amount_text(part)}" for part in bar["parts"]]
         said.append(f"{label_of(bar, quantity)} ({', '.join(parts)}).")
     return " ".join(said)
 
@@ -94,7 +100,6 @@ def table(quantity, bars):
     rows = []
     for bar in bars:
         for part in bar["parts"]:
-            amount = amount_of(part)
-            rows.append([bar.get("of", ""), quantity.value_text(bar.get("value")), part["name"],
-                         "no bound" if amount is None else percent_text(amount), part.get("note", "")])  # fmt: skip
+            rows.append([bar.get("of", ""), quantity.value_text(bar.get("value")), part["name"], amount_text(part),
+                         part.get("note", "")])  # fmt: skip
     return Table(["of", "value", "part", "amount", "how it was found"], rows)

@@ -9,12 +9,12 @@ from charts.over_time import Line, Plot
 from charts.words import NO_NUMBER, counted, escaped, is_number, number_text, plain, si_text
 
 NOTES = """<p>The models ran in turns, in {} rounds, each of which takes all of them through the same simulated time.
-<em>Cost of a step</em> is the median of a model's steps. <em>Ratio to Table</em> compares the medians within one round; its own
-median over the rounds, with the quartiles, is little disturbed by what else the machine did.</p>
-<p><em>One evaluation</em> of the modulus is timed on one thread over the strains and pressures that the model's own sand has at
-five moments of the run. <em>Memory, run alone</em> is the largest resident size of a process that makes the first steps of this
-model only; <em>fields only</em> counts the arrays of particles and grid over the whole run. <em>p</em> is the mean stress,
-compression positive, and q = √(3 J₂).</p>
+<em>Cost of a step</em> is the median of a model's steps. <em>Ratio to Table</em> compares the medians within one round;
+its own median over the rounds, with the quartiles, is little disturbed by what else the machine did.</p>
+<p><em>One evaluation</em> of the modulus is timed on one thread over the strains and pressures that the model's own
+sand has at five moments of the run. <em>Memory, run alone</em> is the largest resident size of a process that makes the
+first steps of this model only; <em>fields only</em> counts the arrays of particles and grid over the whole run.
+<em>p</em> is the mean stress, compression positive, and q = √(3 J₂).</p>
 """
 
 
@@ -39,7 +39,7 @@ def lead(comparison):
             f"{counted(comparison['threads'], 'thread')}, {counted(comparison['cores'], 'core')}.")  # fmt: skip
 
 
-# --- the table -----------------------------------------------------------------------------------------------------------
+# --- the table ---
 
 
 class Row(NamedTuple):
@@ -56,11 +56,18 @@ def rows(comparison):
     def depth_at_end(body):
         return lambda model: si_text(last(model["series"][f"{body}.depth_m"]), "m")
 
-    made = [Row("Cost of a step", of("wall_per_step_s", "s")), Row("Ratio to Table", ratio), Row("Mean step size", of("dt_mean_s", "s")),
-            Row("Steps", lambda model: str(model["steps"])), Row("Simulated time", of("simulated_time_s", "s")),
-            Row("Time in all steps", of("wall_s", "s")), Row("Modulus evaluations", of("modulus_evaluations", "")),
-            Row("One evaluation", of("modulus_ns_per_eval", "s", 1e-9)), Row("Memory, run alone", mebibytes("peak_rss_bytes")),
-            Row("Memory, fields only", mebibytes("ledger_peak_bytes"))]  # fmt: skip
+    made = [
+        Row("Cost of a step", of("wall_per_step_s", "s")),
+        Row("Ratio to Table", ratio),
+        Row("Mean step size", of("dt_mean_s", "s")),
+        Row("Steps", lambda model: str(model["steps"])),
+        Row("Simulated time", of("simulated_time_s", "s")),
+        Row("Time in all steps", of("wall_s", "s")),
+        Row("Modulus evaluations", of("modulus_evaluations", "")),
+        Row("One evaluation", of("modulus_ns_per_eval", "s", 1e-9)),
+        Row("Memory, run alone", mebibytes("peak_rss_bytes")),
+        Row("Memory, fields only", mebibytes("ledger_peak_bytes")),
+    ]
     if comparison["bodies"]:
         made.append(Row("Greatest depth", of("depth_max_m", "m")))
     for body in comparison["bodies"]:
@@ -86,7 +93,8 @@ def mebibytes(key):
 
 def table_of_models(comparison):
     def line(tag, name, cells):
-        return f'<tr><th scope="row">{name}</th>' + "".join(f"<{tag}>{cell}</{tag.split()[0]}>" for cell in cells) + "</tr>\n"
+        across = "".join(f"<{tag}>{cell}</{tag.split()[0]}>" for cell in cells)
+        return f'<tr><th scope="row">{name}</th>{across}</tr>\n'
 
     models = comparison["models"]
     head = line('th scope="col"', "", [escaped(model["model"]) for model in models])
@@ -94,11 +102,12 @@ def table_of_models(comparison):
     return page.wide(f'<table class="models">\n<thead>{head}</thead>\n<tbody>\n{body}</tbody>\n</table>', "The models")
 
 
-# --- the plots -----------------------------------------------------------------------------------------------------------
+# --- the plots ---
 
 
 def plots(comparison):
-    made = [over_samples(comparison, "Wall time", "wall time", "s", "wall_s"), step_cost(comparison), step_size(comparison)]
+    wall = over_samples(comparison, "Wall time", "wall time", "s", "wall_s")
+    made = [wall, step_cost(comparison), step_size(comparison)]
     for body in comparison["bodies"]:
         made.append(over_samples(comparison, f"Depth of {body}", "depth", "m", f"{body}.depth_m"))
     for sand in comparison["sands"]:
@@ -118,7 +127,7 @@ def over_samples(comparison, title, name, unit, key):
 
 
 def step_size(comparison):
-    """Without the first sample, before which no step was made, and without the last one's, which had only to reach the end."""
+    """Without the first sample, before which no step was made, and the last one's, which had only to reach the end."""
     plot = over_samples(comparison, "Step size", "step size", "s", "dt_s")
     lines = []
     for line in plot.lines:
@@ -135,14 +144,16 @@ def step_cost(comparison):
         lines.append(line_of(model, [rounds["time_s"][k] for k in made], [rounds["wall_per_step_s"][k] for k in made]))
     costs = [model["wall_per_step_s"] for model in comparison["models"] if model["steps"]]
     positive = all(y > 0 for line in lines for y in line.y)
-    return Plot("Cost of a step", "wall time of a step", "s", lines, positive and max(costs, default=0) > 4 * min(costs, default=math.inf))
+    far_apart = max(costs, default=0) > 4 * min(costs, default=math.inf)
+    return Plot("Cost of a step", "wall time of a step", "s", lines, positive and far_apart)
 
 
-# --- the words -----------------------------------------------------------------------------------------------------------
+# --- the words ---
 
 
 def notes(comparison):
     unstable = [m for m in comparison["models"] if m["status"] == "unstable"]
-    said = "".join(f"<p><strong>{escaped(m['model'])} became unstable</strong> at {escaped(m['reason'])}. Its lines end in a cross.</p>\n" for m in unstable)
+    said = "".join(f"<p><strong>{escaped(m['model'])} became unstable</strong> at {escaped(m['reason'])}. "
+                   "Its lines end in a cross.</p>\n" for m in unstable)  # fmt: skip
     n_rounds = len(comparison["models"][0]["rounds"]["time_s"])
     return f'<div class="notes">\n{said}{NOTES.format(n_rounds)}<pre>{escaped(comparison["program"])}</pre>\n</div>\n'

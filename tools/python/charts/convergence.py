@@ -7,7 +7,8 @@ from charts.lines import lines_of_methods
 from charts.plan import Across, Plan
 from charts.words import number_text
 
-ABOUT = "Towards the left everything is finer. An order is the slope of a line through the errors: halving {} divides them by two to its power."
+ABOUT = """Towards the left everything is finer. An order is the slope of a line through the errors: half the {} divides
+them by two to its power."""
 
 
 def charts(study, quantity, prefix):

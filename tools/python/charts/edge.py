@@ -1,5 +1,6 @@
 """The edge above the axes, where failed points stand with the reason beside them."""
 
+from math import inf
 from typing import NamedTuple
 
 from matplotlib.ticker import NullLocator
@@ -32,27 +33,37 @@ def grouped(points, alike):
     groups = {}
     for p in points:
         groups.setdefault(alike(p), []).append(p)
-    return [Group(members, f"{text} ({len(members)} runs)" if len(members) > 1 else text) for text, members in groups.items()]
+    counts = {text: f" ({len(members)} runs)" if len(members) > 1 else "" for text, members in groups.items()}
+    return [Group(members, text + counts[text]) for text, members in groups.items()]
 
 
 def rows_of(plan, drawn, groups, layout):
-    """The row of each group, where its text and points meet no others."""
+    """The rows of each group. A point has its text beside it, in a row where both meet no others; several points have
+    theirs in a row of its own above them."""
     taken, rows = [], []
     for group in groups:
+        if len(group.points) > 1:
+            rows.append([len(taken), len(taken) + 1])
+            taken += [[(-inf, inf)], [(-inf, inf)]]
+            continue
         low, high = extent(plan, drawn, group, layout)
         row = next((r for r, spans in enumerate(taken) if all(high < a or b < low for a, b in spans)), len(taken))
         taken += [[]] if row == len(taken) else []
         taken[row].append((low, high))
-        rows.append(row)
+        rows.append([row])
     return rows
+
+
+def n_rows(rows):
+    return max((row[-1] + 1 for row in rows), default=0)
 
 
 def extent(plan, drawn, group, layout):
     """Where a group begins and ends along the axis, in points."""
     width = layout.width - ROUGH_MARGINS
-    xs = [share_across(plan, p, x_limits(plan, drawn)) * width for p in group.points]
-    text = 26 + min(text_width(group.text, layout.font - 1), width - max(xs) if max(xs) < width / 2 else min(xs))
-    return (min(xs) - 10, max(xs) + text) if max(xs) < width / 2 else (min(xs) - text, max(xs) + 10)
+    x = share_across(plan, group.points[0], x_limits(plan, drawn)) * width
+    text = 26 + min(text_width(group.text, layout.font - 1), max(x, width - x))
+    return (x - 10, x + text) if x < width / 2 else (x - text, x + 10)
 
 
 def draw_edge(plan, sheet, groups, rows):
@@ -66,24 +77,25 @@ def draw_edge(plan, sheet, groups, rows):
     edge.patch.set(visible=True, facecolor=LIGHT["edge"])
     places = []
     for group, row in zip(groups, rows):
-        places += draw_group(plan, sheet, group, sheet.edge_height - 4 - ROW * (row + 0.5), limits)
+        heights = [sheet.edge_height - 4 - ROW * (r + 0.5) for r in row]
+        places += draw_group(plan, sheet, group, heights, limits)
     return places
 
 
-def draw_group(plan, sheet, group, y, limits):
-    xs = [plan.across.of(p) if plan.has_place(p) else limits[0] for p in group.points]
+def draw_group(plan, sheet, group, heights, limits):
+    xs, y = [plan.across.of(p) if plan.has_place(p) else limits[0] for p in group.points], heights[-1]
     for point, x in zip(group.points, xs):
         colour = plan.study.styles[point.method].colour
         sheet.edge.plot([x], [y], marker="x", ms=6.5, mew=2, color=colour, clip_on=False, gid=f"failed-{point.id}")
-    write_reason(sheet, group.text, y, max(share_across(plan, p, limits) for p in group.points) < 0.5, xs)
+    if len(heights) > 1:
+        write(sheet, group.text, (limits[0], heights[0]), True, sheet.edge.bbox.width - 12)
+    else:
+        share = share_across(plan, group.points[0], limits)
+        write(sheet, group.text, (xs[0], y), share < 0.5, max(share, 1 - share) * sheet.edge.bbox.width - 12)
     return [Place(point.id, *sheet.share(sheet.edge, x, y)) for point, x in zip(group.points, xs)]
 
 
-def write_reason(sheet, text, y, to_right, xs):
-    """On the side with more room."""
-    edge, font = sheet.edge, sheet.layout.font - 1
-    beside = max(xs) if to_right else min(xs)
-    across = edge.transAxes.inverted().transform(edge.transData.transform((beside, y)))[0]
-    room = (1 - across if to_right else across) * edge.bbox.width - 12
-    edge.annotate(fitted(text, room, font), (beside, y), (8 if to_right else -8, -4), textcoords="offset points",
-                  ha="left" if to_right else "right", size=font, color=LIGHT["ink"])  # fmt: skip
+def write(sheet, text, at, to_right, room):
+    font = sheet.layout.font - 1
+    sheet.edge.annotate(fitted(text, room, font), at, (8 if to_right else -8, -4), textcoords="offset points",
+                        ha="left" if to_right else "right", size=font, color=LIGHT["ink"])  # fmt: skip

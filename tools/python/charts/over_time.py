@@ -4,7 +4,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from charts.axes import NARROW, Entry, Layout, Sheet, linear_ticks, log_limits, log_ticks, set_ticks
+from charts.axes import NARROW, Entry, Layout, Sheet, linear_ticks, log_limits, log_ticks, room_for_ticks, set_ticks
 from charts.chart import Table, make_chart
 from charts.theme import DASHES, Style, hue
 from charts.words import counted, si_text
@@ -35,12 +35,14 @@ def style_of(k):
 
 
 def chart(plot, name):
-    return make_chart(name, plot.title, describe(plot), "", table(plot), lambda layout: draw(plot, layout), (HALF, NARROW))
+    layouts = (HALF, NARROW)
+    return make_chart(name, plot.title, describe(plot), "", table(plot), lambda layout: draw(plot, layout), layouts)
 
 
 def draw(plot, layout):
     legend = [Entry(line.name, style_of(k)) for k, line in enumerate(plot.lines)]
-    sheet = Sheet(layout, plot.title, plot.y_name, "time", legend)
+    sheet = Sheet(layout, plot.title, plot.y_name, "time", legend,
+                  left=room_for_ticks(y_limits(plot), lambda tick: si_text(tick, plot.y_unit), plot.logarithmic))  # fmt: skip
     set_ticks(sheet.axis, "x", (0, end_of(plot) or 1), lambda tick: si_text(tick, "s"), logarithmic=False)
     set_ticks(sheet.axis, "y", y_limits(plot), lambda tick: si_text(tick, plot.y_unit), logarithmic=plot.logarithmic)
     for k, line in enumerate(plot.lines):
@@ -76,7 +78,7 @@ def y_limits(plot):
 
 
 def thinned(x, y, n_wanted):
-    """About that many points, in order: of each stretch its lowest and its highest, so that no peak is lost, and the ends."""
+    """About that many points, in order: the ends, and of each stretch its lowest and its highest: no peak is lost."""
     if len(x) <= n_wanted:
         return x, y
     kept = {0, len(x) - 1}
@@ -93,8 +95,8 @@ def describe(plot):
             said.append(f"{line.name}: nothing to draw.")
             continue
         end = "breaks off" if line.breaks_off else "ends"
-        said.append(f"{line.name}: between {si_text(min(line.y), plot.y_unit)} and {si_text(max(line.y), plot.y_unit)}, "
-                    f"{end} at {si_text(line.y[-1], plot.y_unit)} after {si_text(line.x[-1], 's')}.")  # fmt: skip
+        low, high, last = (si_text(y, plot.y_unit) for y in (min(line.y), max(line.y), line.y[-1]))
+        said.append(f"{line.name}: between {low} and {high}, {end} at {last} after {si_text(line.x[-1], 's')}.")
     return " ".join(said)
 
 

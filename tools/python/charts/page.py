@@ -44,18 +44,23 @@ def wide(table, name):
 
 def figure(chart, labels=None):
     """`labels`: what each point is called, of those that can be chosen."""
-    drawings = "".join(drawing(one, kind, labels or {}) for kind, one in [("broad", chart.wide), ("narrow", chart.narrow)])
+    drawings = drawing(chart.wide, "broad", labels or {}) + drawing(chart.narrow, "narrow", labels or {})
     caption = f"<figcaption>{escaped(chart.caption)}</figcaption>\n" if chart.caption else ""
-    details = f"<details><summary>The figures of this chart</summary>\n{as_html(chart.table)}</details>\n" if chart.table.rows else ""
+    details = ""
+    if chart.table.rows:
+        details = f"<details><summary>The figures of this chart</summary>\n{as_html(chart.table)}</details>\n"
     return (f'<figure class="chart" id="chart-{chart.name}">\n{drawings}{caption}'
             f"{details}</figure>\n")  # fmt: skip
 
 
 def drawing(one, kind, labels):
     """With a button over each point, of which the first is reached by Tab and the others by arrow keys."""
-    buttons = "".join(
-        f'<button type="button" class="point" data-point="{place.point}" tabindex="{0 if k == 0 else -1}" '
-        f'style="left:{100 * place.x:.2f}%;top:{100 * place.y:.2f}%" aria-label="{escaped(labels[place.point])}"></button>\n'
-        for k, place in enumerate(sorted((p for p in one.places if p.point in labels), key=lambda p: (p.x, p.y))))
+    places = sorted((place for place in one.places if place.point in labels), key=lambda place: (place.x, place.y))
+    buttons = "".join(button(place, labels[place.point], k == 0) for k, place in enumerate(places))
     group = f'<div role="group" aria-label="Points">\n{buttons}</div>\n' if buttons else ""
     return f'<div class="drawing {kind}">\n{picture.within_page(one)}{group}</div>\n'
+
+
+def button(place, label, is_first):
+    return (f'<button type="button" class="point" data-point="{place.point}" tabindex="{0 if is_first else -1}" '
+            f'style="left:{100 * place.x:.2f}%;top:{100 * place.y:.2f}%" aria-label="{escaped(label)}"></button>\n')  # fmt: skip

@@ -38,7 +38,8 @@ def as_picture(figure, name, title, description, places=(), png=False):
     figure.savefig(text, format="svg", metadata={"Date": None, "Creator": None, "Format": None, "Type": None})
     if png:
         figure.savefig(pixels, format="png", dpi=144, metadata={"Software": None})
-    return Picture(with_texts(text.getvalue(), name, title, description), pixels.getvalue(), width, height, list(places))
+    svg = with_texts(text.getvalue(), name, title, description)
+    return Picture(svg, pixels.getvalue(), width, height, list(places))
 
 
 def with_texts(svg, name, title, description):
@@ -75,8 +76,8 @@ def with_own_ids(element, name):
 
 def within_page(picture):
     """Without sizes of its own; in the colours of the page."""
-    svg = re.sub(r'(<svg [^>]*?) height="[^"]*"', r"\1", re.sub(r'(<svg [^>]*?) width="[^"]*"', r"\1", picture.svg, 1), 1)
-    return theme.for_page(svg)
+    head, rest = picture.svg.split(">", 1)
+    return theme.for_page(re.sub(r' (width|height)="[^"]*"', "", head) + ">" + rest)
 
 
 def write_files(picture, folder, name):

@@ -1,4 +1,4 @@
-"""What a chart of points is to show, before it is drawn: the error of one quantity against something that each point has."""
+"""What a chart of points is to show, before it is drawn: the error of a quantity against something that points have."""
 
 from math import log
 from typing import Callable, NamedTuple

@@ -1,8 +1,8 @@
 """Charts of points: what those of error against cost, against what is refined and against the cost of a step share."""
 
-from charts.axes import Entry, Sheet, has_labels_beside, marker_style, set_ticks, wrapped
+from charts.axes import Entry, Sheet, has_labels_beside, marker_style, room_for_ticks, set_ticks, wrapped
 from charts.chart import make_chart
-from charts.edge import draw_edge, groups_of_failed, rows_of
+from charts.edge import draw_edge, groups_of_failed, n_rows, rows_of
 from charts.picture import Place
 from charts.plan import drawable, shown_uncertainty, x_limits
 from charts.theme import LIGHT, Style
@@ -12,7 +12,8 @@ MOST_TICKS_AT_VALUES = 6
 
 
 def make(plan, name, title, about):
-    return make_chart(name, title, describe(plan), caption(plan, about), table(plan), lambda layout: draw(plan, title, layout))
+    words = describe(plan), caption(plan, about), table(plan)
+    return make_chart(name, title, *words, lambda layout: draw(plan, title, layout))
 
 
 def draw(plan, title, layout):
@@ -23,7 +24,8 @@ def draw(plan, title, layout):
     lines = [line for line in lines if line[2]]
     ends = ends_of_lines(plan, lines)
     labels = [label for _, label in ends]
-    sheet = Sheet(layout, title, y_label(plan), plan.across.name, legend(plan, drawn, ends, layout), labels, max(rows, default=-1) + 1)
+    sheet = Sheet(layout, title, y_label(plan), plan.across.name, legend(plan, drawn, ends, layout), labels,
+                  n_rows(rows), left=room_for_ticks(drawn.limits, y_text(plan), plan.quantity.has_reference))  # fmt: skip
     set_axes(plan, drawn, sheet.axis)
     draw_uncertainty(plan, drawn, sheet)
     draw_front(plan, drawn, sheet.axis)
@@ -48,10 +50,13 @@ def set_axes(plan, drawn, axis):
     values = sorted({plan.across.of(p) for p in drawn.points + plan.failed() if plan.has_place(p)})
     at_values = plan.across.ticks_at_values and 0 < len(values) <= MOST_TICKS_AT_VALUES
     set_ticks(axis, "x", x_limits(plan, drawn), plan.across.text, ticks=values if at_values else None)
-    if plan.quantity.has_reference:
-        set_ticks(axis, "y", drawn.limits, lambda tick: plan.quantity.error_text(tick, 2))
-    else:
-        set_ticks(axis, "y", drawn.limits, plan.quantity.value_text, logarithmic=False)
+    set_ticks(axis, "y", drawn.limits, y_text(plan), logarithmic=plan.quantity.has_reference)
+
+
+def y_text(plan):
+    if not plan.quantity.has_reference:
+        return plan.quantity.value_text
+    return lambda tick: plan.quantity.error_text(tick, 2)
 
 
 def draw_uncertainty(plan, drawn, sheet):
@@ -91,7 +96,8 @@ def draw_point(plan, drawn, sheet, point):
     on_front = point in (plan.front or [])
     pale = plan.front is not None and not on_front and plan.quantity.has_reference
     style = marker_style(plan.study.styles[point.method], 6.5 if pale else 7.5, pale)
-    sheet.axis.plot([x], [y], zorder=3 if pale else 4, gid=f"point-{point.id}" + ("-front" if on_front else ""), **style)
+    name = f"point-{point.id}" + ("-front" if on_front else "")
+    sheet.axis.plot([x], [y], zorder=3 if pale else 4, gid=name, **style)
     return Place(point.id, *sheet.share(sheet.axis, x, y))
 
 

@@ -5,7 +5,8 @@ from charts.lines import lines_of_methods
 from charts.plan import Across, Plan
 from charts.words import si_text
 
-ABOUT = "User time over steps. Where points stand one above the other, accuracy comes from more steps, not from dearer ones."
+ABOUT = """User time over steps. Where points stand one above the other, accuracy comes from more steps, not from dearer
+ones."""
 
 
 def charts(study, quantity, prefix):

@@ -102,9 +102,7 @@ class Study:
         named = {method["name"] for method in self.lines}
         self.charted = [p for p in self.points if p.method in named]
         self.styles = styles_of_methods(self.lines)
-        self.quantities = [
-            Quantity(q["name"], q.get("unit", ""), q.get("relative", True), q.get("reference") or {}, q.get("orders") or [])
-            for q in document.get("quantities", [])]  # fmt: skip
+        self.quantities = [quantity_of(q) for q in document.get("quantities", [])]
         self.budgets = document.get("budgets") or []
 
     def failed(self):
@@ -125,6 +123,11 @@ def number_or_none(value):
     return value if is_number(value) else None
 
 
+def quantity_of(q):
+    orders = q.get("orders") or []
+    return Quantity(q["name"], q.get("unit", ""), q.get("relative", True), q.get("reference") or {}, orders)
+
+
 def point_of(p, place):
     return Point(
         p.get("id", place), p.get("method", ""), p.get("label", ""), p.get("settings") or {},
@@ -134,4 +137,6 @@ def point_of(p, place):
 
 
 def setting_text(value):
-    return number_text(value, 6) if is_number(value) else value if isinstance(value, str) else json.dumps(value, ensure_ascii=False)
+    if is_number(value):
+        return number_text(value, 6)
+    return value if isinstance(value, str) else json.dumps(value, ensure_ascii=False)

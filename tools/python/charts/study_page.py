@@ -6,14 +6,23 @@ from charts import budget, convergence, page, picture, step_cost, work_precision
 from charts.chart import Table
 from charts.page import HERE, escaped
 from charts.study import setting_text
-from charts.words import counted, number_text
+from charts.words import NO_NUMBER, counted, number_text
 
 REFERENCES = {"exact": "an exact answer", "extrapolated": "the finest runs, extrapolated", "finest": "the finest run",
               "run": "one run, taken as it is", "none": "none"}  # fmt: skip
 
 
+PANEL = """<aside id="chosen" aria-live="polite" aria-label="The chosen point">
+<button type="button" class="close" aria-label="Close">✕</button>
+<div class="content"><p class="faint">Choose a point of a chart, with the pointer or with Tab and the arrow keys: this is
+where its settings, figures and command are shown.</p></div>
+</aside>
+"""
+
+
 def write(study, folder):
-    sections = [(quantity, make_charts(study, quantity, prefix)) for quantity, prefix in zip(study.quantities, prefixes(study))]
+    named = zip(study.quantities, prefixes(study))
+    sections = [(quantity, make_charts(study, quantity, prefix)) for quantity, prefix in named]
     for _, charts in sections:
         for chart in charts:
             picture.write_files(chart.wide, folder / "charts", chart.name)
@@ -38,7 +47,8 @@ def whole_page(study, sections):
     names = {point.id: short_text(study, point) for point in study.points}
     content = "<main>\n" + head(study) + overview(study)
     for (quantity, charts), prefix in zip(sections, prefixes(study)):
-        content += f'<section id="{prefix}">\n<h2>{escaped(quantity.name)}</h2>\n<p>{escaped(reference_text(quantity))}</p>\n'
+        content += f'<section id="{prefix}">\n<h2>{escaped(quantity.name)}</h2>\n'
+        content += f"<p>{escaped(reference_text(quantity))}</p>\n"
         content += "".join(page.figure(chart, names) for chart in charts) + "</section>\n"
     content += failed_runs(study) + closing(study) + "</main>\n" + panel(study)
     script = (HERE / "page.js").read_text(encoding="utf-8")
@@ -46,10 +56,10 @@ def whole_page(study, sections):
 
 
 def head(study):
-    about = study.document.get("about", "")
-    return f"<h1>{escaped(study.title)}</h1>\n" + (f"<p>{escaped(about)}</p>\n" if about else "") + facts(
-        [("measured on", machine_text(study)), ("threads", threads_text(study)), ("takes", escaped(study.document.get("takes", ""))),
-         ("remade by", command(study.document.get("command", "")))])  # fmt: skip
+    about, takes = (escaped(study.document.get(key, "")) for key in ("about", "takes"))
+    remade_by = command(study.document.get("command", ""))
+    rows = [("measured on", machine_text(study)), ("threads", threads_text(study)), ("takes", takes), ("remade by", remade_by)]
+    return f"<h1>{escaped(study.title)}</h1>\n" + (f"<p>{about}</p>\n" if about else "") + facts(rows)
 
 
 def facts(rows):
@@ -63,7 +73,8 @@ def command(text):
 def machine_text(study):
     machine = study.document.get("machine") or {}
     cores = counted(machine["cores"], "core") if "cores" in machine else ""
-    return escaped(", ".join(str(part) for part in [machine.get("processor"), machine.get("instruction_set"), cores] if part))
+    parts = [machine.get("processor"), machine.get("instruction_set"), cores]
+    return escaped(", ".join(str(part) for part in parts if part))
 
 
 def threads_text(study):
@@ -79,26 +90,26 @@ def overview(study):
     said += f", of which {len(failed)} gave no result (<a href=\"#failed\">why</a>).</p>\n" if failed else ".</p>\n"
     if len(study.quantities) < 2:
         return said
-    links = "".join(f'<a href="#{prefix}">{escaped(q.name)}</a>\n' for q, prefix in zip(study.quantities, prefixes(study)))
+    named = zip(study.quantities, prefixes(study))
+    links = "".join(f'<a href="#{prefix}">{escaped(quantity.name)}</a>\n' for quantity, prefix in named)
     return f'{said}<nav aria-label="Quantities">\n{links}</nav>\n'
 
 
 def reference_text(quantity):
-    reference = quantity.reference
+    reference, note = quantity.reference, quantity.reference.get("note") or ""
+    notes = f" {sentence(note)}" if note else ""
     if not quantity.has_reference:
-        note = reference.get("note", "")
-        return "There is no reference, so that no error is claimed." + (f" {sentence(note)}" if note else "")
+        return "There is no reference, so that no error is claimed." + notes
     said = f"Errors are against {REFERENCES.get(reference['kind'], reference['kind'])}"
     if reference.get("value") is not None:
         said += f", {quantity.value_text(reference['value'])}"
     if quantity.uncertainty:
         said += f", itself uncertain by {quantity.error_text(quantity.uncertainty)}"
-    elif reference["kind"] != "exact" and quantity.uncertainty is None:
+    elif reference["kind"] != "exact" and quantity.uncertainty is None and not note.startswith("no bound"):
         said += ", of whose own error there is no bound"
     if reference.get("order") is not None:
         said += f"; it converges with order {number_text(reference['order'])}"
-    note = reference.get("note", "")
-    return f"{said}." + (f" {sentence(note)}" if note else "")
+    return f"{said}.{notes}"
 
 
 def sentence(text):
@@ -119,34 +130,38 @@ def closing(study):
     return f"<section>\n<h2>The program</h2>\n<pre>{escaped(program)}</pre>\n</section>\n" if program else ""
 
 
-# --- the panel of the chosen point ---------------------------------------------------------------------------------------
+# --- the panel of the chosen point ---
 
 
 def short_text(study, point):
-    said = [point.name]
-    if point.failed:
-        said.append(point.why)
-    else:
-        said += [f"error of {q.name} {q.error_text(abs(point.error(q)))}" for q in study.quantities if point.error(q) is not None]
-    said += [f"{cost.name} {cost.text(point.cost_of(cost.key))}" for cost in study.costs[:1] if point.cost_of(cost.key) is not None]
+    said = [point.name] + ([point.why] if point.failed else [])
+    for quantity in study.quantities:
+        if not point.failed and point.error(quantity) is not None:
+            said.append(f"error of {quantity.name} {error_text(quantity, point)}")
+    for cost in study.costs[:1]:
+        if point.cost_of(cost.key) is not None:
+            said.append(f"{cost.name} {cost.text(point.cost_of(cost.key))}")
     return ", ".join(said)
 
 
+def error_text(quantity, point):
+    error = point.error(quantity)
+    return NO_NUMBER if error is None else quantity.error_text(abs(error))
+
+
 def panel(study):
-    templates = "".join(f'<template id="point-{point.id}">\n{point_text(study, point)}</template>\n' for point in study.points)
-    return ('<aside id="chosen" aria-live="polite" aria-label="The chosen point">\n<button type="button" class="close" aria-label="Close">✕</button>\n'
-            '<div class="content"><p class="faint">Choose a point of a chart, with the pointer or with Tab and the arrow keys: '
-            f"this is where its settings, figures and command are shown.</p></div>\n</aside>\n{templates}")  # fmt: skip
+    templates = "".join(f'<template id="point-{p.id}">\n{point_text(study, p)}</template>\n' for p in study.points)
+    return PANEL + templates
 
 
 def point_text(study, point):
     settings = [(escaped(pointer), escaped(setting_text(value))) for pointer, value in point.settings.items()]
     html = f"<h2>{escaped(point.name)}</h2>\n<p>{escaped(sentence(point.why))}</p>\n"
     html += facts([*costs_of(study, point), *[(f"<code>{pointer}</code>", value) for pointer, value in settings]])
-    rows = [[q.name, q.value_text(point.value(q)), q.error_text(abs(point.error(q))) if point.error(q) is not None else "–",
-             "yes" if q.name in point.front else ""] for q in study.quantities]  # fmt: skip
+    rows = [[q.name, q.value_text(point.value(q)), error_text(q, point), "yes" if q.name in point.front else ""]
+            for q in study.quantities]  # fmt: skip
     if not point.failed:
-        html += page.as_html(Table(["", "value", "error", "on the front"], rows))
+        html += page.as_html(Table(["", "value", "error", "front"], rows))
     return html + (f"<p>Remade by</p>\n{command(point.command)}\n" if point.command else "")
 
 

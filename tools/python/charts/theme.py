@@ -84,10 +84,12 @@ def style_sheet():
     def block(twin):
         return "; ".join(f"--{name}: {pair[twin]}" for name, pair in COLOURS.items())
 
-    return f":root {{ color-scheme: light dark; {block(0)} }}\n@media (prefers-color-scheme: dark) {{ :root {{ {block(1)} }} }}\n"
+    light = f":root {{ color-scheme: light dark; {block(0)} }}\n"
+    return light + f"@media (prefers-color-scheme: dark) {{ :root {{ {block(1)} }} }}\n"
 
 
 def for_page(svg):
     """A drawing that follows the page's colours and font."""
-    svg = re.sub(r"#[0-9a-f]{6}\b", lambda colour: f"var(--{NAMES[colour[0]]})" if colour[0] in NAMES else colour[0], svg)
+    in_attribute = r'(?:(?<=: )|(?<=="))#[0-9a-f]{6}(?=[;"])'
+    svg = re.sub(in_attribute, lambda found: f"var(--{NAMES[found[0]]})" if found[0] in NAMES else found[0], svg)
     return svg.replace(FONT_OF_FILES, FONT_OF_PAGES)

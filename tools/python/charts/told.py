@@ -29,7 +29,8 @@ def caption(plan, about):
     drawn, quantity = drawable(plan), plan.quantity
     said = [about]
     if quantity.has_reference and quantity.uncertainty and not shown_uncertainty(quantity, drawn.limits):
-        said.append(f"The reference's own uncertainty, {quantity.error_text(quantity.uncertainty)}, lies below the chart.")
+        uncertainty = quantity.error_text(quantity.uncertainty)
+        said.append(f"The reference's own uncertainty, {uncertainty}, lies below the chart.")
     if drawn.zeros:
         said.append("An error of 0 stands at the lower edge.")
     if plan.failed():

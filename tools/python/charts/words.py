@@ -1,4 +1,4 @@
-"""Numbers as people read them: three digits, with SI prefixes or in percent; and text that cannot be taken for markup."""
+"""Numbers as people read them: three digits, with SI prefixes or in percent; text that cannot be taken for markup."""
 
 import html
 import math
@@ -73,7 +73,7 @@ def escaped(text):
 def plain(value):
     """A JSON value whose texts have no characters that XML cannot hold."""
     if isinstance(value, str):
-        return "".join(c for c in value if c in "\n\t" or (c >= " " and not "\ud800" <= c <= "\udfff" and c not in "\ufffe\uffff"))
+        return "".join(c for c in value if c in "\n\t" or " " <= c < "\ud800" or "\ue000" <= c < "\ufffe" or c > "\uffff")
     if isinstance(value, list):
         return [plain(inner) for inner in value]
     if isinstance(value, dict):
