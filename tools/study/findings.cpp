@@ -137,6 +137,13 @@ class References
   std::map<std::string, Reference> own_;
 };
 
+/// A run that is the reference itself, by whatever name, has no error that is known.
+bool is_itself(const Reference& reference, const MeasuredPoint& one, const std::vector<MeasuredPoint>& points)
+{
+  if (reference.kind != Reference::Kind::run && reference.kind != Reference::Kind::finest) return false;
+  return one.result.folder == points[static_cast<std::size_t>(reference.point) - 1].result.folder;
+}
+
 QuantityFindings findings_of_one(const Study& study, const Quantity& quantity, const std::vector<MeasuredPoint>& points)
 {
   QuantityFindings found;
@@ -148,10 +155,7 @@ QuantityFindings findings_of_one(const Study& study, const Quantity& quantity, c
     if (!quantity.is_column()) found.values[one.point.id] = answer.value;
     const Reference& reference = references.of(one.point);
     const auto error = reference.error(quantity, answer);
-    // A run that is the reference itself has no error that is known.
-    const bool is_reference = one.point.id == reference.point && reference.kind != Reference::Kind::extrapolated &&
-                              reference.kind != Reference::Kind::exact;
-    if (error && !is_reference) found.errors[one.point.id] = *error;
+    if (error && !is_itself(reference, one, points)) found.errors[one.point.id] = *error;
   }
   found.front = pareto_front(study, points, found.errors);
   if (!study.refine.empty()) {

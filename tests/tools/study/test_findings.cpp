@@ -34,12 +34,17 @@ class AnsweredStudy
                                       "time[s],depth[m]\n0,0\n1," + std::to_string(depths[i]) + "\n3,0\n");
       PointResult result{End::done, "", {{{"core_s", costs[i]}}}, HUGE_VAL, file.parent_path()};
       if (std::isnan(depths[i])) result.end = End::unstable;
+      for (const MeasuredPoint& earlier : measured) {
+        if (share_results && earlier.point.settings == points[i].settings) result.folder = earlier.result.folder;
+      }
       measured.push_back({points[i], result});
     }
     return findings_of(study, measured);
   }
 
   Study study;
+  /// As the cache does it: points with the same settings have the same result.
+  bool share_results = false;
 
  private:
   TemporaryFolder folder_;
@@ -78,6 +83,19 @@ TEST_CASE("runs whose differences do not fall bound nothing")
   CHECK_FALSE(found.reference.uncertainty);
   CHECK(found.reference.note.starts_with("no bound"));
   CHECK(found.errors.at(1) == Approx(0.3 / 1.3));
+}
+
+TEST_CASE("a run that is the reference has no error, whatever else it is called")
+{
+  AnsweredStudy answered;
+  answered.study.reference = ReferenceRuns{{{"/h", 1}}, {}};
+  answered.share_results = true;
+
+  const QuantityFindings found = answered.findings({1, 1.1, 1.2, 1.2}, {1, 2, 3, 3}).quantities[0];
+
+  CHECK(found.errors.size() == 2);
+  CHECK_FALSE(found.errors.contains(3));
+  CHECK(found.reference.kind == Reference::Kind::run);
 }
 
 TEST_CASE("a reference that is not done is none, and failed points have no error")

@@ -1,0 +1,131 @@
+#include <catch2/catch.hpp>
+#include <nlohmann/json.hpp>
+#include <set>
+
+#include "tests/tools/program.hpp"
+
+/// The shipped studies in their short forms, run through to the page.
+using namespace tamp::test;
+using Json = nlohmann::json;
+
+namespace
+{
+
+struct ShortStudy {
+  Json results;
+  std::string page;
+
+  /// The methods with a point that ended in this way.
+  std::set<std::string> methods(const std::string& end) const
+  {
+    std::set<std::string> names;
+    for (const Json& point : results["points"]) {
+      if (point["ended"] == end) names.insert(point["method"]);
+    }
+    return names;
+  }
+
+  double error(const std::string& method, const std::string& quantity, const Json& refine = nullptr) const
+  {
+    for (const Json& point : results["points"]) {
+      if (point["method"] == method && (refine.is_null() || point["refine"] == refine)) {
+        return point["errors"].at(quantity);
+      }
+    }
+    FAIL("no point of " << method);
+    return 0;
+  }
+
+  double order(const std::string& method) const
+  {
+    for (const Json& fit : results["quantities"][0]["orders"]) {
+      if (fit["method"] == method) return fit["order"];
+    }
+    FAIL("no order of " << method);
+    return 0;
+  }
+};
+
+ShortStudy run_short(const std::string& name)
+{
+  const TemporaryFolder folder;
+  const std::filesystem::path out = folder.path() / "out";
+  const Outcome outcome =
+      tamp_with("study " TAMP_SOURCE_DIR "/inputs/studies/" + name + ".json --short --quiet --out " + out.string());
+  INFO(outcome.err);
+  REQUIRE(outcome.exit_code == 0);
+  ShortStudy study{Json::parse(read_text(out / "study.json")), read_text(out / "index.html")};
+  CHECK_THAT(study.page, Catch::Contains(study.results["title"].get<std::string>()));
+  CHECK(std::filesystem::exists(out / "points.csv"));
+  return study;
+}
+
+}  // namespace
+
+TEST_CASE("the short study of moduli finds the network nearer to the measurements than the regression")
+{
+  const ShortStudy study = run_short("moduli");
+  CHECK(study.error("MLP", "K, root mean square") < study.error("SVR", "K, root mean square") / 5);
+  CHECK(study.error("Table", "K, root mean square") < 0.01);
+}
+
+TEST_CASE("the short studies of the return mapping have smaller errors for smaller tolerances")
+{
+  const std::string name = GENERATE("return_mapping", "return_mapping_large_increments");
+  const ShortStudy study = run_short(name);
+
+  CHECK(study.methods("done").size() > 1);
+  for (const Json& coarse : study.results["points"]) {
+    for (const Json& fine : study.results["points"]) {
+      const bool are_of_one = coarse["method"] == fine["method"] && fine["method"] != "reference";
+      if (!are_of_one || coarse["refine"].get<double>() < 99 * fine["refine"].get<double>()) continue;
+      INFO(coarse["label"] << " beside " << fine["label"]);
+      CHECK(fine["errors"]["p"].get<double>() < coarse["errors"]["p"].get<double>());
+    }
+  }
+}
+
+TEST_CASE("the short study of the bar finds second order, and the published bound without its factor unstable")
+{
+  const ShortStudy study = run_short("bar");
+  CHECK(study.order("GIMP, flip") == Approx(2).margin(0.15));
+  CHECK(study.order("splines, affine") == Approx(2).margin(0.15));
+  CHECK(study.methods("unstable") == std::set<std::string>{"published bound, 1"});
+}
+
+TEST_CASE("the short study of two disks runs through")
+{
+  const ShortStudy study = run_short("disks");
+  CHECK(study.methods("done").contains("regression"));
+}
+
+TEST_CASE("the short study of the report's settings has the cost of a slab")
+{
+  const ShortStudy study = run_short("cost");
+  CHECK(study.methods("done").contains("report's settings"));
+}
+
+TEST_CASE("the short study of the punch has an error budget")
+{
+  const ShortStudy study = run_short("punch");
+
+  CHECK(study.methods("done").contains("regression"));
+  const Json& parts = study.results["budgets"][0]["parts"];
+  REQUIRE(parts.size() > 5);
+  for (const Json& part : parts) {
+    INFO(part.dump());
+    CHECK(part["amount"].get<double>() < 0.1);
+  }
+}
+
+TEST_CASE("the short study of the projectile has an error budget")
+{
+  const ShortStudy study = run_short("projectile");
+  CHECK(study.methods("done").contains("regression"));
+  CHECK(study.results["budgets"].size() == 2);
+}
+
+TEST_CASE("the short study of the projectile's later way runs through")
+{
+  CHECK(run_short("projectile_late").methods("done").contains("regression"));
+}
