@@ -22,7 +22,7 @@ namespace
 
 namespace fs = std::filesystem;
 
-/// What the program said on standard error, in one line.
+/// What the program said on standard error, in one line; warnings are not why it ended.
 std::string complaint(const fs::path& errors)
 {
   std::ifstream stream(errors);
@@ -30,6 +30,7 @@ std::string complaint(const fs::path& errors)
   for (std::string line; std::getline(stream, line);) {
     constexpr std::string_view prefix = "tamp: ";
     if (line.starts_with(prefix)) line.erase(0, prefix.size());
+    if (line.starts_with("warning: ")) continue;
     text += (text.empty() ? "" : "; ") + line;
   }
   return text;
