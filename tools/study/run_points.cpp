@@ -101,19 +101,25 @@ class PointRunner
  private:
   fs::path folder_of(const std::string& key) const { return cache_ / key; }
 
-  /// A result that is whole, and was not ended by a limit shorter than the one now.
+  /// A result that has all that the study asks for.
   std::optional<PointResult> kept(const std::string& key) const
   {
     auto result = read_result(folder_of(key));
-    if (!result) return std::nullopt;
-    if (result->end == End::limit && result->limit < study_.limit) return std::nullopt;
-    if (result->end == End::done && !has_all(study_, *result)) return std::nullopt;
+    if (result && result->end == End::done && !has_all(study_, *result)) return std::nullopt;
     return result;
+  }
+
+  /// Whether a point that took too long has more time now.
+  bool may_take_longer(const Task& task) const
+  {
+    constexpr double clearly = 1.1;  // the fastest point's time scatters
+    return task.result->end == End::limit && limit_of(task) > clearly * task.result->limit;
   }
 
   bool wants_timing(const Task& task, int round) const
   {
     if (!task.result) return true;
+    if (round == 0 && may_take_longer(task)) return true;
     if (round == 0 || !task.timed_well || task.result->end != End::done) return false;
     return static_cast<int>(task.result->costs.size()) <= round &&
            task.result->cost("core_s")->median < study_.repeat_below;
@@ -132,22 +138,18 @@ class PointRunner
 
   void time(Task& task, int round)
   {
-    const fs::path folder = folder_of(task.measurement->key);
-    PointResult result = one_run(task, folder.string() + ".new");
-    if (task.result) {
-      task.result->costs.push_back(result.costs.front());
-      task.result->folder = folder;
-    } else {
-      task.result = std::move(result);
-    }
+    const fs::path folder = folder_of(task.measurement->key), fresh = folder.string() + ".new";
+    PointResult result = one_run(task, fresh);
+    const bool was_done = task.result && task.result->end == End::done;
+    if (was_done && result.end != End::done) return;  // the answer is known; the machine was too busy for a timing
+    if (was_done) result.costs.insert(result.costs.begin(), task.result->costs.begin(), task.result->costs.end());
+    if (result.end == End::done) expect_all(study_, result);
+    write_result(result);
     fs::remove_all(folder);
-    fs::rename(folder.string() + ".new", folder);
-    task.result->folder = folder;
-    if (task.result->end == End::done) {
-      note_time(*task.result);
-      expect_all(study_, *task.result);
-    }
-    write_result(*task.result);
+    fs::rename(fresh, folder);
+    result.folder = folder;
+    note_time(result);
+    task.result = std::move(result);
     tell(task, round);
   }
 

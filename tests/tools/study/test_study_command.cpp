@@ -153,6 +153,24 @@ TEST_CASE("points that become unstable, take too long or are refused are there w
   CHECK_FALSE(points[1]["errors"].contains("depth"));
 }
 
+TEST_CASE("points far slower than the fastest end at its limit, and stay ended")
+{
+  const FlightStudy study;
+  const std::string patch = R"({
+    "limit_times_fastest": 20, "sweep": null,
+    "points": [{ "method": "flight", "set": { "/grid/cell_size": 0.1 } },
+               { "method": "flight", "set": { "/time/end": 1e3, "/output/history_interval": 1,
+                                              "/output/fields_interval": 100, "/limits/energy_error": "off" } }]
+  })";
+  REQUIRE(study.run(patch).exit_code == 0);
+  const std::string first = read_text(study.out() / "study.json");
+
+  REQUIRE(study.run(patch).exit_code == 0);
+
+  CHECK(study.results()["points"][1]["ended"] == "limit");
+  CHECK(read_text(study.out() / "study.json") == first);
+}
+
 TEST_CASE("a study that is killed goes on where it was")
 {
   const FlightStudy study;
