@@ -60,13 +60,24 @@ class PointList
   {
     const ReferenceRuns& reference = *study_.reference;
     const Settings common = merged(settings, reference.settings);
-    const std::string prefix = of_method.empty() ? "" : of_method + ", ";
     std::vector<Axis> axes;
     if (!reference.refinement.values.empty()) axes.push_back(reference.refinement);
+    Settings finest = common;
     for (const Settings& own : combinations(axes)) {
-      add(Point::Role::reference, reference_name, prefix + settings_text(own), merged(common, own), own);
-      points_.back().reference_of = of_method;
+      finest = merged(common, own);
+      add_reference_point(Point::Role::reference, of_method, finest, own);
     }
+    for (const Settings& form : reference.beside) {
+      add_reference_point(Point::Role::witness, of_method, merged(finest, form), form);
+    }
+  }
+
+  void add_reference_point(Point::Role role, const std::string& of_method, const Settings& settings,
+                           const Settings& own)
+  {
+    const std::string prefix = of_method.empty() ? "" : of_method + ", ";
+    add(role, reference_name, prefix + settings_text(own), settings, own);
+    points_.back().reference_of = of_method;
   }
 
   void add_budget()

@@ -13,7 +13,12 @@ Settings merged(Settings settings, const Settings& others);
 
 /// One combination of settings.
 struct Point {
-  enum class Role { chart, reference, variation };
+  enum class Role {
+    chart,
+    reference,
+    witness,   ///< what the reference has to agree with
+    variation  ///< of an error budget
+  };
   /// Its place in the list, from 1.
   int id = 0;
   Role role = Role::chart;

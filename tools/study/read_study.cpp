@@ -169,6 +169,7 @@ class StudyReader
     reference.refinement.pointer = pointer(*reader, "refine");
     reference.refinement.values = list(*reader, "values");
     reference.of_each_method = reader->flag("of_each_method");
+    for (const Json& one : list(*reader, "beside")) reference.beside.push_back(settings_of(one, *reader, "beside"));
     if (!reference.refinement.pointer.empty() && reference.refinement.values.size() < fewest_grids) {
       reader->add_problem(
           "values", fmt::format("{} values", reference.refinement.values.size()),

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "tools/study/richardson.hpp"
@@ -60,6 +61,55 @@ Reference limit_reference(const Quantity& quantity, const std::vector<double>& s
   return reference;
 }
 
+Reference run_reference(const Quantity& quantity, const Answer& answer)
+{
+  Reference reference;
+  reference.kind = Reference::Kind::run;
+  reference.answer = answer;
+  reference.note = "one run, taken as it is: how far it is off itself is not known";
+  scale_errors(quantity, reference);
+  return reference;
+}
+
+std::vector<const MeasuredPoint*> runs_of(const std::vector<MeasuredPoint>& points, Point::Role role,
+                                          const std::string& method)
+{
+  std::vector<const MeasuredPoint*> runs;
+  for (const MeasuredPoint& one : points) {
+    if (one.point.role == role && one.point.reference_of == method) runs.push_back(&one);
+  }
+  return runs;
+}
+
+/// Why the runs are no reference; empty where they are.
+std::string problem_of(const std::vector<const MeasuredPoint*>& runs)
+{
+  for (const MeasuredPoint* run : runs) {
+    if (run->done()) continue;
+    return fmt::format("no reference: {} ended with {}: {}", run->point.label, to_text(run->result.end),
+                       run->result.reason);
+  }
+  return "";
+}
+
+/// The reference is known no better than forms with as good a claim agree with it.
+void compare_with_other_forms(const Study& study, const Quantity& quantity,
+                              const std::vector<const MeasuredPoint*>& forms, Reference& reference)
+{
+  double furthest = 0;
+  std::string label;
+  for (const MeasuredPoint* form : forms) {
+    if (!form->done()) continue;
+    const double apart = *reference.error(quantity, answer_of(study, quantity, form->result));
+    if (apart > furthest) label = form->point.label;
+    furthest = std::max(furthest, apart);
+  }
+  if (label.empty()) return;
+  reference.note += fmt::format("; other forms are up to {:.2g} {} from it ({})",
+                                reference.relative ? furthest * 100 : furthest, reference.relative ? "%" : "", label);
+  if (reference.uncertainty) reference.uncertainty = std::max(*reference.uncertainty, furthest);
+}
+
 }  // namespace
 
 std::optional<double> Reference::error(const Quantity& quantity, const Answer& other) const
@@ -76,32 +126,16 @@ Reference reference_of(const Study& study, const Quantity& quantity, const std::
     scale_errors(quantity, reference);
     return reference;
   }
-  std::vector<Answer> answers;
+  const auto runs = runs_of(points, Point::Role::reference, method);
   Reference reference;
-  for (const MeasuredPoint& one : points) {
-    if (one.point.role != Point::Role::reference || one.point.reference_of != method) continue;
-    if (!one.done()) {
-      reference.note = fmt::format("no reference: {} ended with {}: {}", one.point.label, to_text(one.result.end),
-                                   one.result.reason);
-      return reference;
-    }
-    answers.push_back(answer_of(study, quantity, one.result));
-    reference.point = one.point.id;
-  }
-  if (answers.empty()) {
-    reference.note = "no reference was asked for";
-    return reference;
-  }
-  const int last = reference.point;
-  if (answers.size() > 1) {
-    reference = limit_reference(quantity, spacings_of(study.reference->refinement.values), answers);
-  } else {
-    reference.kind = Reference::Kind::run;
-    reference.answer = answers.front();
-    reference.note = "one run, taken as it is: how far it is off itself is not known";
-    scale_errors(quantity, reference);
-  }
-  reference.point = last;
+  reference.note = runs.empty() ? "no reference was asked for" : problem_of(runs);
+  if (!reference.note.empty()) return reference;
+  std::vector<Answer> answers;
+  for (const MeasuredPoint* run : runs) answers.push_back(answer_of(study, quantity, run->result));
+  reference = answers.size() > 1 ? limit_reference(quantity, spacings_of(study.reference->refinement.values), answers)
+                                 : run_reference(quantity, answers.front());
+  reference.point = runs.back()->point.id;
+  compare_with_other_forms(study, quantity, runs_of(points, Point::Role::witness, method), reference);
   return reference;
 }
 

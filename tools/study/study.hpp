@@ -84,11 +84,14 @@ struct Quantity {
 /// What points are compared with where no exact answer is known: one run, or, where `refinement` has values, the limit
 /// that its runs tend to.
 struct ReferenceRuns {
-  Settings settings;
-  Axis refinement;
+  Settings settings{};
+  Axis refinement{};
   /// Whether each method is compared with runs that have its own settings besides: of methods that tend to different
   /// answers.
   bool of_each_method = false;
+  /// Other forms that have as good a claim, over these settings on the finest grid: how far they are from the reference
+  /// is the least that it is uncertain by.
+  std::vector<Settings> beside{};
 };
 
 /// A source of error: what it changes, in one way or several.

@@ -74,6 +74,12 @@ const ObjectKeys& reference_keys()
       {{"set", Anything{}, "", {}, "an object: JSON pointer → value, over the study's"},
        {"refine", Text{}, "", {}, "a JSON pointer; without it the reference is one run, taken as it is"},
        {"values", Anything{}, "", {}, "of that pointer, from coarse to fine, three at least"},
+       {"beside",
+        Anything{},
+        "",
+        {},
+        "a list of objects, JSON pointer → value, over these on the finest grid: forms with as good a claim, whose "
+        "distance from the reference is the least that it is uncertain by"},
        {"of_each_method", Flag{}, "", {false}, "compares each method with runs of its own settings, under these"}}};
   return keys;
 }

@@ -71,6 +71,20 @@ TEST_CASE("errors are those against the limit of the finest runs")
   CHECK(*found.orders[0].cost_power == Approx(-3));
 }
 
+TEST_CASE("a reference is known no better than other forms agree with it")
+{
+  AnsweredStudy answered;
+  answered.study.methods[0].sweep[0].values = {4};
+  answered.study.reference = ReferenceRuns{{}, {"/h", {4, 2, 1}}, false, {{{"/form", "a"}}, {{"/form", "b"}}}};
+
+  // The limit is 1, known to 0.0125; the other forms on the finest grid are 0.005 and 0.04 from it.
+  const QuantityFindings found =
+      answered.findings({0.84, 0.84, 0.96, 0.99, 0.995, 1.04}, {1, 1, 1, 1, 1, 1}).quantities[0];
+
+  CHECK(*found.reference.uncertainty == Approx(0.04));
+  CHECK_THAT(found.reference.note, Catch::EndsWith("other forms are up to 4 % from it (form b)"));
+}
+
 TEST_CASE("runs whose differences do not fall bound nothing")
 {
   AnsweredStudy answered;
