@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "runtime/file_error.hpp"
+#include "tools/shell_word.hpp"
 #include "tools/shipped_inputs.hpp"
 
 namespace tamp::tools
@@ -52,14 +53,14 @@ void draw_page(const std::string& script, const std::filesystem::path& folder)
     if (code == 0) return;
     if (code == not_started || code == no_matplotlib) continue;
     throw runtime::FileError(folder.string(), fmt::format("its figures are written, but could not be drawn; to try "
-                                                          "again: {} '{}' '{}'",
-                                                          interpreter, file, folder.string()));
+                                                          "again: {} {} {}",
+                                                          interpreter, shell_word(file), shell_word(folder.string())));
   }
   throw runtime::FileError(folder.string(),
                            fmt::format("its figures are written, but not drawn, for want of Python with matplotlib "
                                        "(Debian: python3-matplotlib; TAMP_PYTHON names another interpreter); to draw "
-                                       "them later: {} '{}' '{}'",
-                                       usual_interpreter, file, folder.string()));
+                                       "them later: {} {} {}",
+                                       usual_interpreter, shell_word(file), shell_word(folder.string())));
 }
 
 }  // namespace tamp::tools

@@ -46,6 +46,10 @@ rlimit limit_of(double seconds)
 [[noreturn]] void become(const ExecArguments& arguments, const char* errors, const rlimit& limit, pid_t parent)
 {
   prctl(PR_SET_PDEATHSIG, SIGKILL);
+  // What comes before the program watches for itself ends it.
+  for (const int signal : {SIGTERM, SIGINT, SIGHUP, SIGXCPU}) {
+    if (std::signal(signal, SIG_DFL) == SIG_IGN) std::signal(signal, SIG_IGN);
+  }
   const int out = open("/dev/null", O_WRONLY);
   const int err = open(errors, O_WRONLY | O_CREAT | O_TRUNC, 0666);
   const bool ready = getppid() == parent && out >= 0 && err >= 0 && dup2(out, STDOUT_FILENO) >= 0 &&
@@ -73,11 +77,10 @@ ChildEnd run_child(const Child& child)
 
   int status = 0;
   rusage usage{};
-  bool asked = false;
   // Looks often at first, as many children are short.
   for (std::chrono::microseconds pause{500}; wait4(pid, &status, WNOHANG, &usage) == 0;
        pause = std::min<std::chrono::microseconds>(2 * pause, std::chrono::milliseconds(50))) {
-    if (watch.noted() != 0 && !asked) asked = kill(pid, SIGTERM) == 0;
+    if (watch.noted() != 0) kill(pid, SIGTERM);
     std::this_thread::sleep_for(pause);
   }
   if (watch.noted() != 0) throw Interrupted("stopped by a signal", watch.noted());

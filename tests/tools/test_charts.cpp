@@ -45,7 +45,7 @@ TEST_CASE("the command that a missing Python leaves behind draws the page")
 {
   const test::TemporaryFolder folder;
   const std::string err = compare_with("TAMP_PYTHON=/nonexistent/python", folder).err;
-  const std::size_t command = err.find("/usr/bin/python3 '");
+  const std::size_t command = err.find("/usr/bin/python3 /");
   REQUIRE(command != std::string::npos);
 
   const test::Outcome outcome = test::outcome_of(err.substr(command, err.find('\n', command) - command));

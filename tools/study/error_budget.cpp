@@ -54,27 +54,24 @@ class BudgetMaker
 
   BudgetAmount from_variations(const BudgetBase& base, const BudgetPart& part, const Answer& answer) const
   {
-    BudgetAmount found{part.name, std::nullopt, ""};
+    BudgetAmount found{part.name, 0.0, ""};
     for (const Settings& variation : part.variations) {
       const auto other = answer_with(varied_settings(study_, base, variation));
       const std::string text = settings_text(variation);
       if (!found.note.empty()) found.note += ", ";
-      if (!other) {
-        found.note += text + ": not done";
-        continue;
-      }
-      const double change = distance(quantity_, answer, *other) / scale(answer);
-      found.note += fmt::format("{}: {:+.2g} %", text, change * 100);
-      found.amount = std::max(found.amount.value_or(0), std::abs(change));
+      const double change = other ? distance(quantity_, answer, *other) / scale(answer) : NAN;
+      found.note += text + (std::isfinite(change) ? fmt::format(": {:+.2g} %", change * 100) : ": not known");
+      // What is missing might be what counts.
+      if (!std::isfinite(change)) found.amount.reset();
+      if (found.amount) found.amount = std::max(*found.amount, std::abs(change));
     }
     return found;
   }
 
+  /// 0 for an answer of 0, whose changes are no parts of it.
   double scale(const Answer& base) const
   {
-    if (quantity_.is_column()) return 1;
-    const double magnitude = std::abs(base.value);
-    return quantity_.scale.value_or(magnitude > 0 ? magnitude : 1);
+    return quantity_.is_column() ? 1 : quantity_.scale.value_or(std::abs(base.value));
   }
 
   const Study& study_;

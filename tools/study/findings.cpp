@@ -47,7 +47,19 @@ Settings without(Settings settings, const std::string& pointer)
   return settings;
 }
 
-/// The points of each method that differ in the refined setting alone, in the order of the list.
+/// Larger values are coarser, unless the reference's rise.
+void sort_from_coarse_to_fine(const Study& study, std::vector<const MeasuredPoint*>& group)
+{
+  const bool rises = study.reference && study.reference->refinement.pointer == study.refine &&
+                     study.reference->refinement.values.front() < study.reference->refinement.values.back();
+  const auto spacing = [&](const MeasuredPoint* one) {
+    const double value = one->point.setting(study.refine).get<double>();
+    return rises ? -value : value;
+  };
+  std::stable_sort(group.begin(), group.end(), [&](const auto* a, const auto* b) { return spacing(a) > spacing(b); });
+}
+
+/// The points of each method that differ in the refined setting alone, from coarse to fine.
 std::vector<std::vector<const MeasuredPoint*>> refined_groups(const Study& study,
                                                               const std::vector<MeasuredPoint>& points)
 {
@@ -66,6 +78,7 @@ std::vector<std::vector<const MeasuredPoint*>> refined_groups(const Study& study
       group->push_back(&one);
     }
   }
+  for (auto& group : groups) sort_from_coarse_to_fine(study, group);
   return groups;
 }
 
@@ -114,8 +127,11 @@ class References
   /// For all points, or the least certain of those of the methods.
   const Reference& common() const { return common_; }
 
+  /// None for a variation of an error budget where each method has its own.
   const Reference& of(const Point& point) const
   {
+    static const Reference none;
+    if (!own_.empty() && point.role == Point::Role::variation) return none;
     const auto own = own_.find(point.role == Point::Role::reference ? point.reference_of : point.method);
     return own == own_.end() ? common_ : own->second;
   }
@@ -152,10 +168,11 @@ QuantityFindings findings_of_one(const Study& study, const Quantity& quantity, c
   for (const MeasuredPoint& one : points) {
     if (!one.done()) continue;
     const Answer answer = answer_of(study, quantity, one.result);
+    if (!std::isfinite(answer.value)) continue;
     if (!quantity.is_column()) found.values[one.point.id] = answer.value;
     const Reference& reference = references.of(one.point);
     const auto error = reference.error(quantity, answer);
-    if (error && !is_itself(reference, one, points)) found.errors[one.point.id] = *error;
+    if (error && std::isfinite(*error) && !is_itself(reference, one, points)) found.errors[one.point.id] = *error;
   }
   found.front = pareto_front(study, points, found.errors);
   if (!study.refine.empty()) {

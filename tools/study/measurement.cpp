@@ -29,24 +29,34 @@ Json resolved(const Measure& measure, const Settings& settings)
                                             : read_checked_material(measure.file, assignments).resolved;
 }
 
-/// A pointer means something if what it points into is there, with the settings before it.
-void expect_places(const Study& study, const Json& base, const Settings& settings)
+/// A key of an object that is there, which may be new, or an item of a list.
+bool is_place(const Json& document, const JsonPointer& pointer)
 {
-  Json document = base;
+  const JsonPointer above = pointer.parent_pointer();
+  if (!document.contains(above)) return false;
+  return document.at(above).is_object() ? pointer.back() != "-" : document.contains(pointer);
+}
+
+/// Each pointer means something with the settings before it.
+void expect_places(const Study& study, Json document, const Settings& settings)
+{
   for (const auto& [pointer, value] : settings) {
-    const JsonPointer above = JsonPointer(pointer).parent_pointer();
-    const bool exists = document.contains(above) && (document.at(above).is_object() || document.at(above).is_array());
-    if (!exists) {
+    const JsonPointer place(pointer);
+    if (!is_place(document, place)) {
       throw InputError({study.file.string() + "#", fmt::format("{}: there is no such place", pointer),
                         fmt::format("expected a JSON pointer into {}", study.measure.file.string())});
     }
-    try {
-      document[JsonPointer(pointer)] = value;
-    } catch (const Json::exception&) {
-      throw InputError({study.file.string() + "#", fmt::format("{}: no place in a list", pointer),
-                        fmt::format("expected a JSON pointer into {}", study.measure.file.string())});
-    }
+    document[place] = value;
   }
+}
+
+/// A setting that no point has refines nothing.
+void expect_refined(const Study& study, const std::vector<Point>& points)
+{
+  const auto has = [&](const Point& point) { return !point.setting(study.refine).is_null(); };
+  if (study.refine.empty() || std::any_of(points.begin(), points.end(), has)) return;
+  throw InputError({study.file.string() + "#/refine", fmt::format("{}, which no point sets", study.refine),
+                    "expected a JSON pointer that is swept"});
 }
 
 /// A key that nobody knows is a mistake of the study; other settings that are refused are an answer.
@@ -109,6 +119,7 @@ Measurement measurement_of(const Study& study, const Settings& settings)
 
 std::vector<Measurement> measurements_of(const Study& study, const std::vector<Point>& points)
 {
+  expect_refined(study, points);
   const Json base = resolved(study.measure, {});
   std::vector<Measurement> measurements;
   for (const Point& point : points) {

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <fstream>
+#include <stdexcept>
 
 #include "runtime/storage/whole_file.hpp"
 #include "tools/scene/csv_table.hpp"
@@ -21,6 +22,7 @@ constexpr std::array<const char*, 4> end_words{"done", "limit", "unstable", "ref
 End end_of(const std::string& word)
 {
   const auto at = std::find(end_words.begin(), end_words.end(), word);
+  if (at == end_words.end()) throw std::out_of_range(word);
   return static_cast<End>(at - end_words.begin());
 }
 
@@ -58,11 +60,17 @@ std::optional<PointResult::Spread> PointResult::cost(const std::string& key) con
 
 std::optional<PointResult> read_result(const std::filesystem::path& folder)
 {
-  const Json json = Json::parse(std::ifstream(folder / result_file), nullptr, false);
-  if (json.is_discarded()) return std::nullopt;
-  PointResult result{end_of(json.at("ended")), json.at("reason"), json.at("costs").get<std::vector<Cost>>(),
-                     json.at("limit_s").is_null() ? HUGE_VAL : json.at("limit_s").get<double>(), folder};
-  return result;
+  try {
+    const Json json = Json::parse(std::ifstream(folder / result_file));
+    PointResult result{end_of(json.at("ended")), json.at("reason"), json.at("costs").get<std::vector<Cost>>(),
+                       json.at("limit_s").is_null() ? HUGE_VAL : json.at("limit_s").get<double>(), folder};
+    if (!result.cost("core_s")) return std::nullopt;
+    return result;
+  } catch (const Json::exception&) {  // none, or not what was written
+    return std::nullopt;
+  } catch (const std::out_of_range&) {
+    return std::nullopt;
+  }
 }
 
 void write_result(const PointResult& result)

@@ -144,7 +144,10 @@ std::string settings_text(const Settings& settings)
 {
   std::vector<std::string> texts;
   for (const auto& [pointer, value] : settings) {
-    texts.push_back(pointer_name(pointer) + " " + (value.is_string() ? value.get<std::string>() : value.dump()));
+    const std::string name = pointer_name(pointer);
+    const auto is_alike = [&](const auto& other) { return pointer_name(other.first) == name; };
+    const bool is_unique = std::count_if(settings.begin(), settings.end(), is_alike) == 1;
+    texts.push_back((is_unique ? name : pointer) + " " + (value.is_string() ? value.get<std::string>() : value.dump()));
   }
   return fmt::format("{}", fmt::join(texts, ", "));
 }

@@ -30,6 +30,10 @@ struct Point {
   /// Of a reference of one method alone, that method.
   std::string reference_of{};
 
+  /// Method and label.
+  std::string name() const { return label.empty() ? method : method + ", " + label; }
+  /// Of a run of the reference: "the run with cell size 0.005".
+  std::string run_name() const { return label.empty() ? "the run" : "the run with " + label; }
   /// Null where a pointer is not set.
   Json setting(const std::string& pointer) const;
 };

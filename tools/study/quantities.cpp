@@ -66,10 +66,13 @@ double quantile_of_field(const Study& study, const Quantity& quantity, const Poi
   const std::string path = fmt::format("{}/particles/{}/{}", last, quantity.material, quantity.field);
   std::vector<double> values;
   try {
-    values = file.read<double>(path);
+    if (file.info(path).dimensions.size() == 1) values = file.read<double>(path);
   } catch (const runtime::FileError&) {
+    // Told below, in the study's words.
+  }
+  if (values.empty()) {
     throw InputError({study.file.string() + "#/quantities",
-                      fmt::format("there is no field {} of {}", quantity.field, quantity.material),
+                      fmt::format("there are no numbers {} of {}", quantity.field, quantity.material),
                       "expected a scalar field that the runs write"});
   }
   const auto place = static_cast<std::ptrdiff_t>(quantity.quantile * static_cast<double>(values.size() - 1));
@@ -82,6 +85,7 @@ double curve_distance(const Answer& reference, const Answer& other)
   double apart = 0, greatest = 0;
   for (std::size_t i = 0; i < reference.times.size(); ++i) {
     const double there = value_at(other.times, other.column, reference.times[i]);
+    if (!std::isfinite(there) || !std::isfinite(reference.column[i])) return NAN;
     apart = std::max(apart, std::abs(there - reference.column[i]));
     greatest = std::max(greatest, std::abs(reference.column[i]));
   }
@@ -89,24 +93,25 @@ double curve_distance(const Answer& reference, const Answer& other)
 }
 
 /// Root mean square, and the greatest, of the differences relative to the reference; rows where that is 0 do not count.
+/// NaN where nothing can be compared.
 struct RowDistances {
-  double rms = 0, greatest = 0;
+  double rms = NAN, greatest = NAN;
 };
 
 RowDistances row_distances(const Answer& reference, const Answer& other)
 {
-  RowDistances found;
-  double sum = 0;
+  if (reference.column.size() != other.column.size()) return {};
+  double sum = 0, greatest = 0;
   std::size_t n = 0;
-  for (std::size_t i = 0; i < std::min(reference.column.size(), other.column.size()); ++i) {
-    if (reference.column[i] == 0 || !std::isfinite(reference.column[i])) continue;
+  for (std::size_t i = 0; i < reference.column.size(); ++i) {
+    if (reference.column[i] == 0) continue;
     const double apart = std::abs(other.column[i] / reference.column[i] - 1);
+    if (!std::isfinite(apart)) return {};
     sum += apart * apart;
-    found.greatest = std::max(found.greatest, apart);
+    greatest = std::max(greatest, apart);
     ++n;
   }
-  if (n > 0) found.rms = std::sqrt(sum / static_cast<double>(n));
-  return found;
+  return n == 0 ? RowDistances{} : RowDistances{std::sqrt(sum / static_cast<double>(n)), greatest};
 }
 
 }  // namespace
@@ -156,8 +161,11 @@ bool asks_for_fields(const Study& study)
 
 bool has_all(const Study& study, const PointResult& result)
 {
-  std::error_code none;
-  const auto is_there = [&](const char* name) { return std::filesystem::exists(result.folder / name, none); };
+  const auto is_there = [&](const char* name) {
+    std::error_code missing;
+    const auto size = std::filesystem::file_size(result.folder / name, missing);
+    return !missing && size > 0;
+  };
   return is_there("history.csv") && (is_there("fields.h5") || !asks_for_fields(study));
 }
 

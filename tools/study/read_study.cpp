@@ -83,6 +83,13 @@ class StudyReader
     if (kind == Kind::drive) study_.measure.along = from_here(reader.existing_file("path"));
     if (kind == Kind::drive) study_.measure.increment = reader.number("increment");
     if (kind == Kind::modulus) study_.measure.along = from_here(reader.existing_file("states"));
+    const auto is_needed = [&](const char* name) {
+      return (name == std::string("path") && kind == Kind::drive) ||
+             (name == std::string("states") && kind == Kind::modulus);
+    };
+    for (const char* name : {"path", "states"}) {
+      if (reader.has(name) && !is_needed(name)) reader.add_problem(name, "given beside " + key, "expected no such key");
+    }
     reader.finish();
   }
 
@@ -133,7 +140,6 @@ class StudyReader
       read_place(reader, quantity);
       quantity.exact = reader.optional_number("exact");
       quantity.scale = reader.optional_number("scale");
-      if (quantity.exact == 0.0 && !quantity.scale) quantity.scale = 1;
       reader.finish();
       study_.quantities.push_back(std::move(quantity));
     }
@@ -345,7 +351,11 @@ class StudyReader
 Study read_study(const std::filesystem::path& file, bool in_short)
 {
   Document document(file);
-  if (in_short && document.root.contains("short")) document.root.merge_patch(Json(document.root["short"]));
+  if (in_short && document.root.contains("short")) {
+    const Json patch = document.root["short"];
+    if (!patch.is_object()) throw InputError({file.string() + "#/short", patch.type_name(), "expected an object"});
+    document.root.merge_patch(patch);
+  }
   Study study = StudyReader(document).read();
   if (!document.problems.empty()) throw InputError(std::move(document.problems));
   return study;

@@ -32,7 +32,7 @@ void scale_errors(const Quantity& quantity, Reference& reference)
   if (quantity.is_column()) return;
   const double magnitude = std::abs(reference.answer.value);
   reference.scale = quantity.scale.value_or(magnitude > 0 ? magnitude : 1);
-  reference.relative = magnitude > 0 || (quantity.scale && *quantity.scale != 1);
+  reference.relative = magnitude > 0 || quantity.scale;
 }
 
 /// What the answers on finer and finer grids tend to.
@@ -86,10 +86,19 @@ std::string problem_of(const std::vector<const MeasuredPoint*>& runs)
 {
   for (const MeasuredPoint* run : runs) {
     if (run->done()) continue;
-    return fmt::format("no reference: {} ended with {}: {}", run->point.label, to_text(run->result.end),
+    return fmt::format("no reference: {} ended with {}: {}", run->point.run_name(), to_text(run->result.end),
                        run->result.reason);
   }
   return "";
+}
+
+/// The form that is missing might be the one that does not agree.
+void claim_nothing(const MeasuredPoint& form, Reference& reference)
+{
+  reference.note =
+      fmt::format("no bound: {}, beside it, ended with {}", form.point.run_name(), to_text(form.result.end));
+  reference.bound = false;
+  reference.uncertainty.reset();
 }
 
 /// The reference is known no better than forms with as good a claim agree with it.
@@ -99,7 +108,7 @@ void compare_with_other_forms(const Study& study, const Quantity& quantity,
   double furthest = 0;
   std::string label;
   for (const MeasuredPoint* form : forms) {
-    if (!form->done()) continue;
+    if (!form->done()) return claim_nothing(*form, reference);
     const double apart = *reference.error(quantity, answer_of(study, quantity, form->result));
     if (apart > furthest) label = form->point.label;
     furthest = std::max(furthest, apart);

@@ -12,6 +12,8 @@ namespace
 {
 
 constexpr double highest_order = 2;
+/// Below it what is missing would be several times as large as what was seen.
+constexpr double lowest_order = 0.5;
 
 /// (h1^p - h2^p) / (h2^p - h3^p), which grows with p.
 double ratio_of_differences(double h1, double h2, double h3, double order)
@@ -19,11 +21,11 @@ double ratio_of_differences(double h1, double h2, double h3, double order)
   return std::expm1(order * std::log(h1 / h2)) / -std::expm1(order * std::log(h3 / h2));
 }
 
-/// The order at which the differences have this ratio; below 0 for none.
+/// The order at which the differences have this ratio; below 0 where it is too low, or there is none.
 double order_of(double h1, double h2, double h3, double ratio)
 {
-  double low = 1e-3, high = 20;
-  if (ratio <= ratio_of_differences(h1, h2, h3, low)) return -1;
+  double low = lowest_order, high = 20;
+  if (!(ratio >= ratio_of_differences(h1, h2, h3, low)) || std::isinf(ratio)) return -1;
   for (int i = 0; i < 100; ++i) {
     const double middle = (low + high) / 2;
     (ratio_of_differences(h1, h2, h3, middle) < ratio ? low : high) = middle;
@@ -33,6 +35,7 @@ double order_of(double h1, double h2, double h3, double ratio)
 
 bool fall(std::span<const double> differences)
 {
+  if (!std::all_of(differences.begin(), differences.end(), [](double d) { return std::isfinite(d); })) return false;
   for (std::size_t i = 1; i < differences.size(); ++i) {
     if (differences[i] * differences[i - 1] < 0 || std::abs(differences[i]) >= std::abs(differences[i - 1])) {
       return false;
@@ -53,7 +56,7 @@ Convergence convergence(std::span<const double> spacings, std::span<const double
   const double order = fall(differences) ? order_of(h1, h2, h3, ratio) : -1;
   if (order < 0) {
     return {false, 0, 0,
-            fmt::format("no bound: from grid to grid the answer changes by {:.3g}, then by {:.3g}", differences[n - 2],
+            fmt::format("no bound: on the last grids the answer changes by {:.3g}, then by {:.3g}", differences[n - 2],
                         differences[n - 1])};
   }
   const double used = std::min(order, highest_order);

@@ -21,7 +21,7 @@ struct Convergence {
 /// `spacings` fall from coarse to fine, three or more; `differences` between answers on neighbouring ones, the finer
 /// less the coarser, are one fewer. With error c h^p, the last differences are in the ratio (h1^p - h2^p) / (h2^p -
 /// h3^p), which gives p, and the rest is that of the last difference times h3^p / (h2^p - h3^p) (Richardson). Orders
-/// above 2, which no method here has, are taken as 2 there.
+/// above 2, which no method here has, are taken as 2 there; below 1/2 nothing is claimed.
 Convergence convergence(std::span<const double> spacings, std::span<const double> differences);
 
 /// Slope of log(error) over log(spacing), by least squares; 0 errors are left out. NaN for fewer than `n_least`.

@@ -31,15 +31,18 @@ std::string complaint(const fs::path& errors)
     constexpr std::string_view prefix = "tamp: ";
     if (line.starts_with(prefix)) line.erase(0, prefix.size());
     if (line.starts_with("warning: ")) continue;
+    // That state is not kept here.
+    line.erase(std::min(line.find("; the last state is kept in"), line.size()));
     text += (text.empty() ? "" : "; ") + line;
   }
   return text;
 }
 
-bool hit_limit(const ChildEnd& end)
+/// Of its own accord, or, where it did not listen, by the kernel.
+bool hit_limit(const ChildEnd& end, double limit)
 {
   return end.exit_code == static_cast<int>(ExitCode::signal) + SIGXCPU || end.signal == SIGXCPU ||
-         end.signal == SIGKILL;
+         (end.signal == SIGKILL && end.user_s >= limit);
 }
 
 Cost cost_of(const Study& study, const Json& summary, double user_s)
@@ -76,10 +79,10 @@ class PointRunner
   {
     Task*& task = task_of_key_[measurement.key];
     if (task == nullptr) {
-      tasks_.push_back(std::make_unique<Task>(Task{&measurement, point.method + ", " + point.label}));
+      tasks_.push_back(std::make_unique<Task>(Task{&measurement, point.name()}));
       task = tasks_.back().get();
       task->result = kept(measurement.key);
-      if (task->result) note_time(*task->result);
+      if (point.role == Point::Role::chart && task->result) note_time(*task->result);
     }
     const bool charted = point.role == Point::Role::chart;
     task->timed_well |= charted;
@@ -121,8 +124,9 @@ class PointRunner
     if (!task.result) return true;
     if (round == 0 && may_take_longer(task)) return true;
     if (round == 0 || !task.timed_well || task.result->end != End::done) return false;
-    return static_cast<int>(task.result->costs.size()) <= round &&
-           task.result->cost("core_s")->median < study_.repeat_below;
+    const double seconds = task.result->cost("core_s")->median;
+    return static_cast<int>(task.result->costs.size()) <= round && seconds < study_.repeat_below &&
+           seconds < limit_of(task);
   }
 
   void note_time(const PointResult& result)
@@ -141,14 +145,17 @@ class PointRunner
     const fs::path folder = folder_of(task.measurement->key), fresh = folder.string() + ".new";
     PointResult result = one_run(task, fresh);
     const bool was_done = task.result && task.result->end == End::done;
-    if (was_done && result.end != End::done) return;  // the answer is known; the machine was too busy for a timing
+    if (was_done && result.end != End::done) {  // the answer is known; the machine was too busy for a timing
+      fs::remove_all(fresh);
+      return;
+    }
     if (was_done) result.costs.insert(result.costs.begin(), task.result->costs.begin(), task.result->costs.end());
     if (result.end == End::done) expect_all(study_, result);
     write_result(result);
     fs::remove_all(folder);
     fs::rename(fresh, folder);
     result.folder = folder;
-    note_time(result);
+    if (task.timed_well) note_time(result);
     task.result = std::move(result);
     tell(task, round);
   }
@@ -167,15 +174,15 @@ class PointRunner
       result.costs.push_back(cost_of(study_, summary, end.user_s));
     } else {
       result.costs.push_back({{"core_s", end.user_s}});
-      note_failure(end, complaint(errors), result);
+      note_failure(end, limit, complaint(errors), result);
     }
     remove_what_is_not_asked_for(folder);
     return result;
   }
 
-  void note_failure(const ChildEnd& end, const std::string& said, PointResult& result) const
+  void note_failure(const ChildEnd& end, double limit, const std::string& said, PointResult& result) const
   {
-    if (hit_limit(end)) {
+    if (hit_limit(end, limit)) {
       result.end = End::limit;
       result.reason = fmt::format("not done after {:.3g} s of processor time", end.user_s);
     } else if (end.exit_code == static_cast<int>(ExitCode::bad_simulation)) {
@@ -222,20 +229,23 @@ class PointRunner
   double fastest_ = std::numeric_limits<double>::infinity();
 };
 
-/// Which points are too slow may not depend on the order in which they ran.
-void apply_relative_limit(const Study& study, const std::vector<Point>& points, std::vector<PointResult>& results)
+/// Which points are too slow may not depend on the order in which they ran, or on what was known of them before.
+void apply_limits(const Study& study, const std::vector<Point>& points, std::vector<PointResult>& results)
 {
+  const auto counts = [&](std::size_t i) {
+    return points[i].role == Point::Role::chart && results[i].end == End::done;
+  };
   double fastest = std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < points.size(); ++i) {
-    if (points[i].role != Point::Role::chart || results[i].end != End::done) continue;
-    fastest = std::min(fastest, results[i].cost("core_s")->median);
+    if (counts(i)) fastest = std::min(fastest, results[i].cost("core_s")->median);
   }
   for (std::size_t i = 0; i < points.size(); ++i) {
-    if (points[i].role != Point::Role::chart || results[i].end != End::done) continue;
+    if (!counts(i)) continue;
     const double seconds = results[i].cost("core_s")->median;
-    if (seconds <= study.limit_over_fastest * fastest) continue;
+    if (seconds <= std::min(std::max(study.limit, 1.0), study.limit_over_fastest * fastest)) continue;
     results[i].end = End::limit;
-    results[i].reason = fmt::format("took {:.3g} times as long as the fastest point", seconds / fastest);
+    results[i].reason =
+        fmt::format("took {:.3g} s, {:.3g} times as long as the fastest point", seconds, seconds / fastest);
   }
 }
 
@@ -254,7 +264,7 @@ std::vector<PointResult> run_points(const Study& study, const std::vector<Point>
     results.push_back(measurement.refusal.empty() ? runner.result(measurement.key)
                                                   : PointResult{End::refused, measurement.refusal, {}, 0, {}});
   }
-  apply_relative_limit(study, points, results);
+  apply_limits(study, points, results);
   return results;
 }
 

@@ -6,6 +6,7 @@
 #include "tasks/simulation_error.hpp"
 #include "tools/charts.hpp"
 #include "tools/console.hpp"
+#include "tools/shell_word.hpp"
 #include "tools/study/run_points.hpp"
 #include "tools/study/study_folder.hpp"
 #include "tools/study/study_report.hpp"
@@ -18,8 +19,8 @@ namespace
 
 std::string command_of(const StudyOptions& options)
 {
-  return fmt::format("tamp study {}{}{}", options.file.string(), options.in_short ? " --short" : "",
-                     options.folder.empty() ? "" : " --out " + options.folder.string());
+  return fmt::format("tamp study {}{}{}", shell_word(options.file.string()), options.in_short ? " --short" : "",
+                     options.folder.empty() ? "" : " --out " + shell_word(options.folder.string()));
 }
 
 /// What can be refused is refused before anything runs.
@@ -27,7 +28,8 @@ void expect_sound_reference(const Study& study, const std::vector<Point>& points
                             const std::vector<Measurement>& measurements)
 {
   for (std::size_t i = 0; i < points.size(); ++i) {
-    if (points[i].role != Point::Role::reference || measurements[i].refusal.empty()) continue;
+    const bool is_of_reference = points[i].role == Point::Role::reference || points[i].role == Point::Role::witness;
+    if (!is_of_reference || measurements[i].refusal.empty()) continue;
     throw InputError({study.file.string() + "#/reference", measurements[i].refusal, "expected runs that can be done"});
   }
 }
@@ -54,7 +56,7 @@ void complain_of_reference(const StudyResults& results)
 {
   for (const MeasuredPoint& one : results.points) {
     if (one.point.role != Point::Role::reference || one.done()) continue;
-    throw tasks::SimulationError(fmt::format("the reference, {}, ended with {}: {}", one.point.label,
+    throw tasks::SimulationError(fmt::format("the reference, {}, ended with {}: {}", one.point.run_name(),
                                              to_text(one.result.end), one.result.reason),
                                  "", -1, {});
   }

@@ -7,6 +7,7 @@
 #include "runtime/file_error.hpp"
 #include "runtime/storage/whole_file.hpp"
 #include "tools/errors.hpp"
+#include "tools/machine.hpp"
 #include "tools/scene/document.hpp"
 #include "tools/scene/input_file.hpp"
 #include "tools/version.hpp"
@@ -68,17 +69,18 @@ StudyFolder::StudyFolder(const fs::path& folder, bool force) : folder_(folder)
 
 void StudyFolder::expect_own_program(bool force) const
 {
+  const Json own{{"program", program_hash()}, {"version", version()}, {"processor", machine_json()["processor"]}};
   const Json mark = Json::parse(std::ifstream(folder_ / study_mark), nullptr, false);
-  const std::string other = mark.is_object() ? mark.value("program", "") : "";
-  if (!mark.is_discarded() && other != program_hash()) {
+  if (fs::exists(folder_ / study_mark) && mark != own) {
     if (!force) {
-      throw InputError({folder_.string(), fmt::format("results of another program ({})", mark.value("version", "")),
-                        "expected results of this one; --force removes them, --out names another folder"});
+      throw InputError(
+          {folder_.string(), fmt::format("results of another program or processor: {}", mark.dump()),
+           fmt::format("expected results of this one, {}; --force removes them, --out names another folder",
+                       own.dump())});
     }
     fs::remove_all(points());
   }
-  runtime::write_whole_file(folder_ / study_mark,
-                            Json{{"program", program_hash()}, {"version", version()}}.dump() + "\n");
+  runtime::write_whole_file(folder_ / study_mark, own.dump() + "\n");
 }
 
 }  // namespace tamp::tools::study

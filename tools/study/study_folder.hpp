@@ -9,8 +9,8 @@ namespace tamp::tools::study
 {
 
 /// A study's folder, which is one program's alone while this lives: what it has found, in `points` a folder for each
-/// result, and the mark `.tamp-study`, which says what program made them. Results of another program are no results of
-/// this one.
+/// result, and the mark `.tamp-study`, which says what program made them on which processor. Results of another program
+/// are no results of this one, and times of another processor none of this one.
 class StudyFolder
 {
  public:

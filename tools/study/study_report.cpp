@@ -9,6 +9,7 @@
 
 #include "tools/csv_text.hpp"
 #include "tools/machine.hpp"
+#include "tools/shell_word.hpp"
 #include "tools/version.hpp"
 
 namespace tamp::tools::study
@@ -113,22 +114,10 @@ Json cost_json(const StudyResults& results, const PointResult& result)
   return cost;
 }
 
-/// As a shell takes it.
-std::string quoted(const std::string& word)
-{
-  const bool is_plain =
-      word.find_first_not_of("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-+=/.,:%@") ==
-      std::string::npos;
-  if (is_plain && !word.empty()) return word;
-  std::string text = "'";
-  for (const char c : word) text += c == '\'' ? std::string("'\\''") : std::string(1, c);
-  return text + "'";
-}
-
 std::string command_text(const Measurement& measurement)
 {
   std::string text = "tamp";
-  for (const std::string& word : measurement.command) text += " " + quoted(word);
+  for (const std::string& word : measurement.command) text += " " + shell_word(word);
   return text;
 }
 

@@ -120,7 +120,7 @@ TEST_CASE("a reference that is not done is none, and failed points have no error
   const QuantityFindings found = answered.findings({1, 1, NAN, 1, 1, NAN}, {1, 2, 3, 1, 2, 3}).quantities[0];
 
   CHECK(found.reference.kind == Reference::Kind::none);
-  CHECK_THAT(found.reference.note, Catch::StartsWith("no reference: h 1 ended with unstable"));
+  CHECK_THAT(found.reference.note, Catch::StartsWith("no reference: the run with h 1 ended with unstable"));
   CHECK(found.errors.empty());
   CHECK(found.values.size() == 4);
 }
@@ -135,6 +135,31 @@ TEST_CASE("the front has the points than which none is cheaper and better")
 
   CHECK(found.front == std::vector<int>{1, 3, 5});
   CHECK(found.reference.kind == Reference::Kind::exact);
+}
+
+TEST_CASE("an order does not depend on how the sweep is listed")
+{
+  AnsweredStudy answered;
+  answered.study.quantities[0].exact = 1;
+  answered.study.methods[0].sweep[0].values = {1, 4, 2};
+
+  const OrderFit fit = answered.findings({0.99, 0.84, 0.96}, {64, 1, 8}).quantities[0].orders[0];
+
+  CHECK(fit.points == std::vector<int>{2, 3, 1});
+  CHECK(*fit.order == Approx(2));
+  CHECK(*fit.cost_power == Approx(-3));
+}
+
+TEST_CASE("a part of an error budget with a run that failed has no bound")
+{
+  AnsweredStudy answered;
+  answered.study.methods[0].sweep.clear();
+  answered.study.budget = Budget{{"depth"}, {{"base", {}}}, {{"step", false, {{{"/m", 0.5}}, {{"/m", 0.25}}}}}};
+
+  const Findings found = answered.findings({0.96, 0.96, 0.97, NAN}, {1, 1, 1, 1});
+
+  CHECK_FALSE(found.budgets.at(0).parts[0].amount);
+  CHECK_THAT(found.budgets.at(0).parts[0].note, Catch::Contains("m 0.25: not known"));
 }
 
 TEST_CASE("an error budget has the greatest change of each part, and the distance from the reference")

@@ -59,6 +59,15 @@ TEST_CASE("rows are apart relative to the reference's, where that is not 0")
   CHECK(distance(depth(Take::rows_rms), reference, other) == Approx(std::sqrt((0.01 + 0.04) / 2)));
 }
 
+TEST_CASE("nothing is said of rows that cannot be compared")
+{
+  const Quantity rows = depth(Take::rows_max);
+  const Answer zeros = taken(rows, "0,0\n1,0\n"), two = taken(rows, "0,1\n1,2\n"), three = taken(rows);
+  CHECK(std::isnan(distance(rows, zeros, two)));
+  CHECK(std::isnan(distance(rows, two, three)));
+  CHECK(std::isnan(distance(depth(Take::curve), taken(depth(Take::curve)), taken(depth(Take::curve), "0,x\n4,1\n"))));
+}
+
 TEST_CASE("a column that is not there is told, with those that are")
 {
   CHECK_THAT(problems_of_reading(TemporaryFolder(),

@@ -22,7 +22,7 @@ std::vector<double> differences(const std::vector<double>& spacings, double c, d
 
 TEST_CASE("answers with one power of the spacing give that order, and what the finest lacks")
 {
-  const double order = GENERATE(0.5, 1.0, 1.3, 2.0);
+  const double order = GENERATE(0.6, 1.0, 1.3, 2.0);
   const double c = GENERATE(3.0, -0.2);
   const std::vector<double> spacings = GENERATE(std::vector{0.04, 0.02, 0.01}, std::vector{0.05, 0.02, 0.01, 0.004});
 
@@ -54,6 +54,14 @@ TEST_CASE("differences that do not fall, change sign or fall too slowly claim no
   CHECK(convergence(spacings, std::vector{0.3, 0.4}).note.starts_with("no bound"));
   // The last two fall, but those before them did not.
   CHECK_FALSE(convergence(std::vector<double>{8, 4, 2, 1}, std::vector{0.3, 0.4, 0.2}).falls);
+}
+
+TEST_CASE("an order so low that most is missing, two finest answers alike, and what is no number claim nothing")
+{
+  const std::vector<double> spacings{4, 2, 1};
+  CHECK_FALSE(convergence(spacings, differences(spacings, 1, 0.4)).falls);
+  CHECK_FALSE(convergence(spacings, std::vector{0.1, 0.0}).falls);
+  CHECK_FALSE(convergence(spacings, std::vector{NAN, 0.1}).falls);
 }
 
 TEST_CASE("the same answer on all grids lacks nothing")

@@ -171,6 +171,54 @@ TEST_CASE("points far slower than the fastest end at its limit, and stay ended")
   CHECK(read_text(study.out() / "study.json") == first);
 }
 
+TEST_CASE("a slow point that was done stays done however its later timings end")
+{
+  const FlightStudy study;
+  const std::string patch = R"({
+    "limit_times_fastest": 20, "sweep": null, "repeat": 2,
+    "points": [{ "method": "flight", "set": { "/grid/cell_size": 0.005, "/time/end": 2e-3 } },
+               { "method": "flight", "set": { "/grid/cell_size": 0.2 } }]
+  })";
+  REQUIRE(study.run(patch).exit_code == 0);
+
+  for (const auto& entry : std::filesystem::directory_iterator(study.out() / "points")) {
+    if (!std::filesystem::is_directory(entry)) continue;
+    CHECK(Json::parse(read_text(entry.path() / "result.json"))["ended"] == "done");
+    CHECK(Json::parse(read_text(entry.path() / "summary.json"))["status"] != "interrupted");
+  }
+}
+
+TEST_CASE("a run that somebody kills is no result")
+{
+  const FlightStudy study;
+  BackgroundProgram program(TAMP_PROGRAM,
+                            study.arguments(R"({"sweep": null, "set": {"/time/end": 1e3, "/limits/energy_error": "off",
+                              "/output/history_interval": 1, "/output/fields_interval": 100}})"));
+  wait_until([&] { return !program.children().empty(); });
+
+  kill(program.children().front(), SIGKILL);
+
+  CHECK(program.exit_code() == 4);
+  CHECK(study.n_kept() == 0);
+}
+
+TEST_CASE("damaged results are measured anew")
+{
+  const FlightStudy study;
+  REQUIRE(study.run().exit_code == 0);
+  const std::string damage = GENERATE("", "[]", R"({"ended": "weird", "reason": "", "costs": [], "limit_s": 1})",
+                                      R"({"ended": "done", "reason": "", "costs": [], "limit_s": 1})");
+  for (const auto& entry : std::filesystem::directory_iterator(study.out() / "points")) {
+    if (std::filesystem::is_directory(entry)) std::ofstream(entry.path() / "result.json") << damage;
+  }
+
+  const Outcome outcome = study.run();
+
+  INFO(damage << ": " << outcome.err);
+  CHECK(outcome.exit_code == 0);
+  CHECK(study.results()["points"][0]["errors"]["depth"].get<double>() < 1e-9);
+}
+
 TEST_CASE("a study that is killed goes on where it was")
 {
   const FlightStudy study;
@@ -218,12 +266,15 @@ TEST_CASE("results of another program are refused, and removed only when asked")
 
   const Outcome refused = study.run();
   const std::size_t n_kept = study.n_kept();
+  std::ofstream(study.out() / "points" / "old") << "another program's";
   const Outcome forced = study.run("{}", "--force");
 
   CHECK(refused.exit_code == 2);
-  CHECK_THAT(refused.err, Contains("results of another program (0.0.9)") && Contains("--force"));
+  CHECK_THAT(refused.err,
+             Contains("results of another program or processor") && Contains("0.0.9") && Contains("--force"));
   CHECK(n_kept == 3);
   CHECK(forced.exit_code == 0);
+  CHECK_FALSE(std::filesystem::exists(study.out() / "points" / "old"));
 }
 
 TEST_CASE("a folder that is no study's is left alone")
@@ -240,11 +291,16 @@ TEST_CASE("a pointer to nothing ends a study before anything runs")
   const FlightStudy study;
   const Outcome misspelt = study.run(R"({"sweep": {"/grid/cel_size": [0.1]}})");
   const Outcome nowhere = study.run(R"({"set": {"/materials/sand/tolerance": 1}})");
+  const Outcome beyond = study.run(R"({"set": {"/grid/upper/3000000": 1}})");
+  const Outcome refined = study.run(R"({"refine": "/grid/cells"})");
 
   CHECK(misspelt.exit_code == 2);
   CHECK_THAT(misspelt.err, Contains("study.json#/grid/cel_size: unknown key; did you mean \"cell_size\"?"));
   CHECK(nowhere.exit_code == 2);
   CHECK_THAT(nowhere.err, Contains("/materials/sand/tolerance: there is no such place"));
+  CHECK(beyond.exit_code == 2);
+  CHECK(refined.exit_code == 2);
+  CHECK_THAT(refined.err, Contains("study.json#/refine: /grid/cells, which no point sets"));
   CHECK(study.n_kept() == 0);
 }
 
