@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
 
 #include "tools/scene/input_file.hpp"
 #include "tools/scene/read_material.hpp"
@@ -122,9 +123,13 @@ std::vector<Measurement> measurements_of(const Study& study, const std::vector<P
   expect_refined(study, points);
   const Json base = resolved(study.measure, {});
   std::vector<Measurement> measurements;
+  // To read a scene again takes time, as its models are made too.
+  std::map<Settings, Measurement> known;
   for (const Point& point : points) {
     expect_places(study, base, point.settings);
-    measurements.push_back(measurement_of(study, point.settings));
+    const auto [at, is_new] = known.try_emplace(point.settings);
+    if (is_new) at->second = measurement_of(study, point.settings);
+    measurements.push_back(at->second);
   }
   return measurements;
 }

@@ -58,6 +58,16 @@ std::optional<PointResult::Spread> PointResult::cost(const std::string& key) con
   return Spread{median(values), *least, *greatest};
 }
 
+const Columns& PointResult::columns() const
+{
+  if (!read_columns) {
+    Columns columns;
+    for (auto& [name, values] : numbers_by_column(folder / "history.csv")) columns[name] = std::move(values);
+    read_columns = std::make_shared<const Columns>(std::move(columns));
+  }
+  return *read_columns;
+}
+
 std::optional<PointResult> read_result(const std::filesystem::path& folder)
 {
   try {
@@ -78,13 +88,6 @@ void write_result(const PointResult& result)
   const Json json{
       {"ended", to_text(result.end)}, {"reason", result.reason}, {"limit_s", result.limit}, {"costs", result.costs}};
   runtime::write_whole_file(result.folder / result_file, json.dump(1) + "\n");
-}
-
-Columns columns_of(const PointResult& result)
-{
-  Columns columns;
-  for (auto& [name, values] : numbers_by_column(result.folder / "history.csv")) columns[name] = std::move(values);
-  return columns;
 }
 
 }  // namespace tamp::tools::study

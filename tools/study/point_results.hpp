@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -26,6 +27,9 @@ struct CostKind {
 };
 std::vector<CostKind> cost_kinds(Measure::Kind kind);
 
+/// The columns of a point's `history.csv` by name; NaN where a row has no number.
+using Columns = std::map<std::string, std::vector<double>>;
+
 /// What is known of a point. It is kept in a folder of its own, with what the point wrote: `history.csv` and
 /// `summary.json`.
 struct PointResult {
@@ -38,19 +42,21 @@ struct PointResult {
   double limit = 0;
   std::filesystem::path folder;
 
+  /// Read when they are first asked for.
+  const Columns& columns() const;
+
   /// Median, least and greatest of a cost; empty where it is not known.
   struct Spread {
     double median, least, greatest;
   };
   std::optional<Spread> cost(const std::string& key) const;
+
+  /// What `columns` has read.
+  mutable std::shared_ptr<const Columns> read_columns{};
 };
 
 /// The result that a folder keeps; empty where it keeps none.
 std::optional<PointResult> read_result(const std::filesystem::path& folder);
 void write_result(const PointResult& result);
-
-/// The columns of a point's `history.csv` by name; NaN where a row has no number.
-using Columns = std::map<std::string, std::vector<double>>;
-Columns columns_of(const PointResult& result);
 
 }  // namespace tamp::tools::study

@@ -119,7 +119,7 @@ RowDistances row_distances(const Answer& reference, const Answer& other)
 Answer answer_of(const Study& study, const Quantity& quantity, const PointResult& result)
 {
   if (quantity.take == Take::quantile) return {quantile_of_field(study, quantity, result), {}, {}};
-  const Columns columns = columns_of(result);
+  const Columns& columns = result.columns();
   const std::vector<double>& values = column(study, columns, quantity.column);
   switch (quantity.take) {
     case Take::greatest:

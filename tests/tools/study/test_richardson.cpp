@@ -49,8 +49,8 @@ TEST_CASE("differences that do not fall, change sign or fall too slowly claim no
   CHECK_FALSE(convergence(spacings, std::vector{0.3, 0.4}).falls);
   CHECK_FALSE(convergence(spacings, std::vector{0.4, 0.4}).falls);
   CHECK_FALSE(convergence(spacings, std::vector{0.4, -0.1}).falls);
-  // From 4 to 3 there is less to gain than from 3 to 1: this is no power of the spacing.
-  CHECK_FALSE(convergence(std::vector<double>{4, 3, 1}, std::vector{0.2, 0.19}).falls);
+  // From 8 to 2 there is more to gain than from 2 to 1: this is no power of the spacing.
+  CHECK_FALSE(convergence(std::vector<double>{8, 2, 1}, std::vector{0.2, 0.19}).falls);
   CHECK(convergence(spacings, std::vector{0.3, 0.4}).note.starts_with("no bound"));
   // The last two fall, but those before them did not.
   CHECK_FALSE(convergence(std::vector<double>{8, 4, 2, 1}, std::vector{0.3, 0.4, 0.2}).falls);

@@ -43,6 +43,8 @@ def draw(plan, title, layout):
 def y_label(plan):
     if not plan.quantity.has_reference:
         return f"{plan.quantity.name}, without a reference"
+    if not plan.quantity.has_bound:
+        return f"distance from the {'finest' if plan.quantity.reference['kind'] == 'finest' else 'one'} run: no bound of the error"
     return f"error of {plan.quantity.name}" + (" (of the reference)" if plan.quantity.relative else "")
 
 

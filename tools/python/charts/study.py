@@ -19,10 +19,15 @@ class Quantity(NamedTuple):
         return self.reference.get("kind", "none") != "none"
 
     @property
+    def has_bound(self):
+        """Whether errors are more than distances from the runs that they are compared with."""
+        return self.reference.get("bound", True)
+
+    @property
     def uncertainty(self):
         """Of the reference, in the unit of errors; None where there is no bound, 0 of an exact answer."""
         value = self.reference.get("uncertainty")
-        return value if is_number(value) and value >= 0 and self.reference.get("bound", True) else None
+        return value if is_number(value) and value >= 0 and self.has_bound else None
 
     def value_text(self, value):
         return si_text(value, self.unit)
