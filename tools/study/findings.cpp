@@ -132,7 +132,7 @@ class References
   {
     static const Reference none;
     if (!own_.empty() && point.role == Point::Role::variation) return none;
-    const auto own = own_.find(point.role == Point::Role::reference ? point.reference_of : point.method);
+    const auto own = own_.find(point.reference_of.empty() ? point.method : point.reference_of);
     return own == own_.end() ? common_ : own->second;
   }
 
