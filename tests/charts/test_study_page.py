@@ -19,7 +19,7 @@ DRAW = ROOT / "tools/python/draw_study.py"
 sys.path.insert(0, str(ROOT / "tests/charts"))
 sys.path.insert(0, str(ROOT / "tools/python"))
 
-from charts import axes, study_page, theme, words, work_precision  # noqa: E402
+from charts import axes, convergence, study_page, theme, words, work_precision  # noqa: E402
 from charts.study import Study  # noqa: E402
 from page_tags import Tags  # noqa: E402
 from punch_study import REFERENCE, failed, study  # noqa: E402
@@ -343,6 +343,19 @@ class OddStudies(unittest.TestCase):
         front = work_precision.front_of(known, known.quantities[0], across)
 
         self.assertEqual([p.id for p in front], [1, 3])
+
+
+    def test_the_fit_over_a_setting_whose_larger_values_are_finer_falls_with_it(self):
+        document = only(study(), 1, 2, 3)
+        for p, (value, error) in zip(document["points"], [(1, 0.16), (2, 0.04), (4, 0.01)]):
+            p["refine"], p["errors"]["greatest depth"] = value, error
+
+        known = Study(document)
+        [(_, xs, ys)] = convergence.guide("flatter", 2, known.points, known.quantities[0])
+
+        self.assertEqual(xs, [1, 4])
+        self.assertAlmostEqual(ys[0], 0.16)
+        self.assertAlmostEqual(ys[1], 0.01)
 
 
 class Words(unittest.TestCase):

@@ -7,7 +7,7 @@ from charts.lines import lines_of_methods
 from charts.plan import Across, Plan
 from charts.words import number_text
 
-ABOUT = """Towards the left everything is finer. An order is the slope of a line through the errors: half the {} divides
+ABOUT = """Towards the {} everything is finer. An order is the slope of a line through the errors: half the {} divides
 them by two to its power."""
 
 
@@ -17,7 +17,7 @@ def charts(study, quantity, prefix):
     name = study.refine.get("name", study.refine.get("pointer", ""))
     lines, guides = lines_with_orders(study, quantity)
     across = Across(name, lambda p: p.refine, study.refine_text, ticks_at_values=True)
-    about = ABOUT.format(name) + "".join(f" {label}: {note}." for label, note in notes(study, quantity))
+    about = ABOUT.format("right" if rises(study, quantity) else "left", name) + "".join(f" {label}: {note}." for label, note in notes(study, quantity))
     return [point_chart.make(Plan(study, quantity, across, lines, None, guides), f"{prefix}-convergence",
                              f"Error of {quantity.name} against {name}", about)]  # fmt: skip
 
@@ -42,6 +42,13 @@ def lines_with_orders(study, quantity):
     return lines, guides
 
 
+def rises(study, quantity):
+    """Whether larger values are finer, as of a number of particles: fits go from coarse to fine."""
+    by_id = {p.id: p for p in study.charted}
+    fits = [[by_id[i].refine for i in fit.get("points", []) if i in by_id] for fit in quantity.orders]
+    return any(fit[0] < fit[-1] for fit in fits if len(fit) > 1 and None not in fit)
+
+
 def guide(method, order, points, quantity):
     """Through the middle of the points, which is where a fit of least squares passes."""
     known = [(p.refine, abs(p.error(quantity))) for p in points if p.refine and p.error(quantity) and not p.failed]
@@ -49,7 +56,8 @@ def guide(method, order, points, quantity):
         return []
     middle_x, middle_y = (sum(log(pair[k]) for pair in known) / len(known) for k in (0, 1))
     xs = [min(x for x, _ in known), max(x for x, _ in known)]
-    return [(method, xs, [exp(middle_y + order * (log(x) - middle_x)) for x in xs])]
+    slope = order if known[0][0] > known[-1][0] else -order
+    return [(method, xs, [exp(middle_y + slope * (log(x) - middle_x)) for x in xs])]
 
 
 def notes(study, quantity):

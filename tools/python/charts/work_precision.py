@@ -32,7 +32,8 @@ def marked_front(study, quantity):
 
 def front_of(study, quantity, across):
     """The points that no other one beats in error and cost, or in one of them at the same of the other."""
-    known = [p for p in study.charted if not p.failed and p.error(quantity) is not None and across.of(p) is not None]
+    known = [p for p in study.charted
+             if p.method != "reference" and not p.failed and p.error(quantity) is not None and across.of(p) is not None]  # fmt: skip
     figures = {p.id: (across.of(p), abs(p.error(quantity))) for p in known}
     return [p for p in known if not any(beats(figures[q.id], figures[p.id]) for q in known)]
 
