@@ -107,10 +107,14 @@ TEST_CASE("the short study of two disks runs through")
   CHECK(study.methods("done").contains("regression"));
 }
 
-TEST_CASE("the short study of the report's settings has the cost of a slab")
+TEST_CASE("the short study of the report's settings runs a slab one cell thick, with 8 particles a cell")
 {
-  const ShortStudy study = run_short("cost");
-  CHECK(study.methods("done").contains("report's settings"));
+  const Json point = run_short("cost").results["points"][0];
+
+  // Sand of 1 m x 0.5 m and a punch of 0.3 m x 0.2 m, in cells of 4 cm.
+  const double n_cells = (1 * 0.5 + 0.3 * 0.2) / (0.04 * 0.04);
+  CHECK(point["method"] == "report's settings");
+  CHECK(point["cost"]["particle_steps"].get<double>() / point["cost"]["steps"].get<double>() == Approx(8 * n_cells));
 }
 
 TEST_CASE("the short study of the punch has an error budget")

@@ -61,9 +61,9 @@ Cost cost_of(const Study& study, const Json& summary, double user_s)
 struct Task {
   const Measurement* measurement;
   std::string label{};
-  /// Charts are drawn of it, so that its cost counts.
-  bool timed_well = false;
-  /// Only charts' points have to keep up with the fastest.
+  /// A chart shows its cost, which is therefore measured several times.
+  bool is_charted = false;
+  /// Neither the reference nor an error budget needs it, so that it has to keep up with the fastest point.
   bool only_charted = true;
   std::optional<PointResult> result{};
 };
@@ -84,9 +84,9 @@ class PointRunner
       task->result = kept(measurement.key);
       if (point.role == Point::Role::chart && task->result) note_time(*task->result);
     }
-    const bool charted = point.role == Point::Role::chart;
-    task->timed_well |= charted;
-    task->only_charted &= charted;
+    const bool in_chart = point.role == Point::Role::chart;
+    task->is_charted |= in_chart;
+    task->only_charted &= in_chart;
   }
 
   void run()
@@ -123,7 +123,7 @@ class PointRunner
   {
     if (!task.result) return true;
     if (round == 0 && may_take_longer(task)) return true;
-    if (round == 0 || !task.timed_well || task.result->end != End::done) return false;
+    if (round == 0 || !task.is_charted || task.result->end != End::done) return false;
     const double seconds = task.result->cost("core_s")->median;
     return static_cast<int>(task.result->costs.size()) <= round && seconds < study_.repeat_below &&
            seconds < limit_of(task);
@@ -155,7 +155,7 @@ class PointRunner
     fs::remove_all(folder);
     fs::rename(fresh, folder);
     result.folder = folder;
-    if (task.timed_well) note_time(result);
+    if (task.is_charted) note_time(result);
     task.result = std::move(result);
     tell(task, round);
   }
