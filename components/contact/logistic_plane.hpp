@@ -133,11 +133,11 @@ void mark_starts(const GridBlock<D>& block, int support, ContactPlane<D>* planes
 /// seen from the node.
 template <class Interpolator, int D = Interpolator::dimension, class Visit>
 void for_each_parted(const Interpolator& interpolator, const GridBlock<D>& block, const ContactPlane<D>* planes,
-                     std::span<const Vector<D>> position, Visit&& visit)
+                     const ParticlePlaces<D>& places, Visit&& visit)
 {
-  for_each_stencil(interpolator, block, position, [&](std::size_t p, const auto& stencil) {
+  for_each_stencil(interpolator, block, places, [&](std::size_t p, const auto& stencil) {
     if (!planes[stencil.first].starts_near) return;
-    const Vector<D> place = block.in_cells(position[p]);
+    const Vector<D> place = block.in_cells(places.position[p]);
     for_each_row<D>(block, stencil, [&](const StencilRow<D>& row) {
       for (std::size_t i = 0; i < Interpolator::support; ++i) {
         const std::ptrdiff_t node = row.first + static_cast<std::ptrdiff_t>(i);

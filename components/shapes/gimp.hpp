@@ -8,6 +8,7 @@
 
 #include "components/lanes.hpp"
 #include "components/shapes/grid_block.hpp"
+#include "components/shapes/particle_places.hpp"
 #include "components/shapes/stencil.hpp"
 #include "components/tensors.hpp"
 
@@ -45,9 +46,10 @@ class Gimp
     return stencil;
   }
 
-  /// The stencils of particles at `x`, no more than the batch can hold.
-  void fill(StencilBatch<D, support>& batch, const GridBlock<D>& block, std::span<const Vector<D>> x) const
+  /// The stencils of particles, no more than the batch can hold.
+  void fill(StencilBatch<D, support>& batch, const GridBlock<D>& block, const ParticlePlaces<D>& places) const
   {
+    const std::span<const Vector<D>> x = places.position;
     const double per_cell = 1 / block.cell_size;
     for (std::size_t p = 0; p < x.size(); p += n_lanes) {
       Lanes first = 0.0;

@@ -31,35 +31,34 @@ class InterpolationBy final : public Interpolation<D>
     components::particles_to_grid<false>(shape_, block, from, sums);
   }
 
-  void add_gradient_momentum(const GridBlock<D>& block, std::span<const Vector<D>> position,
-                             std::span<const double> mass, std::span<const Matrix<D>> velocity_gradient,
-                             NodeSums<D>* sums) const override
+  void add_gradient_momentum(const GridBlock<D>& block, const ParticlePlaces<D>& places, std::span<const double> mass,
+                             std::span<const Matrix<D>> velocity_gradient, NodeSums<D>* sums) const override
   {
-    components::add_gradient_momentum(shape_, block, position, mass, velocity_gradient, sums);
+    components::add_gradient_momentum(shape_, block, places, mass, velocity_gradient, sums);
   }
 
-  void add_forces(const GridBlock<D>& block, std::span<const Vector<D>> position, std::span<const Vector<D>> force,
+  void add_forces(const GridBlock<D>& block, const ParticlePlaces<D>& places, std::span<const Vector<D>> force,
                   NodeSums<D>* sums) const override
   {
-    components::add_forces(shape_, block, position, force, sums);
+    components::add_forces(shape_, block, places, force, sums);
   }
 
-  void grid_to_particles(const GridBlock<D>& block, std::span<const Vector<D>> position, const NodeMotion<D>* nodes,
+  void grid_to_particles(const GridBlock<D>& block, const ParticlePlaces<D>& places, const NodeMotion<D>* nodes,
                          std::span<ParticleMotion<D>> motion) const override
   {
-    components::grid_to_particles(shape_, block, position, nodes, motion);
+    components::grid_to_particles(shape_, block, places, nodes, motion);
   }
 
-  void own_stiffness(const GridBlock<D>& block, std::span<const Vector<D>> position, std::span<const double> mass,
+  void own_stiffness(const GridBlock<D>& block, const ParticlePlaces<D>& places, std::span<const double> mass,
                      const double* inverse_mass, std::span<double> stiffness) const override
   {
-    components::own_stiffness(shape_, n_per_axis_, block, position, mass, inverse_mass, stiffness);
+    components::own_stiffness(shape_, n_per_axis_, block, places, mass, inverse_mass, stiffness);
   }
 
-  void add_pressure(const GridBlock<D>& block, std::span<const Vector<D>> position, std::span<const ByFace<D>> pressure,
+  void add_pressure(const GridBlock<D>& block, const ParticlePlaces<D>& places, std::span<const ByFace<D>> pressure,
                     PressureSums<D>* sums) const override
   {
-    components::add_pressure(shape_, block, position, pressure, sums);
+    components::add_pressure(shape_, block, places, pressure, sums);
   }
 
   void mark_planes(const GridBlock<D>& block, ContactPlane<D>* planes) const override
@@ -67,19 +66,19 @@ class InterpolationBy final : public Interpolation<D>
     mark_starts(block, Shape::support, planes);
   }
 
-  void add_regression(const GridBlock<D>& block, std::span<const Vector<D>> position, const ContactPlane<D>* planes,
+  void add_regression(const GridBlock<D>& block, const ParticlePlaces<D>& places, const ContactPlane<D>* planes,
                       RegressionSums<D>* sums) const override
   {
-    for_each_parted(shape_, block, planes, position, [&](std::ptrdiff_t node, double weight, const Vector<D>& x) {
+    for_each_parted(shape_, block, planes, places, [&](std::ptrdiff_t node, double weight, const Vector<D>& x) {
       sums[node].add(planes[node], weight, x);
     });
   }
 
-  void add_edges(const GridBlock<D>& block, std::span<const Vector<D>> position, const ContactPlane<D>* planes,
+  void add_edges(const GridBlock<D>& block, const ParticlePlaces<D>& places, const ContactPlane<D>* planes,
                  EdgeSums<D>* sums) const override
   {
     const double size = 1.0 / n_per_axis_;
-    for_each_parted(shape_, block, planes, position, [&](std::ptrdiff_t node, double weight, const Vector<D>& x) {
+    for_each_parted(shape_, block, planes, places, [&](std::ptrdiff_t node, double weight, const Vector<D>& x) {
       sums[node].add(planes[node], weight, x, size);
     });
   }

@@ -30,26 +30,25 @@ class Interpolation
   /// See components::particles_to_grid, and so on.
   virtual void particles_to_grid(const GridBlock<D>& block, const ParticleSources<D>& from, bool with_surface,
                                  NodeSums<D>* sums) const = 0;
-  virtual void add_gradient_momentum(const GridBlock<D>& block, std::span<const Vector<D>> position,
+  virtual void add_gradient_momentum(const GridBlock<D>& block, const ParticlePlaces<D>& places,
                                      std::span<const double> mass, std::span<const Matrix<D>> velocity_gradient,
                                      NodeSums<D>* sums) const = 0;
-  virtual void add_forces(const GridBlock<D>& block, std::span<const Vector<D>> position,
-                          std::span<const Vector<D>> force, NodeSums<D>* sums) const = 0;
-  virtual void grid_to_particles(const GridBlock<D>& block, std::span<const Vector<D>> position,
-                                 const NodeMotion<D>* nodes, std::span<ParticleMotion<D>> motion) const = 0;
-  virtual void own_stiffness(const GridBlock<D>& block, std::span<const Vector<D>> position,
-                             std::span<const double> mass, const double* inverse_mass,
-                             std::span<double> stiffness) const = 0;
+  virtual void add_forces(const GridBlock<D>& block, const ParticlePlaces<D>& places, std::span<const Vector<D>> force,
+                          NodeSums<D>* sums) const = 0;
+  virtual void grid_to_particles(const GridBlock<D>& block, const ParticlePlaces<D>& places, const NodeMotion<D>* nodes,
+                                 std::span<ParticleMotion<D>> motion) const = 0;
+  virtual void own_stiffness(const GridBlock<D>& block, const ParticlePlaces<D>& places, std::span<const double> mass,
+                             const double* inverse_mass, std::span<double> stiffness) const = 0;
 
   /// `pressure` is m_p P_p of each particle.
-  virtual void add_pressure(const GridBlock<D>& block, std::span<const Vector<D>> position,
+  virtual void add_pressure(const GridBlock<D>& block, const ParticlePlaces<D>& places,
                             std::span<const ByFace<D>> pressure, PressureSums<D>* sums) const = 0;
 
   /// Marks the nodes that tell `add_regression` and `add_edges` which particles reach a node with a plane.
   virtual void mark_planes(const GridBlock<D>& block, ContactPlane<D>* planes) const = 0;
-  virtual void add_regression(const GridBlock<D>& block, std::span<const Vector<D>> position,
-                              const ContactPlane<D>* planes, RegressionSums<D>* sums) const = 0;
-  virtual void add_edges(const GridBlock<D>& block, std::span<const Vector<D>> position, const ContactPlane<D>* planes,
+  virtual void add_regression(const GridBlock<D>& block, const ParticlePlaces<D>& places, const ContactPlane<D>* planes,
+                              RegressionSums<D>* sums) const = 0;
+  virtual void add_edges(const GridBlock<D>& block, const ParticlePlaces<D>& places, const ContactPlane<D>* planes,
                          EdgeSums<D>* sums) const = 0;
 };
 

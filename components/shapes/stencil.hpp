@@ -7,6 +7,7 @@
 
 #include "components/lanes.hpp"
 #include "components/shapes/grid_block.hpp"
+#include "components/shapes/particle_places.hpp"
 #include "components/tensors.hpp"
 
 namespace tamp::components
@@ -80,12 +81,12 @@ class StencilBatch
 /// Calls `visit(first, size, stencils)` for one batch of particles after the other.
 template <class Interpolator, int D = Interpolator::dimension, class Visit>
 [[gnu::always_inline]] inline void for_each_stencil_batch(const Interpolator& interpolator, const GridBlock<D>& block,
-                                                          std::span<const Vector<D>> position, Visit&& visit)
+                                                          const ParticlePlaces<D>& places, Visit&& visit)
 {
   StencilBatch<D, Interpolator::support> stencils;
-  for (std::size_t first = 0; first < position.size(); first += stencils.capacity) {
-    const std::size_t size = std::min(stencils.capacity, position.size() - first);
-    interpolator.fill(stencils, block, position.subspan(first, size));
+  for (std::size_t first = 0; first < places.size(); first += stencils.capacity) {
+    const std::size_t size = std::min(stencils.capacity, places.size() - first);
+    interpolator.fill(stencils, block, places.subspan(first, size));
     visit(first, size, stencils);
   }
 }
@@ -93,9 +94,9 @@ template <class Interpolator, int D = Interpolator::dimension, class Visit>
 /// Calls `visit(p, stencil)` for one particle after the other.
 template <class Interpolator, int D = Interpolator::dimension, class Visit>
 [[gnu::always_inline]] inline void for_each_stencil(const Interpolator& interpolator, const GridBlock<D>& block,
-                                                    std::span<const Vector<D>> position, Visit&& visit)
+                                                    const ParticlePlaces<D>& places, Visit&& visit)
 {
-  for_each_stencil_batch(interpolator, block, position, [&](std::size_t first, std::size_t size, const auto& stencils) {
+  for_each_stencil_batch(interpolator, block, places, [&](std::size_t first, std::size_t size, const auto& stencils) {
     for (std::size_t p = 0; p < size; ++p) {
       const auto stencil = stencils[p];
       visit(first + p, stencil);

@@ -19,7 +19,7 @@ namespace tamp::components
 /// What particles bring to the grid; all spans of one length.
 template <int D>
 struct ParticleSources {
-  std::span<const Vector<D>> position;
+  ParticlePlaces<D> places;
   std::span<const Vector<D>> velocity;
   std::span<const double> mass;
   std::span<const double> volume;
@@ -71,7 +71,7 @@ template <bool with_surface = true, class Interpolator, int D = Interpolator::di
 void particles_to_grid(const Interpolator& interpolator, const GridBlock<D>& block, const ParticleSources<D>& from,
                        NodeSums<D>* sums)
 {
-  for_each_stencil(interpolator, block, from.position, [&](std::size_t p, const auto& stencil) {
+  for_each_stencil(interpolator, block, from.places, [&](std::size_t p, const auto& stencil) {
     const double surface = with_surface ? from.volume[p] : 0;
     const ParticleShare<D> share = share_of(from, p, surface);
     // Kept in registers, which what is stored at the nodes might otherwise seem to change.
@@ -99,11 +99,11 @@ void particles_to_grid(const Interpolator& interpolator, const GridBlock<D>& blo
 /// motion then comes to the grid as it is, where without it nodes at a surface get the velocity of the matter that they
 /// reach, which lies to one side of them. The sums over the nodes are zero: momentum stays what it is.
 template <class Interpolator, int D = Interpolator::dimension>
-void add_gradient_momentum(const Interpolator& interpolator, const GridBlock<D>& block,
-                           std::span<const Vector<D>> position, std::span<const double> mass,
-                           std::span<const Matrix<D>> velocity_gradient, NodeSums<D>* sums)
+void add_gradient_momentum(const Interpolator& interpolator, const GridBlock<D>& block, const ParticlePlaces<D>& places,
+                           std::span<const double> mass, std::span<const Matrix<D>> velocity_gradient,
+                           NodeSums<D>* sums)
 {
-  for_each_stencil(interpolator, block, position, [&](std::size_t p, const auto& of_particle) {
+  for_each_stencil(interpolator, block, places, [&](std::size_t p, const auto& of_particle) {
     const Matrix<D> gradient = mass[p] * velocity_gradient[p];
     const auto stencil = with_moments(of_particle, block.cell_size);
     for_each_row<D>(block, stencil, [&](const StencilRow<D>& row) {
@@ -120,10 +120,10 @@ void add_gradient_momentum(const Interpolator& interpolator, const GridBlock<D>&
 
 /// Adds to the nodes what particles bring of a pressure load, m_p P_p S_ip.
 template <class Interpolator, int D = Interpolator::dimension>
-void add_pressure(const Interpolator& interpolator, const GridBlock<D>& block, std::span<const Vector<D>> position,
+void add_pressure(const Interpolator& interpolator, const GridBlock<D>& block, const ParticlePlaces<D>& places,
                   std::span<const ByFace<D>> pressure, PressureSums<D>* sums)
 {
-  for_each_stencil(interpolator, block, position, [&](std::size_t p, const auto& stencil) {
+  for_each_stencil(interpolator, block, places, [&](std::size_t p, const auto& stencil) {
     for_each_row<D>(block, stencil, [&](const StencilRow<D>& row) {
       for (std::size_t i = 0; i < Interpolator::support; ++i) {
         sums[row.first + static_cast<std::ptrdiff_t>(i)].add(stencil.weight[0][i] * row.across * pressure[p]);
@@ -134,10 +134,10 @@ void add_pressure(const Interpolator& interpolator, const GridBlock<D>& block, s
 
 /// Adds to the forces on nodes the particles' shares of forces on them, S_ip f_p [N].
 template <class Interpolator, int D = Interpolator::dimension>
-void add_forces(const Interpolator& interpolator, const GridBlock<D>& block, std::span<const Vector<D>> position,
+void add_forces(const Interpolator& interpolator, const GridBlock<D>& block, const ParticlePlaces<D>& places,
                 std::span<const Vector<D>> force, NodeSums<D>* sums)
 {
-  for_each_stencil(interpolator, block, position, [&](std::size_t p, const auto& stencil) {
+  for_each_stencil(interpolator, block, places, [&](std::size_t p, const auto& stencil) {
     for_each_row<D>(block, stencil, [&](const StencilRow<D>& row) {
       const Vector<D> by_weight = row.across * force[p];
       for (std::size_t i = 0; i < Interpolator::support; ++i) {
@@ -159,11 +159,11 @@ struct ParticleMotion {
 
 /// Interpolates the motion of the nodes to particles (PAR-10021867-092020-6, eqs 43, 55).
 template <class Interpolator, int D = Interpolator::dimension>
-void grid_to_particles(const Interpolator& interpolator, const GridBlock<D>& block, std::span<const Vector<D>> position,
+void grid_to_particles(const Interpolator& interpolator, const GridBlock<D>& block, const ParticlePlaces<D>& places,
                        const NodeMotion<D>* nodes, std::span<ParticleMotion<D>> motion)
 {
   constexpr int at_change = NodeMotion<D>::at_change;
-  for_each_stencil(interpolator, block, position, [&](std::size_t p, const auto& stencil) {
+  for_each_stencil(interpolator, block, places, [&](std::size_t p, const auto& stencil) {
     // The changes of velocity stand beside the velocities in the plane, and in the next four in space.
     Quad moved = 0, changed = 0;
     std::array<Quad, D> slopes;
@@ -197,12 +197,12 @@ void grid_to_particles(const Interpolator& interpolator, const GridBlock<D>& blo
 /// `inverse_mass` of nodes is in 1/kg, 0 at those that do not count.
 template <class Interpolator, int D = Interpolator::dimension>
 void own_stiffness(const Interpolator& interpolator, int n_per_axis, const GridBlock<D>& block,
-                   std::span<const Vector<D>> position, std::span<const double> mass, const double* inverse_mass,
+                   const ParticlePlaces<D>& places, std::span<const double> mass, const double* inverse_mass,
                    std::span<double> stiffness)
 {
   const double across_half_cell = std::max(1.0, 0.5 * n_per_axis);
   const double n_alike = D == 2 ? across_half_cell : across_half_cell * across_half_cell;
-  for_each_stencil_batch(interpolator, block, position, [&](std::size_t first, std::size_t size, const auto& stencils) {
+  for_each_stencil_batch(interpolator, block, places, [&](std::size_t first, std::size_t size, const auto& stencils) {
     for (std::size_t p = 0; p < size; p += n_lanes) {
       Lanes sum = 0.0;
       const auto stencil = stencils.lanes(p);

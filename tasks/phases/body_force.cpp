@@ -3,6 +3,7 @@
 
 #include "tasks/labels.hpp"
 #include "tasks/phases/phases.hpp"
+#include "tasks/phases/places.hpp"
 #include "tasks/phases/walls.hpp"
 
 namespace tamp::tasks
@@ -49,7 +50,7 @@ runtime::TaskDeclaration body_force(const Method<D>& method)
       .over_patches_and_groups()
       .sparse()
       .reads(particle::body.previous(), particle::mass.previous(), particle::reference_position<D>.previous(),
-             particle::position<D>.previous())
+             particle::position<D>.previous(), particle::deformation_gradient<D>.previous())
       .accumulates(node::sums<D>.halo(method.halo))
       .body([&method, materials = materials_with_body_force(method.scene)](const TaskContext& at, auto data) {
         const auto sums = data[node::sums<D>];
@@ -59,7 +60,7 @@ runtime::TaskDeclaration body_force(const Method<D>& method)
                               data[particle::mass.previous()], data[particle::reference_position<D>.previous()]);
         // What other phases have given to the nodes has its images already.
         std::vector<NodeSums<D>> own(sums.box().size());
-        method.interpolation(at.group).add_forces(block_of<D>(at.layout, sums), data[particle::position<D>.previous()],
+        method.interpolation(at.group).add_forces(block_of<D>(at.layout, sums), places_at_start<D>(data),
                                                   std::span(forces), own.data());
         for_each_wall(method, at, sums.box(), [&](const Wall<D>& wall) {
           wall.keeps_normal_push() ? wall.image.add_image(own.data()) : wall.image.fold(own.data());

@@ -7,6 +7,7 @@
 #include "components/contact/logistic_plane.hpp"
 #include "tasks/labels.hpp"
 #include "tasks/phases/phases.hpp"
+#include "tasks/phases/places.hpp"
 #include "tasks/phases/walls.hpp"
 
 namespace tamp::tasks
@@ -103,7 +104,7 @@ runtime::TaskDeclaration lay_planes(const Method<D>& method)
       });
 }
 
-/// A pass over the particles that adds to the sums of nodes with a plane, as `add(interpolation, block, position,
+/// A pass over the particles that adds to the sums of nodes with a plane, as `add(interpolation, block, places,
 /// planes, sums)` does.
 template <int D, class Label, class Add>
 runtime::TaskDeclaration sum_at_planes(const Method<D>& method, std::string name, const Label& label, Add add)
@@ -111,14 +112,15 @@ runtime::TaskDeclaration sum_at_planes(const Method<D>& method, std::string name
   return runtime::task(std::move(name))
       .over_patches_and_groups()
       .sparse()
-      .reads(node::contact_plane<D>.halo(method.halo), particle::position<D>.previous())
+      .reads(node::contact_plane<D>.halo(method.halo), particle::position<D>.previous(),
+             particle::deformation_gradient<D>.previous())
       .accumulates(label.halo(method.halo))
       .body([&method, &label, add](const TaskContext& at, auto data) {
         const auto planes = data[node::contact_plane<D>];
         const auto sums = data[label];
         if (!any_starts(planes)) return;
-        add(method.interpolation(at.group), block_of<D>(at.layout, planes), data[particle::position<D>.previous()],
-            planes.data(), sums.data());
+        add(method.interpolation(at.group), block_of<D>(at.layout, planes), places_at_start<D>(data), planes.data(),
+            sums.data());
         for_each_wall(method, at, sums.box(), [&](const Wall<D>& wall) { wall.image.fold(sums.data()); });
       });
 }

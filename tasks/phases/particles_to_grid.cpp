@@ -1,6 +1,7 @@
 #include "components/shapes/transfer.hpp"
 #include "tasks/labels.hpp"
 #include "tasks/phases/phases.hpp"
+#include "tasks/phases/places.hpp"
 #include "tasks/phases/walls.hpp"
 
 namespace tamp::tasks
@@ -31,18 +32,18 @@ void fold(const Wall<D>& wall, const TaskContext& at, const GridView<NodeSums<D>
 template <int D>
 runtime::TaskDeclaration particles_to_grid(const Method<D>& method)
 {
-  auto task =
-      runtime::task("particles to grid")
-          .over_patches_and_groups()
-          .sparse()
-          .reads(particle::position<D>.previous(), particle::velocity<D>.previous(), particle::mass.previous(),
-                 particle::volume.previous(), particle::stress<D>.previous(), particle::viscous_pressure.previous())
-          .accumulates(node::sums<D>.halo(method.halo));
+  auto task = runtime::task("particles to grid")
+                  .over_patches_and_groups()
+                  .sparse()
+                  .reads(particle::position<D>.previous(), particle::deformation_gradient<D>.previous(),
+                         particle::velocity<D>.previous(), particle::mass.previous(), particle::volume.previous(),
+                         particle::stress<D>.previous(), particle::viscous_pressure.previous())
+                  .accumulates(node::sums<D>.halo(method.halo));
   const auto body = [&method](const TaskContext& at, auto data) {
     const auto sums = data[node::sums<D>];
     const auto block = block_of<D>(at.layout, sums);
     const components::Interpolation<D>& interpolation = method.interpolation(at.group);
-    const components::ParticleSources<D> sources{.position = data[particle::position<D>.previous()],
+    const components::ParticleSources<D> sources{.places = places_at_start<D>(data),
                                                  .velocity = data[particle::velocity<D>.previous()],
                                                  .mass = data[particle::mass.previous()],
                                                  .volume = data[particle::volume.previous()],
@@ -50,7 +51,7 @@ runtime::TaskDeclaration particles_to_grid(const Method<D>& method)
                                                  .viscous_pressure = data[particle::viscous_pressure.previous()]};
     interpolation.particles_to_grid(block, sources, method.needs_surface_of(at.group), sums.data());
     if constexpr (data.has(particle::velocity_gradient<D>)) {
-      interpolation.add_gradient_momentum(block, sources.position, sources.mass,
+      interpolation.add_gradient_momentum(block, sources.places, sources.mass,
                                           data[particle::velocity_gradient<D>.previous()], sums.data());
     }
     // The image behind a wall gives to the grid as the particles do.

@@ -1,5 +1,6 @@
 #include "tasks/labels.hpp"
 #include "tasks/phases/phases.hpp"
+#include "tasks/phases/places.hpp"
 #include "tasks/phases/walls.hpp"
 
 namespace tamp::tasks
@@ -54,7 +55,7 @@ runtime::TaskDeclaration gather_pressure(const Method<D>& method)
       .over_patches_and_groups(method.pressed_materials)
       .sparse()
       .reads(particle::body.previous(), particle::reference_position<D>.previous(), particle::position<D>.previous(),
-             particle::mass.previous())
+             particle::deformation_gradient<D>.previous(), particle::mass.previous())
       .accumulates(node::pressure_sums<D>.halo(method.halo))
       .body([&method](const TaskContext& at, auto data) {
         const auto body = data[particle::body.previous()];
@@ -64,8 +65,8 @@ runtime::TaskDeclaration gather_pressure(const Method<D>& method)
         const Pressures<D> pressures(method, at.group, at.step.time);
         std::vector<components::ByFace<D>> pressure(mass.size());
         for (std::size_t p = 0; p < mass.size(); ++p) pressure[p] = mass[p] * pressures.at(body[p], reference[p]);
-        method.interpolation(at.group).add_pressure(block_of<D>(at.layout, sums),
-                                                    data[particle::position<D>.previous()], pressure, sums.data());
+        method.interpolation(at.group).add_pressure(block_of<D>(at.layout, sums), places_at_start<D>(data), pressure,
+                                                    sums.data());
         for_each_wall(method, at, sums.box(), [&](const Wall<D>& wall) { wall.image.add_image(sums.data()); });
       });
 }

@@ -98,7 +98,7 @@ struct Around {
     own.side = static_cast<std::int8_t>(side);
     own.coefficients = coefficients;
     Sums sums;
-    for_each_parted(Gimp<D>(2), block, planes.data(), std::span<const Vector<D>>(position),
+    for_each_parted(Gimp<D>(2), block, planes.data(), {position},
                     [&](std::ptrdiff_t, double shape, const Vector<D>& x) { add(sums, own, shape, x); });
     return sums;
   }

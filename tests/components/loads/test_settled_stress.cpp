@@ -42,7 +42,7 @@ double greatest_acceleration(const LayerColumn& column, const std::vector<double
   const std::vector<Vector<2>> velocity(n, Vector<2>::Zero());
   const std::vector<double> masses(n, density * volume), volumes(n, volume), none(n, 0.0);
   std::vector<NodeSums<2>> sums(4 * 11);
-  particles_to_grid(Gimp<2>(n_per_cell), block, {position, velocity, masses, volumes, stresses, none}, sums.data());
+  particles_to_grid(Gimp<2>(n_per_cell), block, {{position}, velocity, masses, volumes, stresses, none}, sums.data());
   SymmetryWall<2>({4, 11}, 0, 1, -1).fold(sums.data());
   SymmetryWall<2>({4, 11}, 0, 2, +1).fold(sums.data());
   SymmetryWall<2>({4, 11}, 1, 1, -1).fold(sums.data());

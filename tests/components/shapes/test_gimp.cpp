@@ -69,7 +69,7 @@ TEMPLATE_TEST_CASE_SIG("the stencils of a batch are those of its particles, bit 
   position[0] = block.origin + Vector<D>::Constant(cell_size * (2 + gimp.half_size()));
   StencilBatch<D, 3> batch;
 
-  gimp.fill(batch, block, position);
+  gimp.fill(batch, block, {position});
 
   for (std::size_t p = 0; p < n_particles; ++p) {
     const auto alone = gimp.at(block, position[p]), own = batch[p];

@@ -38,7 +38,7 @@ struct Cloud {
     }
   }
 
-  ParticleSources<D> sources() const { return {position, velocity, mass, volume, stress, viscous_pressure}; }
+  ParticleSources<D> sources() const { return {{position}, velocity, mass, volume, stress, viscous_pressure}; }
 };
 
 template <int D>
@@ -125,7 +125,7 @@ TEMPLATE_TEST_CASE_SIG("with their velocity gradients, particles bring a linear 
   for (std::size_t i = 0; i < sums.size(); ++i) {
     if (sums[i].mass() > 1e-9) error_without = std::max(error_without, error_at(i));
   }
-  add_gradient_momentum<Gimp<D>, D>(interpolator, block, cloud.position, cloud.mass, gradients, sums.data());
+  add_gradient_momentum<Gimp<D>, D>(interpolator, block, {cloud.position}, cloud.mass, gradients, sums.data());
 
   CHECK(error_without > 0.1);
   for (std::size_t i = 0; i < sums.size(); ++i) {
@@ -212,7 +212,7 @@ TEMPLATE_TEST_CASE_SIG("forces on particles come to the nodes by their weights, 
   std::vector<NodeSums<D>> sums(static_cast<std::size_t>(n_nodes_of(block)));
 
   // Any vectors of the particles will do.
-  add_forces<Gimp<D>, D>(Gimp<D>(n_per_axis), block, cloud.position, cloud.velocity, sums.data());
+  add_forces<Gimp<D>, D>(Gimp<D>(n_per_axis), block, {cloud.position}, cloud.velocity, sums.data());
 
   for (std::size_t i = 0; i < sums.size(); ++i) {
     Vector<D> plain = Vector<D>::Zero();
@@ -236,7 +236,7 @@ TEMPLATE_TEST_CASE_SIG("particles take from the grid what plain loops over all n
   for (int sample = 0; sample < 50; ++sample) position.push_back(random_place(block, random));
   std::vector<ParticleMotion<D>> motions(position.size());
 
-  grid_to_particles<Gimp<D>, D>(Gimp<D>(n_per_axis), block, position, nodes.data(), motions);
+  grid_to_particles<Gimp<D>, D>(Gimp<D>(n_per_axis), block, {position}, nodes.data(), motions);
 
   for (std::size_t p = 0; p < position.size(); ++p) {
     const Vector<D>& x = position[p];
@@ -270,7 +270,7 @@ TEMPLATE_TEST_CASE_SIG("a particle's own stiffness is its share in that of its n
   particles_to_grid(Gimp<D>(n_per_axis), block, cloud.sources(), sums.data());
   std::vector<double> stiffness(cloud.position.size());
 
-  own_stiffness<Gimp<D>, D>(Gimp<D>(n_per_axis), n_per_axis, block, cloud.position, cloud.mass,
+  own_stiffness<Gimp<D>, D>(Gimp<D>(n_per_axis), n_per_axis, block, {cloud.position}, cloud.mass,
                             inverse_masses(sums).data(), stiffness);
 
   for (std::size_t p = 0; p < cloud.mass.size(); ++p) {
@@ -301,9 +301,9 @@ TEMPLATE_TEST_CASE_SIG("no place of a particle alone is stiffer than the greates
     const std::vector<Vector<D>> position{x}, velocity{Vector<D>::Zero()};
     const std::vector<double> one{1};
     const std::vector<SymmetricTensor<D>> stress{SymmetricTensor<D>::Zero()};
-    particles_to_grid(interpolator, block, {position, velocity, one, one, stress, one}, sums.data());
+    particles_to_grid(interpolator, block, {{position}, velocity, one, one, stress, one}, sums.data());
     std::vector<double> stiffness(1);
-    own_stiffness<Gimp<D>, D>(interpolator, n_per_axis, block, position, one, inverse_masses(sums).data(), stiffness);
+    own_stiffness<Gimp<D>, D>(interpolator, n_per_axis, block, {position}, one, inverse_masses(sums).data(), stiffness);
     return stiffness[0];
   };
 

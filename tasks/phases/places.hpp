@@ -1,0 +1,17 @@
+#pragma once
+
+#include "components/shapes/particle_places.hpp"
+#include "tasks/labels.hpp"
+
+namespace tamp::tasks
+{
+
+/// The particles of a task as they are at the start of the step, which all weights of the step follow from. The task
+/// reads their previous positions and deformation gradients.
+template <int D, class Data>
+components::ParticlePlaces<D> places_at_start(const Data& data)
+{
+  return {data[particle::position<D>.previous()], data[particle::deformation_gradient<D>.previous()]};
+}
+
+}  // namespace tamp::tasks
