@@ -138,13 +138,9 @@ void for_each_parted(const Interpolator& interpolator, const GridBlock<D>& block
   for_each_stencil(interpolator, block, places, [&](std::size_t p, const auto& stencil) {
     if (!planes[stencil.first].starts_near) return;
     const Vector<D> place = block.in_cells(places.position[p]);
-    for_each_row<D>(block, stencil, [&](const StencilRow<D>& row) {
-      for (std::size_t i = 0; i < Interpolator::support; ++i) {
-        const std::ptrdiff_t node = row.first + static_cast<std::ptrdiff_t>(i);
-        const double shape = stencil.weight[0][i] * row.across;
-        if (planes[node].side == 0 || !(shape > 0)) continue;
-        visit(node, shape, Vector<D>(place - block.cells_to(node)));
-      }
+    for_each_weight(block, stencil, [&](std::ptrdiff_t node, double shape) {
+      if (planes[node].side == 0 || !(shape > 0)) return;
+      visit(node, shape, Vector<D>(place - block.cells_to(node)));
     });
   });
 }

@@ -3,7 +3,7 @@
 #include <Eigen/QR>
 #include <cstddef>
 
-#include "components/shapes/gimp.hpp"
+#include "components/shapes/interpolators.hpp"
 
 namespace tamp::components
 {
@@ -26,10 +26,19 @@ std::vector<double> settled_stress(const Interpolator& interpolator, const Layer
   const Eigen::Index n_nodes = column.nodes.n_nodes[0], last = n_nodes - 1;
   Eigen::MatrixXd weight = Eigen::MatrixXd::Zero(n_nodes, n_layers), slope = weight;
   for (Eigen::Index l = 0; l < n_layers; ++l) {
-    const auto stencil = interpolator.at(column.nodes, Vector<1>(column.layers[static_cast<std::size_t>(l)]));
-    for (std::size_t k = 0; k < stencil.weight[0].size(); ++k) {
-      weight(stencil.first + static_cast<std::ptrdiff_t>(k), l) = stencil.weight[0][k];
-      slope(stencil.first + static_cast<std::ptrdiff_t>(k), l) = stencil.slope[0][k];
+    const Vector<1> x(column.layers[static_cast<std::size_t>(l)]);
+    const auto set = [&](std::ptrdiff_t node, double w, double s) {
+      weight(node, l) = w;
+      slope(node, l) = s;
+    };
+    if constexpr (Dense<Interpolator>) {
+      for_each_node(column.nodes, interpolator.at(column.nodes, x, Matrix<1>::Identity()),
+                    [&](std::ptrdiff_t node, double w, const Vector<1>& gradient) { set(node, w, gradient[0]); });
+    } else {
+      const auto stencil = interpolator.at(column.nodes, x);
+      for (std::size_t k = 0; k < stencil.weight[0].size(); ++k) {
+        set(stencil.first + static_cast<std::ptrdiff_t>(k), stencil.weight[0][k], stencil.slope[0][k]);
+      }
     }
   }
   const auto fold = [&](Eigen::Index ghost, Eigen::Index inside) {
@@ -59,6 +68,10 @@ std::vector<double> settled_stress(const Interpolator& interpolator, const Layer
   return {stress.begin(), stress.end()};
 }
 
+template std::vector<double> settled_stress(const Linear<1>&, const LayerColumn&, double, const LinearForce&);
 template std::vector<double> settled_stress(const Gimp<1>&, const LayerColumn&, double, const LinearForce&);
+template std::vector<double> settled_stress(const Cpgimp<1>&, const LayerColumn&, double, const LinearForce&);
+template std::vector<double> settled_stress(const Cpdi<1>&, const LayerColumn&, double, const LinearForce&);
+template std::vector<double> settled_stress(const CubicSpline<1>&, const LayerColumn&, double, const LinearForce&);
 
 }  // namespace tamp::components

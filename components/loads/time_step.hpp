@@ -60,12 +60,11 @@ Number viscous_time_step(double cell_size, const StiffParticle<D, Number>& p, co
   return cell_size / (signal_speed + sqrt(p.velocity.squaredNorm()));
 }
 
-/// The own stiffness of a particle alone, at worst: it just reaches the two nodes beside its own along each axis; with
-/// l, half the size in cells of the box that its weights are averaged over, the squares of slopes over weights sum up
-/// to 2 / l + 1 / (1 - l).
-inline double greatest_own_stiffness(int dimension, int n_per_axis, double l)
+/// The own stiffness of a particle alone, at worst: `along_axis` is the greatest sum over its nodes along an axis of
+/// the slope squared over the weight, in cells.
+inline double greatest_own_stiffness(int dimension, int n_per_axis, double along_axis)
 {
-  return portable::pow(std::max(1.0, 0.5 * n_per_axis), dimension - 1) * dimension * (2 / l + 1 / (1 - l));
+  return portable::pow(std::max(1.0, 0.5 * n_per_axis), dimension - 1) * dimension * along_axis;
 }
 
 /// Of the bounds above for matter that has come apart and so has no waves: it moves no more than a tenth of a cell in a

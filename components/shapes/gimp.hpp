@@ -1,16 +1,9 @@
 #pragma once
 
-#include <algorithm>
 #include <array>
-#include <cassert>
-#include <cstddef>
-#include <span>
 
 #include "components/lanes.hpp"
-#include "components/shapes/grid_block.hpp"
-#include "components/shapes/particle_places.hpp"
-#include "components/shapes/stencil.hpp"
-#include "components/tensors.hpp"
+#include "components/shapes/product_shape.hpp"
 
 namespace tamp::components
 {
@@ -18,11 +11,10 @@ namespace tamp::components
 /// Generalised interpolation of particles of constant size: linear functions averaged over the particle's box
 /// (Bardenhagen & Kober 2004; PAR-10021867-092020-6, eq. 22 and 44). 3 nodes an axis: 9 in the plane, 27 in space.
 template <int D>
-class Gimp
+class Gimp : public ProductShape<Gimp<D>, D, 3>
 {
  public:
-  static constexpr int dimension = D;
-  static constexpr int support = 3;
+  static constexpr bool deforms = false;
 
   /// `n_per_axis` particles along each axis of a cell, each as large as its share; at least 1.
   explicit Gimp(int n_per_axis) : Gimp(0.5 / n_per_axis, {}) {}
@@ -32,49 +24,12 @@ class Gimp
 
   /// Half the edge of the box averaged over, in cells.
   double half_size() const { return half_size_; }
+  /// See components::greatest_own_stiffness: the particle just reaches the node behind.
+  double greatest_stiffness_along_axis() const { return 2 / half_size_ + 1 / (1 - half_size_); }
 
-  Stencil<D, support> at(const GridBlock<D>& block, const Vector<D>& x) const
-  {
-    const Vector<D> place = block.in_cells(x);
-    Stencil<D, support> stencil;
-    stencil.first = 0;
-    for (std::size_t k = 0; k < D; ++k) {
-      const double node = along(place[static_cast<int>(k)], 1 / block.cell_size, stencil.weight[k], stencil.slope[k]);
-      assert(node >= 0 && node + 2 < block.n_nodes[k]);
-      stencil.first += static_cast<std::ptrdiff_t>(node) * block.strides[k];
-    }
-    return stencil;
-  }
-
-  /// The stencils of particles, no more than the batch can hold.
-  void fill(StencilBatch<D, support>& batch, const GridBlock<D>& block, const ParticlePlaces<D>& places) const
-  {
-    const std::span<const Vector<D>> x = places.position;
-    const double per_cell = 1 / block.cell_size;
-    for (std::size_t p = 0; p < x.size(); p += n_lanes) {
-      Lanes first = 0.0;
-      Stencil<D, support, Lanes> stencil;
-      for (std::size_t k = 0; k < D; ++k) {
-        const int axis = static_cast<int>(k);
-        const Lanes coordinate = each_lane([&](std::size_t l) { return x[std::min(p + l, x.size() - 1)][axis]; });
-        const Lanes place = (coordinate - block.origin[axis]) * per_cell;
-        const Lanes node = along(place, per_cell, stencil.weight[k], stencil.slope[k]);
-        assert(!any(node < 0.0) && !any(node + 2.0 >= block.n_nodes[k]));
-        first += node * static_cast<double>(block.strides[k]);
-      }
-      batch.set(p, first, stencil);
-    }
-  }
-
- private:
-  struct OfHalfSize {
-  };
-  Gimp(double half_size, OfHalfSize) : half_size_(half_size) {}
-
-  /// Weights and slopes along an axis for a particle at `place`, in cells; returns its first node.
   template <class Number>
-  Number along(const Number& place, double per_cell, std::array<Number, support>& w,
-               std::array<Number, support>& s) const
+  Number along(const Number& place, const Number& /*stretch*/, double per_cell, std::array<Number, 3>& w,
+               std::array<Number, 3>& s) const
   {
     const double l = half_size_;
     const Number node = floor(place - l);
@@ -91,6 +46,11 @@ class Gimp
     s[1] = -s[0] - s[2];
     return node;
   }
+
+ private:
+  struct OfHalfSize {
+  };
+  Gimp(double half_size, OfHalfSize) : half_size_(half_size) {}
 
   double half_size_;
 };

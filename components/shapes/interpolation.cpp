@@ -4,6 +4,7 @@
 #include <cstddef>
 
 #include "components/loads/time_step.hpp"
+#include "components/shapes/dense_transfer.hpp"
 #include "components/shapes/interpolators.hpp"
 
 namespace tamp::components
@@ -21,7 +22,7 @@ class InterpolationBy final : public Interpolation<D>
 
   double greatest_own_stiffness() const override
   {
-    return components::greatest_own_stiffness(D, n_per_axis_, shape_.half_size());
+    return components::greatest_own_stiffness(D, n_per_axis_, shape_.greatest_stiffness_along_axis());
   }
 
   void particles_to_grid(const GridBlock<D>& block, const ParticleSources<D>& from, bool with_surface,

@@ -4,7 +4,7 @@ namespace tamp::components
 {
 
 /// How the weights of nodes follow from a particle's place; docs/method.md says what each is for.
-enum class Interpolator { gimp, quadratic_spline };
+enum class Interpolator { linear, gimp, cpgimp, cpdi, quadratic_spline, cubic_spline };
 
 /// Layers of nodes that a particle reaches beyond the nodes of its cell.
 constexpr int n_layers_beyond(Interpolator)
@@ -12,11 +12,26 @@ constexpr int n_layers_beyond(Interpolator)
   return 1;
 }
 
+/// Whether the weights of particles follow their deformation.
+constexpr bool deforms(Interpolator interpolator)
+{
+  return interpolator == Interpolator::cpgimp || interpolator == Interpolator::cpdi;
+}
+
 /// Distance in cells along an axis from a particle to the furthest node it can reach, for `n_per_axis` particles along
 /// each axis of a cell.
 constexpr double reach(Interpolator interpolator, int n_per_axis)
 {
-  return interpolator == Interpolator::gimp ? 1 + 0.5 / n_per_axis : 1.5;
+  switch (interpolator) {
+    case Interpolator::linear:
+      return 1;
+    case Interpolator::gimp:
+      return 1 + 0.5 / n_per_axis;
+    case Interpolator::quadratic_spline:
+      return 1.5;
+    default:
+      return 2;
+  }
 }
 
 }  // namespace tamp::components

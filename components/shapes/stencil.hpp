@@ -153,4 +153,16 @@ template <int D, int Support, class Number, class Visit>
   }
 }
 
+/// Calls `visit(node, weight)` for every node of a stencil, `node` being its place in the block.
+template <int D, int Support, class Visit>
+[[gnu::always_inline]] inline void for_each_weight(const GridBlock<D>& block, const Stencil<D, Support>& stencil,
+                                                   Visit&& visit)
+{
+  for_each_row<D>(block, stencil, [&](const StencilRow<D>& row) {
+    for (std::size_t i = 0; i < Support; ++i) {
+      visit(row.first + static_cast<std::ptrdiff_t>(i), stencil.weight[0][i] * row.across);
+    }
+  });
+}
+
 }  // namespace tamp::components

@@ -46,6 +46,8 @@ SOUND = [
     (PLANE, {"/boundaries": {"x-": "open", "y-": {"friction": 0.4}, "y+": "no_slip"}}),
     (PLANE, {"/time": {"end": 1, "rule": "published", "multiplier": 1, "minimum_step": 1e-9, "maximum_step": 0.1}}),
     (PLANE, {"/interpolator": "quadratic_spline", "/transfer": "affine", "/local_damping": 0.5}),
+    (PLANE, {"/interpolator": "linear", "/time/rule": "published"}),
+    (PLANE, {"/interpolator": "cpdi"}),
     (PLANE, {"/artificial_viscosity": {}, "/limits": {"energy_error": "off"}, "/failed_updates_allowed": 3}),
     (PLANE, {"/output": {"fields_interval": 0.5, "history_interval": 0.1, "near_nose": 0.2}}),
     (PLANE, {"/contact": [{"materials": ["steel", "iron"], "friction": 0.1, "normal": "iron"}]}),
@@ -121,7 +123,7 @@ BROKEN = [
     (SPACE, {"/bodies/block/geometry": {"type": "cylinder", "first_end": [3, 3, 2], "radius": 1}}),
     # wrong words and names
     (PLANE, {"/time/rule": "fast"}),
-    (PLANE, {"/interpolator": "linear"}),
+    (PLANE, {"/interpolator": "quintic_spline"}),
     (PLANE, {"/boundaries": {"x-": "wall"}}),
     (PLANE, {"/materials/steel/type": "hypoelastik"}),
     (PLANE, {"/limits": {"energy_error": "none"}}),

@@ -10,6 +10,7 @@
 #include "tasks/report/field_columns.hpp"
 #include "tasks/report/report.hpp"
 #include "tools/scene/check_bodies.hpp"
+#include "tools/scene/check_method.hpp"
 #include "tools/scene/json_reader.hpp"
 #include "tools/scene/read_body.hpp"
 #include "tools/scene/read_material.hpp"
@@ -39,6 +40,7 @@ class SceneReader
     read_faces(grid_is_good);
     read_time();
     scene_.transfer = root_.choice<tasks::Transfer>("transfer");
+    check_method(root_, scene_);
     read_particles_per_cell();
     read_loads();
     read_materials();

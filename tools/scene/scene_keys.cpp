@@ -188,10 +188,17 @@ const ObjectKeys& scene_keys()
            {"time", Object{time_keys}, "", compulsory, ""},
            choice<tasks::Interpolator>(
                "interpolator", scene.interpolator,
-               {{"gimp", tasks::Interpolator::gimp}, {"quadratic_spline", tasks::Interpolator::quadratic_spline}},
-               "how far particles reach, and with what weights: `\"gimp\"`, generalised "
-               "interpolation of particles of constant size; `\"quadratic_spline\"`, "
-               "quadratic B-splines; see [method.md](method.md)"),
+               {{"linear", tasks::Interpolator::linear},
+                {"gimp", tasks::Interpolator::gimp},
+                {"cpgimp", tasks::Interpolator::cpgimp},
+                {"cpdi", tasks::Interpolator::cpdi},
+                {"quadratic_spline", tasks::Interpolator::quadratic_spline},
+                {"cubic_spline", tasks::Interpolator::cubic_spline}},
+               "how far particles reach, and with what weights: `\"linear\"`, the functions of the grid at a point; "
+               "`\"gimp\"`, their means over particles of constant size, `\"cpgimp\"`, of a size that follows the "
+               "deformation; `\"cpdi\"`, over parallelograms or parallelepipeds that deform; `\"quadratic_spline\"`, "
+               "`\"cubic_spline\"`, B-splines; see [method.md](method.md). `\"linear\"` needs the time step's rule "
+               "`\"published\"`"),
            choice<tasks::Transfer>(
                "transfer", scene.transfer, {{"flip", tasks::Transfer::flip}, {"affine", tasks::Transfer::affine}},
                "how velocities go between particles and grid: with `\"flip\"` particles bring theirs to the grid and "

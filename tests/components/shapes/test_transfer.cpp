@@ -293,7 +293,7 @@ TEMPLATE_TEST_CASE_SIG("no place of a particle alone is stiffer than the greates
   const int n_per_axis = GENERATE(1, 2, 3, 4);
   const auto block = block_of_nodes<D>(6, 1.0);
   const Gimp<D> interpolator = GENERATE_COPY(Gimp<D>(n_per_axis), Gimp<D>::quadratic_spline());
-  const double greatest = greatest_own_stiffness(D, n_per_axis, interpolator.half_size());
+  const double greatest = greatest_own_stiffness(D, n_per_axis, interpolator.greatest_stiffness_along_axis());
   const double l = interpolator.half_size();
   const auto alone = [&](double along_each_axis) {
     const Vector<D> x = block.origin + Vector<D>::Constant(2 + along_each_axis);

@@ -502,8 +502,9 @@ TEST_CASE("a name that is none of the choices is told with the choices")
   CHECK(problems_with({"/materials/steel/type=hypoelastik"}) ==
         "--set#/materials/steel/type: \"hypoelastik\"; expected one of hypoelastic, neo_hookean, drucker_prager, "
         "tabular_cap, did you mean \"hypoelastic\"?");
-  CHECK(problems_with({"/interpolator=linear"}) ==
-        "--set#/interpolator: \"linear\"; expected one of gimp, quadratic_spline");
+  CHECK(problems_with({"/interpolator=quintic_spline"}) ==
+        "--set#/interpolator: \"quintic_spline\"; expected one of linear, gimp, cpgimp, cpdi, quadratic_spline, "
+        "cubic_spline");
   CHECK(problems_with({"/transfer=apic"}) == "--set#/transfer: \"apic\"; expected one of flip, affine");
   CHECK(problems_with({"/boundaries/x-=wall"}) ==
         "--set#/boundaries/x-: \"wall\"; expected one of symmetry, open, no_slip, periodic");

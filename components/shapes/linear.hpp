@@ -1,0 +1,36 @@
+#pragma once
+
+#include <array>
+#include <limits>
+
+#include "components/lanes.hpp"
+#include "components/shapes/product_shape.hpp"
+
+namespace tamp::components
+{
+
+/// Linear functions at the particle's place (Sulsky, Chen & Schreyer 1994): 2 nodes an axis. Gradients jump where
+/// particles cross cells, and the force on a node that is hardly reached is finite while its mass vanishes.
+template <int D>
+class Linear : public ProductShape<Linear<D>, D, 2>
+{
+ public:
+  static constexpr bool deforms = false;
+
+  /// No bound: the squared slope stays while the weight vanishes.
+  double greatest_stiffness_along_axis() const { return std::numeric_limits<double>::infinity(); }
+
+  template <class Number>
+  Number along(const Number& place, const Number& /*stretch*/, double per_cell, std::array<Number, 2>& w,
+               std::array<Number, 2>& s) const
+  {
+    const Number node = floor(place);
+    w[1] = place - node;
+    w[0] = 1.0 - w[1];
+    s[0] = -per_cell;
+    s[1] = per_cell;
+    return node;
+  }
+};
+
+}  // namespace tamp::components

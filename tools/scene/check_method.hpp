@@ -1,0 +1,13 @@
+#pragma once
+
+#include "tasks/scene.hpp"
+#include "tools/scene/json_reader.hpp"
+
+namespace tamp::tools
+{
+
+/// Adds a problem for each choice of method that cannot work with another of the scene: interpolator, transfer and so
+/// on, which have been read.
+void check_method(const JsonReader& reader, const tasks::Scene& scene);
+
+}  // namespace tamp::tools
