@@ -62,7 +62,9 @@ TEST_CASE("a collision with losses ends with the same bits on any ranks and thre
   Scene scene = glancing_disks();
   const auto [transfer, interpolator, n_threads] =
       GENERATE(std::tuple{Transfer::flip, Interpolator::gimp, 1}, std::tuple{Transfer::flip, Interpolator::gimp, 3},
-               std::tuple{Transfer::affine, Interpolator::quadratic_spline, 2});
+               std::tuple{Transfer::affine, Interpolator::quadratic_spline, 2},
+               std::tuple{Transfer::flip, Interpolator::cpgimp, 2}, std::tuple{Transfer::affine, Interpolator::cpdi, 3},
+               std::tuple{Transfer::affine, Interpolator::cubic_spline, 1});
   scene.transfer = transfer;
   scene.interpolator = interpolator;
   const Ending expected = alone(scene, 0.3);
@@ -144,6 +146,8 @@ TEST_CASE("a collision in three dimensions ends with the same bits on any ranks"
 {
   Scene scene = empty_scene(3, {12, 8, 8}, 0.1);
   scene.n_patches = {4, 2, 2};
+  scene.interpolator =
+      GENERATE(Interpolator::gimp, Interpolator::cpgimp, Interpolator::cpdi, Interpolator::cubic_spline);
   const int soft = add_elastic(scene, 1000, 1e6, 0.3);
   add_box(scene, soft, {0.1, 0.2, 0.2}, {0.5, 0.6, 0.6}, {5, 0.5, 0});
   add_box(scene, add_elastic(scene, 1500, 1e6, 0.2), {0.6, 0.3, 0.2}, {1.0, 0.7, 0.6}, {-5, 0, 0.5});

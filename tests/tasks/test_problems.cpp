@@ -102,6 +102,24 @@ TEST_CASE("at strains of 16 % particles of constant size keep the error from fal
   CHECK(std::log2(errors[1].greatest / errors[2].greatest) == Approx(1.47).margin(0.02));
 }
 
+TEST_CASE("particles whose size follows the deformation, and cubic splines, keep second order at strains of 16 %")
+{
+  const Interpolator interpolator = GENERATE(Interpolator::cpgimp, Interpolator::cpdi, Interpolator::cubic_spline);
+  const int dimension = GENERATE(2, 3);
+  const std::vector<int> n_cells = dimension == 2 ? std::vector{8, 16, 32} : std::vector{8, 12};
+  std::vector<WorstError> errors;
+  for (const int n : n_cells) {
+    Scene scene = aligned_block(dimension, dimension, n, 0.05);
+    scene.interpolator = interpolator;
+    errors.push_back(worst_error(scene, half_period));
+  }
+
+  const double order =
+      std::log(errors.front().rms / errors.back().rms) / std::log(1.0 * n_cells.back() / n_cells.front());
+  CHECK(order > (dimension == 2 ? 1.95 : 1.9));
+  CHECK(order < 2.2);
+}
+
 namespace
 {
 

@@ -85,3 +85,15 @@ TEST_CASE("free elastic bodies stay bounded up to the bound on the step, and not
   const double brought_back = !affine ? 0 : smooth ? 0.7 : 0.2;
   CHECK(growth(scene, (viscous ? 1.8 : 1.5) + brought_back) > 1e3);
 }
+
+TEST_CASE("with the other interpolators too, free elastic bodies stay bounded up to the bound on the step")
+{
+  const auto body = GENERATE(FreeBody{"block", 2, 4}, FreeBody{"ball", 3, 3});
+  Scene scene = free_body(body, GENERATE(false, true));
+  scene.interpolator = GENERATE(Interpolator::cpgimp, Interpolator::cpdi, Interpolator::cubic_spline);
+  CAPTURE(body.name, body.dimension, static_cast<int>(scene.interpolator));
+
+  CHECK(growth(scene, Scene{}.time.multiplier) < 1);
+  CHECK(growth(scene, 1) < 1);
+  CHECK(growth(scene, 3) > 1e3);
+}

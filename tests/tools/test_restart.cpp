@@ -148,6 +148,15 @@ TEST_CASE("soil on walls goes on, on other ranks too, with the bits of a straigh
   check_parted_run(scene.string(), 3);
 }
 
+TEST_CASE("with any interpolator a run goes on, on other ranks too, with the bits of a straight run", "[mpiexec]")
+{
+  const std::string interpolator = GENERATE("linear", "cpgimp", "cpdi", "cubic_spline");
+  const std::string rule = interpolator == "linear" ? " --set /time/rule=published" : "";
+
+  check_parted_run(
+      TAMP_SOURCE_DIR "/inputs/verification/axis_aligned/quick.json --set /interpolator=" + interpolator + rule, 2);
+}
+
 TEST_CASE("sand that has come apart goes on with the bits of a straight run, on other ranks too", "[mpiexec]")
 {
   const TemporaryFolder folder;

@@ -505,6 +505,9 @@ TEST_CASE("a name that is none of the choices is told with the choices")
   CHECK(problems_with({"/interpolator=quintic_spline"}) ==
         "--set#/interpolator: \"quintic_spline\"; expected one of linear, gimp, cpgimp, cpdi, quadratic_spline, "
         "cubic_spline");
+  CHECK(problems_with({"/interpolator=linear"}) ==
+        "--set#/interpolator: \"linear\" with the time step's rule \"viscous\"; expected the rule \"published\", as a "
+        "particle that hardly reaches a node would have no stable step; or another interpolator");
   CHECK(problems_with({"/transfer=apic"}) == "--set#/transfer: \"apic\"; expected one of flip, affine");
   CHECK(problems_with({"/boundaries/x-=wall"}) ==
         "--set#/boundaries/x-: \"wall\"; expected one of symmetry, open, no_slip, periodic");
