@@ -33,9 +33,13 @@ inline const runtime::ParticleLabel<Vector<D>, "position"> position;
 /// At the middle of the step that led here: half a step behind the position (leapfrog).
 template <int D>
 inline const runtime::ParticleLabel<Vector<D>, "velocity"> velocity;
-/// At the middle of the step that led here [1/s]; row: component of velocity. Only where the transfer is affine.
+/// At the middle of the step that led here [1/s]; row: component of velocity. Only where the transfer brings it.
 template <int D>
 inline const runtime::ParticleLabel<Matrix<D>, "velocity gradient"> velocity_gradient;
+/// sum S_ip v_i (x) (x_i - x_p) in the step that led here [m^2/s]; row: component of velocity. Only where the transfer
+/// brings it.
+template <int D>
+inline const runtime::ParticleLabel<Matrix<D>, "velocity moment"> velocity_moment;
 template <int D>
 inline const runtime::ParticleLabel<Matrix<D>, "deformation gradient"> deformation_gradient;
 inline const runtime::ParticleLabel<double, "volume"> volume;
@@ -76,6 +80,20 @@ template <int D>
 inline const runtime::NodeLabel<components::RegressionSums<D>, "regression sums 2"> second_regression_sums;
 template <int D>
 inline const runtime::NodeLabel<components::EdgeSums<D>, "edge sums"> edge_sums;
+/// Of the passes of a transfer: the last term u_j, and the sum of those that the transfer takes [m/s].
+template <int D>
+inline const runtime::NodeLabel<components::NodeVector<D>, "velocity term"> velocity_term;
+template <int D>
+inline const runtime::NodeLabel<components::NodeVector<D>, "velocity terms"> velocity_terms;
+constexpr auto returned_momentum_name(int pass)
+{
+  runtime::LabelName name("returned momentum 0");
+  name.text[name.text.size() - 2] = static_cast<char>('0' + pass);
+  return name;
+}
+/// sum m_p S_ip (S u)_p [kg m/s], one for each pass, from 1.
+template <int D, int pass>
+inline const runtime::NodeLabel<components::NodeVector<D>, returned_momentum_name(pass)> returned_momentum;
 
 }  // namespace node
 
@@ -90,6 +108,7 @@ inline const runtime::ReductionLabel<HostRequests, "host requests"> host_request
 /// What a step adds to the energies, and how long the next may be.
 inline const runtime::ReductionLabel<StepTotals, "step totals"> step_totals;
 inline const runtime::ReductionLabel<GridTotals, "grid totals"> grid_totals;
+inline const runtime::ReductionLabel<FilteredMomentum, "filtered momentum"> filtered_momentum;
 /// Where a scene has body forces.
 inline const runtime::ReductionLabel<BodyForceWork, "body force work"> body_force_work;
 inline const runtime::ReductionLabel<ContactImpulses, "contact impulses"> contact_impulses;

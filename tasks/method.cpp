@@ -32,7 +32,10 @@ template <int D>
 Method<D>::Method(const Scene& given)
     : scene(given),
       halo(components::n_layers_beyond(scene.interpolator)),
-      transfer(scene.transfer),
+      surroundings(surroundings_of(scene.transfer_choice())),
+      passes(with_transfer([](const auto& transfer) { return transfer.passes; })),
+      n_passes(with_transfer([](const auto& transfer) { return transfer.n_passes(); })),
+      amplification(with_transfer([](const auto& transfer) -> double { return transfer.amplification(); })),
       cell_size(scene.grid.cell_size),
       least_node_mass(least_weight * least_particle_mass(scene)),
       gravity(vector_of<D>(scene.gravity)),

@@ -4,6 +4,7 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "components/contact/contact_table.hpp"
@@ -63,6 +64,12 @@ struct Method {
   {
     return *interpolations[static_cast<std::size_t>(material)];
   }
+  /// Calls `visit(transfer)` with that of the scene, see components/transfers/.
+  template <class Visit>
+  auto with_transfer(Visit&& visit) const
+  {
+    return components::with_transfer(scene.transfer_choice(), std::forward<Visit>(visit));
+  }
   /// Whether contact or a pressure load asks where the surface of a material is.
   bool needs_surface_of(int material) const;
   /// The rigid body that a material is, or null.
@@ -72,7 +79,13 @@ struct Method {
   std::vector<std::unique_ptr<const components::Interpolation<D>>> interpolations;
   /// Layers of nodes beyond a patch that its particles reach.
   int halo;
-  Transfer transfer;
+  /// What particles bring to the grid beside their velocities.
+  components::Surroundings surroundings;
+  /// Of nodes -> particles -> nodes: from which velocities, and how many.
+  components::Passes passes;
+  int n_passes;
+  /// Of the motion of nodes by the transfer, for the bound on the step.
+  double amplification;
   double cell_size;
   /// Nodes with less mass [kg] are not accelerated: they are touched by an edge of a particle to within round-off, and
   /// as force goes with the slope of the weight but mass with its square, they would turn round-off into finite strain.

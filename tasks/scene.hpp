@@ -17,6 +17,7 @@
 #include "components/problems/body_functions.hpp"
 #include "components/rigid/prescribed_motion.hpp"
 #include "components/shapes/interpolator.hpp"
+#include "components/transfers/transfers.hpp"
 #include "runtime/grid/patch_layout.hpp"
 
 /// A scene that has been checked: what a run is made from. SI units. Two-dimensional scenes (plane strain) use the
@@ -35,9 +36,7 @@ enum class StepRule { published, viscous };
 
 using components::Interpolator;
 
-/// How velocities go between particles and grid. `flip`: particles bring theirs, and take the nodes' changes of them.
-/// `affine`: they bring the velocities' gradient too, which they took from the grid in the step before.
-enum class Transfer { flip, affine };
+using components::Transfer;
 
 struct SceneTime {
   double end;
@@ -167,6 +166,10 @@ struct Scene {
   SceneTime time;
   Interpolator interpolator = Interpolator::gimp;
   Transfer transfer = Transfer::flip;
+  /// Of a blend.
+  double flip_part = 0.99;
+  /// Of XPIC and FMPM.
+  int filter_order = 2;
   /// Along each axis of a cell.
   int particles_per_axis = 2;
   Triple gravity{0, 0, 0};
@@ -195,6 +198,7 @@ struct Scene {
   {
     return std::any_of(bodies.begin(), bodies.end(), [](const SceneBody& body) { return body.axis.has_value(); });
   }
+  components::TransferChoice transfer_choice() const { return {transfer, flip_part, filter_order}; }
   int particles_per_axis_of(int material) const
   {
     return materials[static_cast<std::size_t>(material)].own_particles_per_axis.value_or(particles_per_axis);

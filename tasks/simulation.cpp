@@ -264,7 +264,8 @@ class SimulationOf : public Simulation
     }
     const double own_stiffness = method_.interpolation(body.material).greatest_own_stiffness();
     return components::viscous_time_step<D>(h, {density, bulk, shear, v, 0, own_stiffness},
-                                            method_.viscosity.value_or(components::ArtificialViscosity{0, 0}));
+                                            method_.viscosity.value_or(components::ArtificialViscosity{0, 0}),
+                                            method_.amplification);
   }
 
   double initial_stable_step(const BodyParticles<D>& particles) const
@@ -322,6 +323,10 @@ class SimulationOf : public Simulation
     asked_ = engine_->warehouse().result(host_requests).bits;
     const GridTotals& of_nodes = engine_->warehouse().result(tasks::grid_totals);
     grid_totals_.combine(of_nodes);
+    if (!method_.deformable_materials.empty()) {
+      const FilteredMomentum& filtered = engine_->warehouse().result(filtered_momentum);
+      for (std::size_t k = 0; k < 3; ++k) grid_totals_.impulse[k] += filtered.value[k];
+    }
     totals_.contact += of_nodes.taken_by_walls;
     totals_.viscous += of_nodes.taken_by_damping;
     if (scene_.has_body_force()) totals_.driving += engine_->warehouse().result(body_force_work).value;

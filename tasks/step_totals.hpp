@@ -75,7 +75,7 @@ struct BodyForceWork {
 /// Sums over the nodes of one step.
 struct GridTotals {
   /// What all particles take from the nodes [N s]: gravity, loads and the walls; forces within and between bodies
-  /// cancel.
+  /// cancel. The simulation adds what transfers filter to its sum.
   std::array<double, 3> impulse{0, 0, 0};
   /// The energy that walls take by friction and by stopping what runs into them [J].
   double taken_by_walls = 0;
@@ -87,6 +87,17 @@ struct GridTotals {
     for (std::size_t k = 0; k < 3; ++k) impulse[k] += other.impulse[k];
     taken_by_walls += other.taken_by_walls;
     taken_by_damping += other.taken_by_damping;
+  }
+};
+
+/// Momentum that transfers which filter velocities give to particles in one step, beside what these take from the nodes
+/// [N s]: 0 but where images behind walls have a part in the velocities of nodes.
+struct FilteredMomentum {
+  std::array<double, 3> value{0, 0, 0};
+
+  void combine(const FilteredMomentum& other)
+  {
+    for (std::size_t k = 0; k < 3; ++k) value[k] += other.value[k];
   }
 };
 

@@ -8,6 +8,8 @@
 namespace tamp::tasks
 {
 
+using components::Surroundings;
+
 namespace
 {
 
@@ -61,6 +63,7 @@ std::vector<runtime::TaskDeclaration> time_step(const Method<D>& method,
   if (!method.pressed_materials.empty()) step.push_back(account_for_pressure(method));
   if (!method.rigid_bodies.empty()) step.push_back(move_rigid_bodies(method));
   for (const RigidBody& body : method.rigid_bodies) step.push_back(move_rigid_particles(method, body.material));
+  for (runtime::TaskDeclaration& phase : pass_velocities(method)) step.push_back(std::move(phase));
   if (!method.deformable_materials.empty()) step.push_back(grid_to_particles(method));
   if (method.scene.has_body_force()) step.push_back(work_of_body_force(method));
   for (const int material : method.deformable_materials) step.push_back(update_stress(method, material));
@@ -77,9 +80,11 @@ runtime::HostData host_data(const Method<D>& method)
                           &particle::volume, &particle::stress<D>, &particle::viscous_pressure, &rigid_states},
                          {&step_totals, &grid_totals, &contact_impulses, &host_requests}};
   for (const SceneMaterial& material : method.materials) add_state_of(material.model, data);
+  if (!method.deformable_materials.empty()) data.results.push_back(&filtered_momentum);
   if (!method.pressed_materials.empty()) data.results.push_back(&load_totals);
   if (method.scene.is_periodic()) data.state.push_back(&particle::laps);
-  if (method.transfer == Transfer::affine) data.state.push_back(&particle::velocity_gradient<D>);
+  if (method.surroundings == Surroundings::gradient) data.state.push_back(&particle::velocity_gradient<D>);
+  if (method.surroundings == Surroundings::moment) data.state.push_back(&particle::velocity_moment<D>);
   if (method.scene.has_body_force()) data.results.push_back(&body_force_work);
   return data;
 }

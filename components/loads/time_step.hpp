@@ -45,15 +45,17 @@ constexpr double shared_stiffness = 4.5;
 /// max(0, -tr D)) / h, with the speeds c of dilatational waves, c_b = sqrt(K / density) and c_s of the modulus
 /// K + (2/D - 2/3) G of equal strain along D axes: a particle that has its nodes to itself feels just s, one of many
 /// what waves feel. That both may be added, and k0, are read from eigenvalues of blocks, balls and thinned out lattices
-/// of particles at random offsets (tools/studies/stable_step.py).
+/// of particles at random offsets (tools/studies/stable_step.py). Both count `amplification` times where nodes move
+/// that much further by what the particles push them with.
 template <int D, class Number = double>
-Number viscous_time_step(double cell_size, const StiffParticle<D, Number>& p, const ArtificialViscosity& viscosity)
+Number viscous_time_step(double cell_size, const StiffParticle<D, Number>& p, const ArtificialViscosity& viscosity,
+                         double amplification = 1)
 {
   const Number c = wave_speed(p.bulk_modulus, p.shear_modulus, p.density);
   const Number squeeze_modulus = p.bulk_modulus + (2.0 / D - 2.0 / 3.0) * p.shear_modulus;
-  const Number a = shared_stiffness * c * c + p.own_stiffness * squeeze_modulus / p.density;
+  const Number a = amplification * (shared_stiffness * c * c + p.own_stiffness * squeeze_modulus / p.density);
   const Number closing_speed = cell_size * greater_of<Number>(0.0, -p.volume_rate);
-  const Number b = (shared_stiffness + p.own_stiffness) *
+  const Number b = amplification * (shared_stiffness + p.own_stiffness) *
                    (viscosity.linear * sqrt(p.bulk_modulus / p.density) + viscosity.quadratic * closing_speed);
   // h / dt, by the root of the quadratic without cancellation.
   const Number signal_speed = 0.5 * (b + sqrt(b * b + 2.0 * a));

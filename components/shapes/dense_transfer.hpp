@@ -93,6 +93,54 @@ void grid_to_particles(const Interpolator& interpolator, const GridBlock<D>& blo
 }
 
 template <Dense Interpolator, int D = Interpolator::dimension>
+void interpolate(const Interpolator& interpolator, const GridBlock<D>& block, const ParticlePlaces<D>& places,
+                 const NodeVector<D>* nodes, std::span<Vector<D>> values)
+{
+  for_each_stencil(interpolator, block, places, [&](std::size_t p, const auto& stencil) {
+    values[p].setZero();
+    for_each_weight(block, stencil, [&](std::ptrdiff_t i, double weight) { values[p] += weight * nodes[i].value(); });
+  });
+}
+
+template <Dense Interpolator, int D = Interpolator::dimension>
+void add_vectors(const Interpolator& interpolator, const GridBlock<D>& block, const ParticlePlaces<D>& places,
+                 std::span<const Vector<D>> vectors, NodeVector<D>* sums)
+{
+  for_each_stencil(interpolator, block, places, [&](std::size_t p, const auto& stencil) {
+    for_each_weight(block, stencil,
+                    [&](std::ptrdiff_t i, double weight) { sums[i].set(sums[i].value() + weight * vectors[p]); });
+  });
+}
+
+template <Dense Interpolator, int D = Interpolator::dimension>
+void velocity_moments(const Interpolator& interpolator, const GridBlock<D>& block, const ParticlePlaces<D>& places,
+                      const NodeMotion<D>* nodes, std::span<Matrix<D>> moments)
+{
+  for_each_stencil(interpolator, block, places, [&](std::size_t p, const auto& stencil) {
+    const Vector<D> place = mean_place(block, stencil);
+    moments[p].setZero();
+    for_each_weight(block, stencil, [&](std::ptrdiff_t i, double weight) {
+      const Vector<D> away = block.cell_size * (block.cells_to(i) - place);
+      moments[p] += weight * nodes[i].velocity() * away.transpose();
+    });
+  });
+}
+
+template <Dense Interpolator, int D = Interpolator::dimension>
+void second_moments(const Interpolator& interpolator, const GridBlock<D>& block, const ParticlePlaces<D>& places,
+                    std::span<Matrix<D>> moments)
+{
+  for_each_stencil(interpolator, block, places, [&](std::size_t p, const auto& stencil) {
+    const Vector<D> place = mean_place(block, stencil);
+    moments[p].setZero();
+    for_each_weight(block, stencil, [&](std::ptrdiff_t i, double weight) {
+      const Vector<D> away = block.cell_size * (block.cells_to(i) - place);
+      moments[p] += weight * away * away.transpose();
+    });
+  });
+}
+
+template <Dense Interpolator, int D = Interpolator::dimension>
 void own_stiffness(const Interpolator& interpolator, int n_per_axis, const GridBlock<D>& block,
                    const ParticlePlaces<D>& places, std::span<const double> mass, const double* inverse_mass,
                    std::span<double> stiffness)

@@ -50,6 +50,30 @@ class InterpolationBy final : public Interpolation<D>
     components::grid_to_particles(shape_, block, places, nodes, motion);
   }
 
+  void interpolate(const GridBlock<D>& block, const ParticlePlaces<D>& places, const NodeVector<D>* nodes,
+                   std::span<Vector<D>> values) const override
+  {
+    components::interpolate(shape_, block, places, nodes, values);
+  }
+
+  void add_vectors(const GridBlock<D>& block, const ParticlePlaces<D>& places, std::span<const Vector<D>> vectors,
+                   NodeVector<D>* sums) const override
+  {
+    components::add_vectors(shape_, block, places, vectors, sums);
+  }
+
+  void velocity_moments(const GridBlock<D>& block, const ParticlePlaces<D>& places, const NodeMotion<D>* nodes,
+                        std::span<Matrix<D>> moments) const override
+  {
+    components::velocity_moments(shape_, block, places, nodes, moments);
+  }
+
+  void second_moments(const GridBlock<D>& block, const ParticlePlaces<D>& places,
+                      std::span<Matrix<D>> moments) const override
+  {
+    components::second_moments(shape_, block, places, moments);
+  }
+
   void own_stiffness(const GridBlock<D>& block, const ParticlePlaces<D>& places, std::span<const double> mass,
                      const double* inverse_mass, std::span<double> stiffness) const override
   {

@@ -37,6 +37,14 @@ class Interpolation
                           NodeSums<D>* sums) const = 0;
   virtual void grid_to_particles(const GridBlock<D>& block, const ParticlePlaces<D>& places, const NodeMotion<D>* nodes,
                                  std::span<ParticleMotion<D>> motion) const = 0;
+  virtual void interpolate(const GridBlock<D>& block, const ParticlePlaces<D>& places, const NodeVector<D>* nodes,
+                           std::span<Vector<D>> values) const = 0;
+  virtual void add_vectors(const GridBlock<D>& block, const ParticlePlaces<D>& places,
+                           std::span<const Vector<D>> vectors, NodeVector<D>* sums) const = 0;
+  virtual void velocity_moments(const GridBlock<D>& block, const ParticlePlaces<D>& places, const NodeMotion<D>* nodes,
+                                std::span<Matrix<D>> moments) const = 0;
+  virtual void second_moments(const GridBlock<D>& block, const ParticlePlaces<D>& places,
+                              std::span<Matrix<D>> moments) const = 0;
   virtual void own_stiffness(const GridBlock<D>& block, const ParticlePlaces<D>& places, std::span<const double> mass,
                              const double* inverse_mass, std::span<double> stiffness) const = 0;
 

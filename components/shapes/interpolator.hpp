@@ -18,6 +18,13 @@ constexpr bool deforms(Interpolator interpolator)
   return interpolator == Interpolator::cpgimp || interpolator == Interpolator::cpdi;
 }
 
+/// Whether weights reach more than one node along every axis wherever the particle is, so that they have second
+/// moments, which `apic` divides by.
+constexpr bool has_second_moments(Interpolator interpolator)
+{
+  return interpolator != Interpolator::linear;
+}
+
 /// Distance in cells along an axis from a particle to the furthest node it can reach, for `n_per_axis` particles along
 /// each axis of a cell.
 constexpr double reach(Interpolator interpolator, int n_per_axis)

@@ -96,4 +96,23 @@ struct NodeMotion : NodeValues<D, D == 2 ? 4 : 8, 0, D == 2 ? 2 : 4> {
   }
 };
 
+/// A vector at a node, or the sum of what particles bring of one.
+template <int D>
+struct NodeVector : NodeValues<D, 4, 0> {
+  Vector<D> value() const { return this->vector(0); }
+  void set(const Vector<D>& value) { this->set_vector(0, value); }
+
+  NodeVector& operator+=(const NodeVector& other)
+  {
+    this->values += other.values;
+    return *this;
+  }
+  NodeVector mirrored(int axis) const
+  {
+    NodeVector image = *this;
+    image.mirror(axis);
+    return image;
+  }
+};
+
 }  // namespace tamp::components

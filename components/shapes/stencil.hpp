@@ -120,6 +120,22 @@ Stencil<D, Support> with_moments(Stencil<D, Support> stencil, double cell_size)
   return stencil;
 }
 
+/// sum S_i (x_i - x) (x) (x_i - x) of a stencil, its weights' second moments about the particle [m^2]. Those of two
+/// axes are products of first moments, which are zero.
+template <int D, int Support>
+Matrix<D> second_moments(const Stencil<D, Support>& stencil, double cell_size)
+{
+  const auto moments = with_moments(stencil, cell_size);
+  Matrix<D> sum = Matrix<D>::Zero();
+  for (std::size_t k = 0; k < D; ++k) {
+    const int axis = static_cast<int>(k);
+    for (std::size_t i = 1; i < Support; ++i) {
+      sum(axis, axis) += moments.slope[k][i] * static_cast<double>(i) * cell_size;
+    }
+  }
+  return sum;
+}
+
 /// A row of a stencil's nodes along x: the first one's place in the block, and what the other axes give to all of its
 /// weights and of their gradients. Node i has the weight w[0][i] `across`; its gradient has s[0][i] `across` along x
 /// and w[0][i] `slope_across` along the others.

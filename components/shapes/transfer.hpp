@@ -190,6 +190,72 @@ void grid_to_particles(const Interpolator& interpolator, const GridBlock<D>& blo
   });
 }
 
+/// The vectors that nodes have where particles are, sum S_ip u_i.
+template <class Interpolator, int D = Interpolator::dimension>
+void interpolate(const Interpolator& interpolator, const GridBlock<D>& block, const ParticlePlaces<D>& places,
+                 const NodeVector<D>* nodes, std::span<Vector<D>> values)
+{
+  for_each_stencil(interpolator, block, places, [&](std::size_t p, const auto& stencil) {
+    Quad sum = 0;
+    for_each_row<D>(block, stencil, [&](const StencilRow<D>& row) {
+      Quad by_weight = 0;
+      for (std::size_t i = 0; i < Interpolator::support; ++i) {
+        by_weight += stencil.weight[0][i] * nodes[row.first + static_cast<std::ptrdiff_t>(i)].four(0);
+      }
+      sum += row.across * by_weight;
+    });
+    for (int k = 0; k < D; ++k) values[p][k] = sum[static_cast<std::size_t>(k)];
+  });
+}
+
+/// Adds to the nodes the particles' shares of vectors, S_ip a_p.
+template <class Interpolator, int D = Interpolator::dimension>
+void add_vectors(const Interpolator& interpolator, const GridBlock<D>& block, const ParticlePlaces<D>& places,
+                 std::span<const Vector<D>> vectors, NodeVector<D>* sums)
+{
+  for_each_stencil(interpolator, block, places, [&](std::size_t p, const auto& stencil) {
+    const Vector<D>& a = vectors[p];
+    const Quad vector = quad(a[0], a[1], D == 3 ? a[D - 1] : 0, 0);
+    for_each_row<D>(block, stencil, [&](const StencilRow<D>& row) {
+      const Quad by_weight = row.across * vector;
+      for (std::size_t i = 0; i < Interpolator::support; ++i) {
+        sums[row.first + static_cast<std::ptrdiff_t>(i)].add(0, stencil.weight[0][i] * by_weight);
+      }
+    });
+  });
+}
+
+/// First moments of the velocities of the nodes about particles, sum S_ip v_i (x) (x_i - x_p) [m^2/s]; row: component
+/// of velocity.
+template <class Interpolator, int D = Interpolator::dimension>
+void velocity_moments(const Interpolator& interpolator, const GridBlock<D>& block, const ParticlePlaces<D>& places,
+                      const NodeMotion<D>* nodes, std::span<Matrix<D>> moments)
+{
+  for_each_stencil(interpolator, block, places, [&](std::size_t p, const auto& of_particle) {
+    const auto stencil = with_moments(of_particle, block.cell_size);
+    moments[p].setZero();
+    for_each_row<D>(block, stencil, [&](const StencilRow<D>& row) {
+      Vector<D> by_weight = Vector<D>::Zero(), by_moment = Vector<D>::Zero();
+      for (std::size_t i = 0; i < Interpolator::support; ++i) {
+        const Vector<D> velocity = nodes[row.first + static_cast<std::ptrdiff_t>(i)].velocity();
+        by_weight += stencil.weight[0][i] * velocity;
+        by_moment += stencil.slope[0][i] * velocity;
+      }
+      moments[p].col(0) += row.across * by_moment;
+      for (int k = 1; k < D; ++k) moments[p].col(k) += row.slope_across[k - 1] * by_weight;
+    });
+  });
+}
+
+/// Second moments of the weights about particles, sum S_ip (x_i - x_p) (x) (x_i - x_p) [m^2].
+template <class Interpolator, int D = Interpolator::dimension>
+void second_moments(const Interpolator& interpolator, const GridBlock<D>& block, const ParticlePlaces<D>& places,
+                    std::span<Matrix<D>> moments)
+{
+  for_each_stencil(interpolator, block, places,
+                   [&](std::size_t p, const auto& stencil) { moments[p] = second_moments(stencil, block.cell_size); });
+}
+
 /// h^2 m_p sum |grad S_ip|^2 / m_i, a pure number: how stiff a particle makes its nodes by itself, and so how fast they
 /// can shake, in units of its modulus over density and h^2. Particles smaller than half a cell count with as many of
 /// their like as lie side by side across half a cell, `n_per_axis` across one, as one layer of them moves as one.

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <array>
+#include <stdexcept>
 
 #include "components/kinematics/deform.hpp"
 #include "components/shapes/transfer.hpp"
@@ -12,6 +13,8 @@ namespace tamp::tasks
 {
 
 using components::ParticleMotion;
+using components::Passes;
+using components::Surroundings;
 using runtime::TaskContext;
 
 namespace
@@ -23,22 +26,47 @@ constexpr std::size_t batch = 32;
 template <int D>
 using Motions = std::span<const ParticleMotion<D>>;
 
-/// Particles from `first` on go where the grid takes them. They keep their velocity and take the nodes' changes of it
-/// (FLIP).
+/// What the transfer makes of the velocities of particles. `restored` is what passes from the start of the step restore
+/// of them; without such passes 0.
+template <int D>
+void transfer_velocities(const Method<D>& method, std::span<const Vector<D>> before, Motions<D> motion,
+                         std::span<const Vector<D>> restored, std::span<Vector<D>> after)
+{
+  method.with_transfer([&](const auto& transfer) {
+    for (std::size_t i = 0; i < motion.size(); ++i) {
+      after[i] = transfer.velocity(before[i], motion[i], restored[i]);
+    }
+  });
+}
+
+/// Particles from `first` on go where the grid takes them.
 template <int D, class Data>
-void move(double dt, const Data& data, std::size_t first, Motions<D> motion)
+void move(const Method<D>& method, double dt, const Data& data, std::size_t first, Motions<D> motion,
+          std::span<const Vector<D>> restored)
 {
   const auto old_position = data[particle::position<D>.previous()];
   const auto position = data[particle::position<D>];
-  const auto old_velocity = data[particle::velocity<D>.previous()];
-  const auto velocity = data[particle::velocity<D>];
+  for (std::size_t i = 0; i < motion.size(); ++i) {
+    position[first + i] = old_position[first + i] + dt * motion[i].velocity;
+    if constexpr (data.has(particle::velocity_gradient<D>)) {
+      data[particle::velocity_gradient<D>][first + i] = motion[i].velocity_gradient;
+    }
+  }
+  transfer_velocities<D>(method, data[particle::velocity<D>.previous()].subspan(first, motion.size()), motion, restored,
+                         data[particle::velocity<D>].subspan(first, motion.size()));
+}
+
+/// What a transfer that filters velocities adds to the momentum of particles beside what these take from the nodes.
+template <int D, class Data>
+void add_filtered_momentum(const Data& data, std::size_t first, Motions<D> motion)
+{
+  const auto mass = data[particle::mass.previous()];
+  const auto before = data[particle::velocity<D>.previous()], after = data[particle::velocity<D>];
+  auto& sum = data[filtered_momentum].value;
   for (std::size_t i = 0; i < motion.size(); ++i) {
     const std::size_t p = first + i;
-    position[p] = old_position[p] + dt * motion[i].velocity;
-    velocity[p] = old_velocity[p] + motion[i].velocity_change;
-    if constexpr (data.has(particle::velocity_gradient<D>)) {
-      data[particle::velocity_gradient<D>][p] = motion[i].velocity_gradient;
-    }
+    const Vector<D> filtered = mass[p] * (after[p] - before[p] - motion[i].velocity_change);
+    for (std::size_t k = 0; k < std::size_t{D}; ++k) sum[k] += filtered[static_cast<int>(k)];
   }
 }
 
@@ -80,8 +108,10 @@ runtime::TaskDeclaration grid_to_particles(const Method<D>& method)
                  particle::deformation_gradient<D>.previous(), particle::volume.previous(),
                  particle::stress<D>.previous())
           .computes(particle::position<D>, particle::velocity<D>, particle::deformation_gradient<D>, particle::volume,
-                    particle::stress<D>, particle::strain_increment<D>, particle::own_stiffness);
-  const auto body = [&method](const TaskContext& at, auto data) {
+                    particle::stress<D>, particle::strain_increment<D>, particle::own_stiffness)
+          .reduces(filtered_momentum);
+  const bool filters = method.with_transfer([](const auto& transfer) { return transfer.filters; });
+  const auto body = [&method, filters](const TaskContext& at, auto data) {
     const auto inverse_mass = data[node::inverse_mass];
     const auto nodes = data[node::motion<D>];
     const auto mass = data[particle::mass.previous()];
@@ -90,11 +120,21 @@ runtime::TaskDeclaration grid_to_particles(const Method<D>& method)
     const auto places = places_at_start<D>(data);
     const components::Interpolation<D>& interpolation = method.interpolation(at.group);
     std::array<ParticleMotion<D>, batch> buffer;
+    std::array<Vector<D>, batch> restored;
+    restored.fill(Vector<D>::Zero());
     for (std::size_t first = 0; first < mass.size(); first += batch) {
       const std::size_t size = std::min(batch, mass.size() - first);
       const auto motion = std::span(buffer).first(size);
       interpolation.grid_to_particles(block, places.subspan(first, size), nodes.data(), motion);
-      move<D>(at.step.size, data, first, motion);
+      if constexpr (data.has(node::velocity_terms<D>)) {
+        interpolation.interpolate(block, places.subspan(first, size), data[node::velocity_terms<D>].data(), restored);
+      }
+      move<D>(method, at.step.size, data, first, motion, restored);
+      if (filters) add_filtered_momentum<D>(data, first, motion);
+      if constexpr (data.has(particle::velocity_moment<D>)) {
+        interpolation.velocity_moments(block, places.subspan(first, size), nodes.data(),
+                                       data[particle::velocity_moment<D>].subspan(first, size));
+      }
       deform<D>(method, at, data, first, motion);
       if (method.time_step_rule == StepRule::viscous) {
         interpolation.own_stiffness(block, places.subspan(first, size), mass.subspan(first, size), inverse_mass.data(),
@@ -104,8 +144,18 @@ runtime::TaskDeclaration grid_to_particles(const Method<D>& method)
       }
     }
   };
-  if (method.transfer == Transfer::flip) return std::move(task).body(body);
-  return std::move(task).computes(particle::velocity_gradient<D>).body(body);
+  if (method.passes == Passes::from_start && method.n_passes > 0) {
+    return std::move(task).reads(node::velocity_terms<D>.halo(method.halo)).body(body);
+  }
+  switch (method.surroundings) {
+    case Surroundings::none:
+      return std::move(task).body(body);
+    case Surroundings::gradient:
+      return std::move(task).computes(particle::velocity_gradient<D>).body(body);
+    case Surroundings::moment:
+      return std::move(task).computes(particle::velocity_moment<D>).body(body);
+  }
+  throw std::logic_error("unknown surroundings");
 }
 
 template runtime::TaskDeclaration grid_to_particles(const Method<2>&);

@@ -1,3 +1,6 @@
+#include <stdexcept>
+#include <vector>
+
 #include "components/shapes/transfer.hpp"
 #include "tasks/labels.hpp"
 #include "tasks/phases/phases.hpp"
@@ -8,6 +11,7 @@ namespace tamp::tasks
 {
 
 using components::NodeSums;
+using components::Surroundings;
 using runtime::GridView;
 using runtime::Index;
 using runtime::TaskContext;
@@ -25,6 +29,21 @@ void fold(const Wall<D>& wall, const TaskContext& at, const GridView<NodeSums<D>
     gradient[wall.axis] = 0;
     sums[i].set_surface_gradient(gradient);
   });
+}
+
+/// The gradients [1/s] that moments of velocity come to with the weights of this step.
+template <int D>
+std::vector<Matrix<D>> affine_gradients(const components::Interpolation<D>& interpolation,
+                                        const components::GridBlock<D>& block,
+                                        const components::ParticlePlaces<D>& places,
+                                        std::span<const Matrix<D>> velocity_moments)
+{
+  std::vector<Matrix<D>> gradients(places.size());
+  interpolation.second_moments(block, places, gradients);
+  for (std::size_t p = 0; p < gradients.size(); ++p) {
+    gradients[p] = components::affine_gradient<D>(velocity_moments[p], gradients[p]);
+  }
+  return gradients;
 }
 
 }  // namespace
@@ -54,11 +73,24 @@ runtime::TaskDeclaration particles_to_grid(const Method<D>& method)
       interpolation.add_gradient_momentum(block, sources.places, sources.mass,
                                           data[particle::velocity_gradient<D>.previous()], sums.data());
     }
+    if constexpr (data.has(particle::velocity_moment<D>)) {
+      interpolation.add_gradient_momentum(
+          block, sources.places, sources.mass,
+          affine_gradients<D>(interpolation, block, sources.places, data[particle::velocity_moment<D>.previous()]),
+          sums.data());
+    }
     // The image behind a wall gives to the grid as the particles do.
     for_each_wall(method, at, sums.box(), [&](const Wall<D>& wall) { fold(wall, at, sums); });
   };
-  if (method.transfer == Transfer::flip) return std::move(task).body(body);
-  return std::move(task).reads(particle::velocity_gradient<D>.previous()).body(body);
+  switch (method.surroundings) {
+    case Surroundings::none:
+      return std::move(task).body(body);
+    case Surroundings::gradient:
+      return std::move(task).reads(particle::velocity_gradient<D>.previous()).body(body);
+    case Surroundings::moment:
+      return std::move(task).reads(particle::velocity_moment<D>.previous()).body(body);
+  }
+  throw std::logic_error("unknown surroundings");
 }
 
 template runtime::TaskDeclaration particles_to_grid(const Method<2>&);

@@ -70,6 +70,10 @@ runtime::TaskDeclaration move_rigid_bodies(const Method<D>& method);
 template <int D>
 runtime::TaskDeclaration move_rigid_particles(const Method<D>& method, int material);
 
+/// What nodes tell particles goes back to the nodes, as often as the transfer asks for; empty for most.
+template <int D>
+std::vector<runtime::TaskDeclaration> pass_velocities(const Method<D>& method);
+
 /// Particles of the other materials are moved and deformed by the grid.
 template <int D>
 runtime::TaskDeclaration grid_to_particles(const Method<D>& method);

@@ -16,6 +16,7 @@ namespace tamp::tasks
 {
 
 using components::MaterialBatch;
+using components::Surroundings;
 using runtime::TaskContext;
 
 namespace
@@ -116,8 +117,8 @@ void account(const Method<D>& method, double dt, const Data& data, std::size_t f
         method.time_step_rule == StepRule::published
             ? components::published_time_step<D>(
                   method.cell_size, components::wave_speed(p.bulk_modulus, p.shear_modulus, p.density), p.velocity)
-            : components::viscous_time_step<D>(method.cell_size, p,
-                                               viscosity.value_or(components::ArtificialViscosity{0, 0}));
+            : components::viscous_time_step<D>(
+                  method.cell_size, p, viscosity.value_or(components::ArtificialViscosity{0, 0}), method.amplification);
     set_lanes(account.stable_step, k, select(stiff, stable_step, components::part_of_step_apart * stable_step));
   }
   account.add_to(data[step_totals], n);
@@ -167,12 +168,14 @@ FailedUpdate failed_update(const Model& model, int material, std::size_t p, comp
 template <int D, class Data>
 void forget_gradients(const Data& data, std::size_t first, std::span<const double> bulk_modulus)
 {
-  if constexpr (data.has(particle::velocity_gradient<D>)) {
-    const auto gradient = data[particle::velocity_gradient<D>].subspan(first, bulk_modulus.size());
+  const auto forget = [&](const auto& of_all) {
+    const auto gradient = of_all.subspan(first, bulk_modulus.size());
     for (std::size_t k = 0; k < gradient.size(); ++k) {
       if (bulk_modulus[k] == 0) gradient[k].setZero();
     }
-  }
+  };
+  if constexpr (data.has(particle::velocity_gradient<D>)) forget(data[particle::velocity_gradient<D>]);
+  if constexpr (data.has(particle::velocity_moment<D>)) forget(data[particle::velocity_moment<D>]);
 }
 
 /// Takes all particles to the material batch by batch.
@@ -219,8 +222,11 @@ runtime::TaskDeclaration update_of(const Method<D>& method, int material, const 
           .computes(particle::viscous_pressure)
           .reduces(step_totals);
   if constexpr (requires { model.may_come_apart(); }) {
-    if (model.may_come_apart() && method.transfer == Transfer::affine) {
+    if (model.may_come_apart() && method.surroundings == Surroundings::gradient) {
       return with_body(method, model, std::move(task).updates(particle::velocity_gradient<D>));
+    }
+    if (model.may_come_apart() && method.surroundings == Surroundings::moment) {
+      return with_body(method, model, std::move(task).updates(particle::velocity_moment<D>));
     }
   }
   return with_body(method, model, std::move(task));

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <utility>
 #include <vector>
 
 #include "tasks/labels.hpp"
@@ -12,6 +13,8 @@
 
 namespace tamp::tasks
 {
+
+using components::Surroundings;
 
 namespace
 {
@@ -31,6 +34,31 @@ template <int D>
 Vector<D> initial_position(const components::BodyFunctions& functions, const Vector<D>& X)
 {
   return functions.displacement ? Vector<D>(X + functions.displacement(in_space<D>(X)).template head<D>()) : X;
+}
+
+/// The gradient of a body's velocity as it turns [1/s].
+template <int D>
+Matrix<D> spin_of(const SceneBody& body)
+{
+  return cross_matrix(Eigen::Vector3d(body.angular_velocity.data())).template topLeftCorner<D, D>();
+}
+
+/// All nodes of the grid as one block, with layers around it that particles at open faces reach. Nothing lies there:
+/// only weights may be asked for.
+template <int D>
+components::GridBlock<D> whole_grid(const runtime::Grid& grid)
+{
+  constexpr int n_around = 2;
+  components::GridBlock<D> block;
+  block.cell_size = grid.cell_size;
+  std::ptrdiff_t stride = 1;
+  for (std::size_t k = 0; k < D; ++k) {
+    const int axis = static_cast<int>(k);
+    block.origin[axis] = grid.coordinate(axis, -n_around);
+    block.n_nodes[k] = grid.n_cells[k] + 1 + 2 * n_around;
+    block.strides[k] = std::exchange(stride, stride * block.n_nodes[k]);
+  }
+  return block;
 }
 
 template <int D>
@@ -159,6 +187,7 @@ void BodyParticles<D>::store(const Particles& particles, int patch, int material
   warehouse.set_n_particles(patch, material, n);
   const auto state = [&](const auto& label) { return warehouse.state(label, patch, material); };
   const double density = scene_.materials[static_cast<std::size_t>(material)].density;
+  const Surroundings surroundings = surroundings_of(scene_.transfer_choice());
   for (std::size_t p = 0; p < n; ++p) {
     const auto number = static_cast<std::size_t>(particles.body[p]);
     const SceneBody& body = scene_.bodies[number];
@@ -168,10 +197,7 @@ void BodyParticles<D>::store(const Particles& particles, int patch, int material
     state(particle::position<D>)[p] = particles.position[p];
     state(particle::reference_position<D>)[p] = site.place;
     state(particle::velocity<D>)[p] = initial_velocity(particles, p);
-    if (scene_.transfer == Transfer::affine) {
-      const Eigen::Vector3d spin(body.angular_velocity.data());
-      state(particle::velocity_gradient<D>)[p] = cross_matrix(spin).template topLeftCorner<D, D>();
-    }
+    if (surroundings == Surroundings::gradient) state(particle::velocity_gradient<D>)[p] = spin_of<D>(body);
     state(particle::deformation_gradient<D>)[p] = Matrix<D>::Identity();
     state(particle::volume)[p] = site.volume;
     state(particle::mass)[p] = density * site.volume;
@@ -185,6 +211,22 @@ void BodyParticles<D>::store(const Particles& particles, int patch, int material
     const auto settled = settled_.at(number).at(particles.position[p]);
     state(particle::stress<D>)[p] = settled.stress;
     state(particle::state<components::TabularCap>)[p] = settled.state;
+  }
+  if (surroundings == Surroundings::moment) store_velocity_moments(particles, patch, material, warehouse);
+}
+
+template <int D>
+void BodyParticles<D>::store_velocity_moments(const Particles& particles, int patch, int material,
+                                              runtime::Warehouse& warehouse) const
+{
+  const auto moments = warehouse.state(particle::velocity_moment<D>, patch, material);
+  const auto interpolation =
+      components::Interpolation<D>::make(scene_.interpolator, scene_.particles_per_axis_of(material));
+  interpolation->second_moments(
+      whole_grid<D>(scene_.grid),
+      {particles.position, warehouse.state(particle::deformation_gradient<D>, patch, material)}, moments);
+  for (std::size_t p = 0; p < moments.size(); ++p) {
+    moments[p] = spin_of<D>(scene_.bodies[static_cast<std::size_t>(particles.body[p])]) * moments[p];
   }
 }
 

@@ -50,6 +50,8 @@ class BodyParticles
   Vector<D> rigid_velocity(int body, const Vector<D>& x) const;
   Vector<D> initial_velocity(const Particles& particles, std::size_t p) const;
   void store(const Particles& particles, int patch, int material, runtime::Warehouse& warehouse) const;
+  /// Those of the body's turning, with the weights of the start.
+  void store_velocity_moments(const Particles& particles, int patch, int material, runtime::Warehouse& warehouse) const;
 
   const Scene& scene_;
   /// By [patch][material], bodies in their order.

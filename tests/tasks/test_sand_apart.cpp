@@ -46,7 +46,7 @@ TEST_CASE("sand that is thrown apart keeps its momentum and accounts for its ene
 {
   const int dimension = GENERATE(2, 3);
   Scene scene = spinning_sand(dimension);
-  scene.transfer = GENERATE(Transfer::flip, Transfer::affine);
+  scene.transfer = GENERATE(Transfer::flip, Transfer::affine, Transfer::apic);
   const auto simulation = Simulation::make(scene, 2);
   const ParticleReport before = simulation->report();
   const double stable_step = simulation->totals().stable_step;

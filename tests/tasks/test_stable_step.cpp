@@ -3,6 +3,7 @@
 #include <cmath>
 #include <limits>
 #include <string>
+#include <utility>
 
 #include "tasks/simulation_error.hpp"
 #include "tests/tasks/scenes.hpp"
@@ -96,4 +97,21 @@ TEST_CASE("with the other interpolators too, free elastic bodies stay bounded up
   CHECK(growth(scene, Scene{}.time.multiplier) < 1);
   CHECK(growth(scene, 1) < 1);
   CHECK(growth(scene, 3) > 1e3);
+}
+
+TEST_CASE("free elastic bodies stay bounded up to the bound on the step with transfers that filter too")
+{
+  const auto body = GENERATE(FreeBody{"block", 2, 4}, FreeBody{"block", 3, 2.5});
+  const bool viscous = GENERATE(false, true), smooth = GENERATE(false, true);
+  const auto [transfer, order] =
+      GENERATE(std::pair{Transfer::pic, 1}, std::pair{Transfer::blend, 1}, std::pair{Transfer::apic, 1},
+               std::pair{Transfer::tpic, 1}, std::pair{Transfer::xpic, 2}, std::pair{Transfer::xpic, 5},
+               std::pair{Transfer::fmpm, 2}, std::pair{Transfer::fmpm, 8});
+  Scene scene = free_body(body, viscous);
+  scene.transfer = transfer;
+  scene.filter_order = order;
+  scene.interpolator = smooth ? Interpolator::quadratic_spline : Interpolator::gimp;
+  CAPTURE(body.dimension, viscous, smooth, static_cast<int>(transfer), order);
+
+  CHECK(growth(scene, 1) < 1);
 }

@@ -131,6 +131,7 @@ TEST_CASE("a driven body goes on from where it was, on other ranks too, with the
 
 TEST_CASE("soil on walls goes on, on other ranks too, with the bits of a straight run", "[mpiexec]")
 {
+  const std::string transfer = GENERATE("affine", "apic", "tpic", "fmpm --set /filter_order=3");
   const TemporaryFolder folder;
   const fs::path scene = folder.path() / "column.json";
   std::ofstream(scene) << R"({
@@ -138,14 +139,14 @@ TEST_CASE("soil on walls goes on, on other ranks too, with the bits of a straigh
     "grid": {"upper": [3.2, 1.6], "cell_size": 0.1, "patches": [4, 2]},
     "boundaries": {"x-": "no_slip", "y-": {"friction": 0.5}, "y+": "open"},
     "time": {"end": 1},
-    "transfer": "affine", "interpolator": "quadratic_spline", "local_damping": 0.1,
+    "interpolator": "quadratic_spline", "local_damping": 0.1,
     "gravity": [0, -9.81],
     "materials": {"soil": {"type": "drucker_prager", "density": 1600, "bulk_modulus": 1e6, "shear_modulus": 5e5,
                            "friction_angle": 30}},
     "bodies": {"column": {"material": "soil", "geometry": {"type": "box", "lower": [0, 0], "upper": [1, 1]}}}
   })";
 
-  check_parted_run(scene.string(), 3);
+  check_parted_run(scene.string() + " --set /transfer=" + transfer, 3);
 }
 
 TEST_CASE("with any interpolator a run goes on, on other ranks too, with the bits of a straight run", "[mpiexec]")

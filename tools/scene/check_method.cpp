@@ -10,6 +10,11 @@ void check_method(const JsonReader& reader, const tasks::Scene& scene)
                        "expected the rule \"published\", as a particle that hardly reaches a node would have no stable "
                        "step; or another interpolator");
   }
+  if (scene.transfer == tasks::Transfer::apic && !components::has_second_moments(scene.interpolator)) {
+    reader.add_problem("transfer",
+                       "apic with an interpolator whose weights have no spread where a particle is on a node",
+                       "expected another transfer, such as tpic, or another interpolator");
+  }
 }
 
 }  // namespace tamp::tools

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <initializer_list>
 
 #include "components/errors.hpp"
 #include "tasks/method.hpp"
@@ -39,7 +40,7 @@ class SceneReader
     const bool grid_is_good = document_.problems.size() == n_before;
     read_faces(grid_is_good);
     read_time();
-    scene_.transfer = root_.choice<tasks::Transfer>("transfer");
+    read_transfer();
     check_method(root_, scene_);
     read_particles_per_cell();
     read_loads();
@@ -172,6 +173,26 @@ class SceneReader
                          fmt::format("expected no less than the minimum step, {}", time.minimum_step));
     }
     reader.finish();
+  }
+
+  void read_transfer()
+  {
+    using tasks::Transfer;
+    scene_.transfer = root_.choice<Transfer>("transfer");
+    if (belongs_to("flip_part", "blend", {Transfer::blend})) scene_.flip_part = root_.number("flip_part");
+    if (belongs_to("filter_order", "xpic or fmpm", {Transfer::xpic, Transfer::fmpm})) {
+      scene_.filter_order = root_.whole_number("filter_order");
+    }
+  }
+
+  /// Whether a key goes with the scene's transfer; if it is there and does not, that is noted.
+  bool belongs_to(const std::string& key, const std::string& words, std::initializer_list<tasks::Transfer> transfers)
+  {
+    const bool belongs = std::find(transfers.begin(), transfers.end(), scene_.transfer) != transfers.end();
+    if (!belongs && root_.has(key)) {
+      root_.add_problem(key, "a key that another transfer has", "expected the transfer " + words + " with it");
+    }
+    return belongs;
   }
 
   void read_particles_per_cell()

@@ -200,10 +200,33 @@ const ObjectKeys& scene_keys()
                "`\"cubic_spline\"`, B-splines; see [method.md](method.md). `\"linear\"` needs the time step's rule "
                "`\"published\"`"),
            choice<tasks::Transfer>(
-               "transfer", scene.transfer, {{"flip", tasks::Transfer::flip}, {"affine", tasks::Transfer::affine}},
+               "transfer", scene.transfer,
+               {{"flip", tasks::Transfer::flip},
+                {"pic", tasks::Transfer::pic},
+                {"blend", tasks::Transfer::blend},
+                {"affine", tasks::Transfer::affine},
+                {"apic", tasks::Transfer::apic},
+                {"tpic", tasks::Transfer::tpic},
+                {"xpic", tasks::Transfer::xpic},
+                {"fmpm", tasks::Transfer::fmpm}},
                "how velocities go between particles and grid: with `\"flip\"` particles bring theirs to the grid and "
                "take the nodes' changes of them; with `\"affine\"` they bring their gradients too, so that bodies only "
-               "a few cells thick turn as fast as they spin, see [method.md](method.md)"),
+               "a few cells thick turn as fast as they spin; with `\"pic\"` they take the nodes' velocities, "
+               "`\"blend\"` "
+               "is a part of each; `\"apic\"` and `\"tpic\"` are `\"pic\"` with gradients; `\"xpic\"` and `\"fmpm\"` "
+               "filter only what the nodes cannot tell apart, the better the higher their order; see "
+               "[method.md](method.md)"),
+           {"flip_part",
+            Number{{.lower = 0, .upper = 1}},
+            "",
+            {scene.flip_part},
+            "with `\"blend\"` only: the part of `\"flip\"`, from 0 to 1; the rest is `\"pic\"`"},
+           {"filter_order",
+            WholeNumber{1, components::greatest_filter_order},
+            "",
+            {scene.filter_order},
+            "with `\"xpic\"` and `\"fmpm\"` only: their order, 1 to 8; 1 is `\"pic\"`, and each one more takes another "
+            "pass over the particles"},
            {"particles_per_cell",
             WholeNumbers{per_axis, 1, most_particles_per_axis},
             "",

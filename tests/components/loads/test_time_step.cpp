@@ -48,6 +48,8 @@ TEST_CASE("without viscosity the viscous time step is that of waves and of the p
   // a h^2 = (4.5 + 3.5) 10^2, and h / dt = sqrt(a h^2 / 2).
   CHECK(step_of<2>(3.5, none) == Approx(0.01 / 20));
   CHECK(step_of<2>(3.5, none, -1000, {60, -80}) == Approx(0.01 / 120));
+  // Nodes that move four times as far.
+  CHECK(viscous_time_step<2>(0.01, {1, 100, 0, {0, 0}, 0, 3.5}, none, 4) == Approx(0.01 / 40));
 }
 
 TEST_CASE("a particle's own stiffness acts with the modulus of equal strain along all axes")

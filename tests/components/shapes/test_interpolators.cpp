@@ -320,6 +320,10 @@ TEMPLATE_TEST_CASE_SIG("dense stencils take from the grid what they give to it",
   std::vector<ParticleMotion<D>> motion(1);
   std::vector<NodeSums<D>> sums(nodes.size());
 
+  std::vector<Matrix<D>> first_moments(1), second_moments(1);
+
+  interpolation->velocity_moments(block, {position, deformation}, nodes.data(), first_moments);
+  interpolation->second_moments(block, {position, deformation}, second_moments);
   interpolation->grid_to_particles(block, {position, deformation}, nodes.data(), motion);
   interpolation->add_forces(block, {position, deformation}, force, sums.data());
   interpolation->add_gradient_momentum(block, {position, deformation}, mass, gradient, sums.data());
@@ -327,12 +331,16 @@ TEMPLATE_TEST_CASE_SIG("dense stencils take from the grid what they give to it",
   ParticleMotion<D> expected{Vector<D>::Zero(), Vector<D>::Zero(), Matrix<D>::Zero()};
   for (std::size_t i = 0; i < nodes.size(); ++i) {
     const Vector<D> away = node_position(block, static_cast<std::ptrdiff_t>(i)) - position[0];
+    first_moments[0] -= shape[i].weight * nodes[i].velocity() * away.transpose();
+    second_moments[0] -= shape[i].weight * away * away.transpose();
     expected.velocity += shape[i].weight * nodes[i].velocity();
     expected.velocity_change += shape[i].weight * nodes[i].velocity_change();
     expected.velocity_gradient += nodes[i].velocity() * shape[i].gradient.transpose();
     REQUIRE((sums[i].internal_force() - shape[i].weight * force[0]).norm() < 1e-14);
     REQUIRE((sums[i].momentum() - mass[0] * shape[i].weight * gradient[0] * away).norm() < 1e-14);
   }
+  CHECK(first_moments[0].norm() < 1e-13 * cell_size);
+  CHECK(second_moments[0].norm() < 1e-13 * cell_size * cell_size);
   CHECK((motion[0].velocity - expected.velocity).norm() < 1e-13);
   CHECK((motion[0].velocity_change - expected.velocity_change).norm() < 1e-13);
   CHECK((motion[0].velocity_gradient - expected.velocity_gradient).norm() * cell_size < 1e-13);

@@ -7,6 +7,7 @@
 #include "components/loads/time_step.hpp"
 #include "components/shapes/interpolation.hpp"
 #include "components/shapes/transfer.hpp"
+#include "components/transfers/apic.hpp"
 #include "tests/components/shapes/shape_reference.hpp"
 
 using namespace tamp;
@@ -256,6 +257,71 @@ TEMPLATE_TEST_CASE_SIG("particles take from the grid what plain loops over all n
     REQUIRE((motion.velocity - velocity).norm() < 1e-14);
     REQUIRE((motion.velocity_change - change).norm() < 1e-14);
     REQUIRE((motion.velocity_gradient - gradient).norm() * cell_size < 1e-13);
+  }
+}
+
+TEMPLATE_TEST_CASE_SIG("vectors go to particles and back to the nodes as plain loops take them", "", ((int D), D), 2, 3)
+{
+  const int n_per_axis = GENERATE(1, 2, 4);
+  const auto block = block_of_nodes<D>(5, cell_size);
+  std::mt19937 random(13);
+  const Cloud<D> cloud(block, 30, random);
+  std::vector<NodeVector<D>> nodes(static_cast<std::size_t>(n_nodes_of(block))), sums = nodes;
+  for (NodeVector<D>& node : nodes) {
+    node.set(Vector<D>::NullaryExpr([&] { return std::uniform_real_distribution<double>(-1, 1)(random); }));
+  }
+  std::vector<Vector<D>> values(cloud.position.size());
+  const auto interpolation = Interpolation<D>::make(Interpolator::gimp, n_per_axis);
+
+  interpolation->interpolate(block, {cloud.position}, nodes.data(), values);
+  interpolation->add_vectors(block, {cloud.position}, cloud.velocity, sums.data());
+
+  for (std::size_t p = 0; p < values.size(); ++p) {
+    for (std::size_t i = 0; i < nodes.size(); ++i) {
+      const Vector<D> node = node_position(block, static_cast<std::ptrdiff_t>(i));
+      const double weight = PlainShape<D>(cloud.position[p], node, 0.5 / n_per_axis, cell_size).weight;
+      values[p] -= weight * nodes[i].value();
+      sums[i].set(sums[i].value() - weight * cloud.velocity[p]);
+    }
+    REQUIRE(values[p].norm() < 1e-14);
+  }
+  for (const NodeVector<D>& node : sums) REQUIRE(node.value().norm() < 1e-13);
+}
+
+TEMPLATE_TEST_CASE_SIG(
+    "moments of weights and of velocities are those of plain loops, and give a linear field's gradient", "",
+    ((int D), D), 2, 3)
+{
+  const int n_per_axis = GENERATE(1, 2, 4);
+  const auto block = block_of_nodes<D>(5, cell_size);
+  std::mt19937 random(14);
+  const Cloud<D> cloud(block, 30, random);
+  auto nodes = random_motion<D>(n_nodes_of(block), random);
+  std::vector<Matrix<D>> of_weights(cloud.position.size()), of_velocities = of_weights, of_linear = of_weights;
+  const auto interpolation = Interpolation<D>::make(Interpolator::gimp, n_per_axis);
+
+  interpolation->second_moments(block, {cloud.position}, of_weights);
+  interpolation->velocity_moments(block, {cloud.position}, nodes.data(), of_velocities);
+
+  for (std::size_t p = 0; p < of_weights.size(); ++p) {
+    Matrix<D> weights = Matrix<D>::Zero(), velocities = weights;
+    for (std::size_t i = 0; i < nodes.size(); ++i) {
+      const Vector<D> node = node_position(block, static_cast<std::ptrdiff_t>(i));
+      const Vector<D> arm = node - cloud.position[p];
+      const double weight = PlainShape<D>(cloud.position[p], node, 0.5 / n_per_axis, cell_size).weight;
+      weights += weight * arm * arm.transpose();
+      velocities += weight * nodes[i].velocity() * arm.transpose();
+    }
+    REQUIRE((of_weights[p] - weights).norm() < 1e-14 * cell_size);
+    REQUIRE((of_velocities[p] - velocities).norm() < 1e-13 * cell_size);
+  }
+  const Matrix<D> gradient = nodes[0].velocity() * nodes[1].velocity().transpose();
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    nodes[i].set(gradient * node_position(block, static_cast<std::ptrdiff_t>(i)), Vector<D>::Zero());
+  }
+  interpolation->velocity_moments(block, {cloud.position}, nodes.data(), of_linear);
+  for (std::size_t p = 0; p < of_linear.size(); ++p) {
+    REQUIRE((affine_gradient<D>(of_linear[p], of_weights[p]) - gradient).norm() < 1e-11);
   }
 }
 

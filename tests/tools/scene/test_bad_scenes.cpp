@@ -107,6 +107,23 @@ TEST_CASE("a value of the wrong type is told with what was found")
   CHECK(problems_with({"/contact=[1]"}) == "--set#/contact/0: 1; expected an object");
 }
 
+TEST_CASE("a key of one transfer is refused with another")
+{
+  CHECK(problems_with({"/flip_part=0.9"}) ==
+        "--set#/flip_part: a key that another transfer has; expected the transfer blend with it");
+  CHECK(problems_with({"/transfer=blend", "/filter_order=2"}) ==
+        "--set#/filter_order: a key that another transfer has; expected the transfer xpic or fmpm with it");
+  CHECK(problems_with({"/transfer=blend", "/flip_part=1.5"}) == "--set#/flip_part: 1.5; expected a number from 0 to 1");
+  CHECK(problems_with({"/transfer=fmpm", "/filter_order=9"}) ==
+        "--set#/filter_order: 9; expected a whole number from 1 to 8");
+  CHECK(problems_with({"/transfer=xpic", "/filter_order=8"}) == "");
+  CHECK(problems_with({"/transfer=apic"}) == "");
+  CHECK(
+      problems_with({"/transfer=apic", "/interpolator=linear", "/time/rule=published"}) ==
+      "--set#/transfer: apic with an interpolator whose weights have no spread where a particle is on a node; expected "
+      "another transfer, such as tpic, or another interpolator");
+}
+
 TEST_CASE("a number out of range is told with its range")
 {
   CHECK(problems_with({"/materials/steel/density=-8000"}) ==

@@ -27,6 +27,23 @@ TEST_CASE("a scene is read into what a run is made from")
   CHECK(scene.bodies[0].n_particles == 4);
 }
 
+TEST_CASE("a transfer is read with its own number, and resolves without those of others")
+{
+  const TemporaryFolder folder;
+  const auto file = folder.write("small.json", small_scene);
+
+  const auto blend = read_scene(file, {"/transfer=blend", "/flip_part=0.9"});
+  const auto xpic = read_scene(file, {"/transfer=xpic", "/filter_order=5"});
+  const auto fmpm = read_scene(file, {"/transfer=fmpm"});
+
+  CHECK(blend.scene.transfer == tasks::Transfer::blend);
+  CHECK(blend.scene.flip_part == 0.9);
+  CHECK(xpic.scene.filter_order == 5);
+  CHECK(fmpm.scene.filter_order == 2);
+  CHECK(fmpm.resolved["filter_order"] == 2);
+  CHECK_FALSE(fmpm.resolved.contains("flip_part"));
+}
+
 TEST_CASE("what a scene leaves out has the documented default")
 {
   const TemporaryFolder folder;

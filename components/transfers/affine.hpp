@@ -1,0 +1,14 @@
+#pragma once
+
+#include "components/transfers/flip.hpp"
+
+namespace tamp::components
+{
+
+/// FLIP whose particles bring the gradient of velocity too, m S (v_p + grad v_p (x_i - x_p)) (Wallstedt & Guilkey, CMES
+/// 19, 2007).
+struct Affine : Flip {
+  static constexpr Surroundings surroundings = Surroundings::gradient;
+};
+
+}  // namespace tamp::components

@@ -1,0 +1,23 @@
+#pragma once
+
+#include "components/transfers/pic.hpp"
+
+namespace tamp::components
+{
+
+/// Affine particle in cell: PIC whose particles bring m S (v_p + C_p (x_i - x_p)), C_p = B_p D_p^-1 (Jiang et al., ACM
+/// Trans. Graph. 34, 2015). B_p are the first moments of the velocities of the nodes, which particles keep, and D_p the
+/// second moments of the weights by which they are then brought: so angular momentum, with that of B_p, is exact for
+/// any weights. Weights have to have second moments wherever the particle is.
+struct Apic : Pic {
+  static constexpr Surroundings surroundings = Surroundings::moment;
+};
+
+/// C_p [1/s].
+template <int D>
+Matrix<D> affine_gradient(const Matrix<D>& first_moment, const Matrix<D>& second_moment)
+{
+  return first_moment * second_moment.inverse();
+}
+
+}  // namespace tamp::components

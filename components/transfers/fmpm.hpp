@@ -1,0 +1,20 @@
+#pragma once
+
+#include "components/transfers/pic.hpp"
+
+namespace tamp::components
+{
+
+/// PIC with nodes that move by an approximate inverse of the full mass matrix in place of the lumped one, of order k
+/// (Nairn & Hammerquist, Comput. Methods Appl. Mech. Eng. 377, 2021): their velocities are u_0 + ... + u_{k-1} from
+/// those that contact and walls have left, for the particles' velocities, places and deformation alike. Order 1 is PIC.
+struct Fmpm : Pic {
+  int order;
+
+  static constexpr Passes passes = Passes::from_end;
+  int n_passes() const { return order - 1; }
+  /// The terms are all the same for what particles see nothing of.
+  double amplification() const { return order; }
+};
+
+}  // namespace tamp::components

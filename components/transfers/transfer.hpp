@@ -1,0 +1,45 @@
+#pragma once
+
+#include "components/shapes/transfer.hpp"
+#include "components/tensors.hpp"
+
+namespace tamp::components
+{
+
+/// How velocities go between particles and grid, by the names in scenes; docs/method.md says what each is for.
+enum class Transfer { flip, pic, blend, affine, apic, tpic, xpic, fmpm };
+
+/// What particles bring to the nodes of the velocities around them, beside their own: nothing; the gradient of velocity
+/// [1/s]; or its first moment sum S_ip v_i (x) (x_i - x_p) [m^2/s], which becomes a gradient by the second moments of
+/// the weights. Either comes from the grid, half a step behind the place, and is state.
+enum class Surroundings { none, gradient, moment };
+
+/// Where passes u_j = (1 - S+ S) u_{j-1} of nodes -> particles -> nodes begin, S+ being how velocities come to the
+/// nodes: nowhere, at the nodes' velocities of the start of the step, or at those that contact and walls have left.
+enum class Passes { none, from_start, from_end };
+
+/// What every transfer has; these are the values for most:
+///
+///  - `surroundings`, what particles bring;
+///  - `filters`, whether the nodes' part of their velocity is all that particles keep, in which walls and their images
+///    then have a say;
+///  - `passes` and `n_passes()`, of nodes -> particles -> nodes;
+///  - `amplification()`, how much further than by its lumped mass a node may move, which shortens stable steps;
+///  - `velocity(before, motion, restored)`, that of a particle at the middle of the step [m/s], from that at the middle
+///    of the step before, what the nodes give, and the terms of passes from the start, sum S_ip (u_1 + ... ).
+struct PlainTransfer {
+  static constexpr Surroundings surroundings = Surroundings::none;
+  static constexpr bool filters = true;
+  static constexpr Passes passes = Passes::none;
+  static constexpr int n_passes() { return 0; }
+  static constexpr double amplification() { return 1; }
+
+  /// That of the nodes.
+  template <int D>
+  Vector<D> velocity(const Vector<D>&, const ParticleMotion<D>& motion, const Vector<D>&) const
+  {
+    return motion.velocity;
+  }
+};
+
+}  // namespace tamp::components
