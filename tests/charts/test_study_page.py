@@ -120,6 +120,19 @@ class ThePage(unittest.TestCase):
         self.assertIn(8, fronted)  # the best of all
         self.assertNotIn(2, fronted)  # point 5 is cheaper and better
 
+    def test_what_was_expected_stands_with_what_was_found(self):
+        document = study()
+        gate = {"quantity": "greatest depth", "method": "a", "label": "a, fine", "expected": "order at least 1.95",
+                "note": "order 1.2 < 2", "why": "theory"}  # fmt: skip
+        document["gates"] = [{**gate, "holds": False}, {**gate, "holds": True}]
+
+        with drawn(document) as folder:
+            text = (folder / "index.html").read_text()
+
+        self.assertIn("1 of 2 do not hold", text)
+        self.assertIn("<td>DOES NOT HOLD</td><td>greatest depth</td><td>a, fine</td><td>order 1.2 &lt; 2</td>", text)
+        self.assertNotIn("What was expected", self.text)
+
     def test_points_stand_where_their_cost_and_error_are(self):
         """Equal ratios are equal distances: on the way from point 5 to 6 cost grows by 4.8/0.7."""
         at = {}

@@ -59,29 +59,6 @@ void sort_from_coarse_to_fine(const Study& study, std::vector<const MeasuredPoin
   std::stable_sort(group.begin(), group.end(), [&](const auto* a, const auto* b) { return spacing(a) > spacing(b); });
 }
 
-/// The points of each method that differ in the refined setting alone, from coarse to fine.
-std::vector<std::vector<const MeasuredPoint*>> refined_groups(const Study& study,
-                                                              const std::vector<MeasuredPoint>& points)
-{
-  std::vector<std::vector<const MeasuredPoint*>> groups;
-  for (const MeasuredPoint& one : points) {
-    if (one.point.role == Point::Role::variation || !one.point.setting(study.refine).is_number()) continue;
-    if (!one.point.reference_of.empty()) continue;
-    const auto is_of = [&](const std::vector<const MeasuredPoint*>& group) {
-      return group.front()->point.method == one.point.method &&
-             without(group.front()->point.settings, study.refine) == without(one.point.settings, study.refine);
-    };
-    const auto group = std::find_if(groups.begin(), groups.end(), is_of);
-    if (group == groups.end()) {
-      groups.push_back({&one});
-    } else {
-      group->push_back(&one);
-    }
-  }
-  for (auto& group : groups) sort_from_coarse_to_fine(study, group);
-  return groups;
-}
-
 OrderFit order_fit(const Study& study, std::vector<const MeasuredPoint*> group, const std::map<int, double>& errors)
 {
   const Point& first = group.front()->point;
@@ -184,6 +161,28 @@ QuantityFindings findings_of_one(const Study& study, const Quantity& quantity, c
 }
 
 }  // namespace
+
+std::vector<std::vector<const MeasuredPoint*>> refined_groups(const Study& study,
+                                                              const std::vector<MeasuredPoint>& points)
+{
+  std::vector<std::vector<const MeasuredPoint*>> groups;
+  for (const MeasuredPoint& one : points) {
+    if (one.point.role == Point::Role::variation || !one.point.setting(study.refine).is_number()) continue;
+    if (!one.point.reference_of.empty()) continue;
+    const auto is_of = [&](const std::vector<const MeasuredPoint*>& group) {
+      return group.front()->point.method == one.point.method &&
+             without(group.front()->point.settings, study.refine) == without(one.point.settings, study.refine);
+    };
+    const auto group = std::find_if(groups.begin(), groups.end(), is_of);
+    if (group == groups.end()) {
+      groups.push_back({&one});
+    } else {
+      group->push_back(&one);
+    }
+  }
+  for (auto& group : groups) sort_from_coarse_to_fine(study, group);
+  return groups;
+}
 
 Findings findings_of(const Study& study, const std::vector<MeasuredPoint>& points)
 {

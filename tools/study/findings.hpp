@@ -39,6 +39,10 @@ struct Findings {
   std::vector<ErrorBudget> budgets;
 };
 
+/// The points of each method, and of the reference, that differ in the refined setting alone, from coarse to fine.
+std::vector<std::vector<const MeasuredPoint*>> refined_groups(const Study& study,
+                                                              const std::vector<MeasuredPoint>& points);
+
 /// Errors, orders, Pareto fronts and error budgets of a study whose points have been measured.
 Findings findings_of(const Study& study, const std::vector<MeasuredPoint>& points);
 

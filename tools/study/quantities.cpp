@@ -58,26 +58,90 @@ double time_of_greatest(const std::vector<double>& times, const std::vector<doub
   return times[i] - h0 / 2 + s0 / (s0 - s1) * (h0 + h1) / 2;
 }
 
+std::size_t place_of_farthest(const std::vector<double>& values, double exact)
+{
+  const auto is_nearer = [=](double a, double b) { return std::abs(a - exact) < std::abs(b - exact); };
+  return static_cast<std::size_t>(std::max_element(values.begin(), values.end(), is_nearer) - values.begin());
+}
+
+/// The last output of the fields of a quantity's material.
+class FieldsOfMaterial
+{
+ public:
+  FieldsOfMaterial(const Study& study, const Quantity& quantity, const PointResult& result)
+      : study_(study),
+        quantity_(quantity),
+        file_(result.folder / "fields.h5", runtime::hdf5::OpenFile::Access::read, "cannot read fields"),
+        last_(file_.members(runtime::hdf5::MemberOrder::by_name).back())
+  {
+  }
+
+  /// A number of each particle: of a field of numbers, or a component of one of vectors.
+  std::vector<double> values() const
+  {
+    if (!quantity_.component) return numbers(quantity_.field, 1);
+    const std::vector<double> vectors = numbers(quantity_.field, 2);
+    std::vector<double> values;
+    for (std::size_t i = static_cast<std::size_t>(*quantity_.component); i < vectors.size(); i += 3) {
+      values.push_back(vectors[i]);
+    }
+    return values;
+  }
+  /// Three of each particle.
+  std::vector<double> positions() const { return numbers("position", 2); }
+
+ private:
+  std::vector<double> numbers(const std::string& field, std::size_t rank) const
+  {
+    const std::string path = fmt::format("{}/particles/{}/{}", last_, quantity_.material, field);
+    std::vector<double> values;
+    try {
+      if (file_.info(path).dimensions.size() == rank) values = file_.read<double>(path);
+    } catch (const runtime::FileError&) {
+      // Told below, in the study's words.
+    }
+    if (!values.empty()) return values;
+    throw InputError({study_.file.string() + "#/quantities",
+                      fmt::format("there are no numbers {} of {}", field, quantity_.material),
+                      "expected a field of numbers that the runs write, or a component of one of vectors"});
+  }
+
+  const Study& study_;
+  const Quantity& quantity_;
+  runtime::hdf5::OpenFile file_;
+  std::string last_;
+};
+
 double quantile_of_field(const Study& study, const Quantity& quantity, const PointResult& result)
 {
-  namespace hdf5 = runtime::hdf5;
-  const hdf5::OpenFile file(result.folder / "fields.h5", hdf5::OpenFile::Access::read, "cannot read fields");
-  const std::string last = file.members(hdf5::MemberOrder::by_name).back();
-  const std::string path = fmt::format("{}/particles/{}/{}", last, quantity.material, quantity.field);
-  std::vector<double> values;
-  try {
-    if (file.info(path).dimensions.size() == 1) values = file.read<double>(path);
-  } catch (const runtime::FileError&) {
-    // Told below, in the study's words.
-  }
-  if (values.empty()) {
-    throw InputError({study.file.string() + "#/quantities",
-                      fmt::format("there are no numbers {} of {}", quantity.field, quantity.material),
-                      "expected a scalar field that the runs write"});
-  }
+  std::vector<double> values = FieldsOfMaterial(study, quantity, result).values();
   const auto place = static_cast<std::ptrdiff_t>(quantity.quantile * static_cast<double>(values.size() - 1));
   std::nth_element(values.begin(), values.begin() + place, values.end());
   return values.at(static_cast<std::size_t>(place));
+}
+
+double distance_from_line(const Study& study, const Quantity& quantity, const PointResult& result)
+{
+  const FieldsOfMaterial fields(study, quantity, result);
+  const std::vector<double> values = fields.values(), positions = fields.positions();
+  double sum = 0;
+  for (std::size_t p = 0; p < values.size(); ++p) {
+    double expected = quantity.line.front();
+    for (std::size_t k = 1; k < quantity.line.size(); ++k) expected += quantity.line[k] * positions[3 * p + k - 1];
+    sum += (values[p] - expected) * (values[p] - expected);
+  }
+  return std::sqrt(sum / static_cast<double>(values.size()));
+}
+
+/// The quantity's column with those that are added to it.
+std::vector<double> summed_column(const Study& study, const Quantity& quantity, const Columns& columns)
+{
+  std::vector<double> sum = column(study, columns, quantity.column);
+  for (const std::string& name : quantity.plus) {
+    const std::vector<double>& more = column(study, columns, name);
+    for (std::size_t i = 0; i < sum.size(); ++i) sum[i] += more[i];
+  }
+  return sum;
 }
 
 double curve_distance(const Answer& reference, const Answer& other)
@@ -119,8 +183,9 @@ RowDistances row_distances(const Answer& reference, const Answer& other)
 Answer answer_of(const Study& study, const Quantity& quantity, const PointResult& result)
 {
   if (quantity.take == Take::quantile) return {quantile_of_field(study, quantity, result), {}, {}};
+  if (quantity.take == Take::field_rms) return {distance_from_line(study, quantity, result), {}, {}};
   const Columns& columns = result.columns();
-  const std::vector<double>& values = column(study, columns, quantity.column);
+  const std::vector<double> values = summed_column(study, quantity, columns);
   switch (quantity.take) {
     case Take::greatest:
       return {values[place_of_greatest(values)], {}, {}};
@@ -130,6 +195,10 @@ Answer answer_of(const Study& study, const Quantity& quantity, const PointResult
       return {values.back(), {}, {}};
     case Take::value:
       return {value_at(column(study, columns, time_column), values, quantity.time), {}, {}};
+    case Take::farthest:
+      return {values[place_of_farthest(values, quantity.exact.value_or(0))], {}, {}};
+    case Take::kept:
+      return {values.back() / values.front(), {}, {}};
     case Take::time_of_greatest:
       return {time_of_greatest(column(study, columns, time_column), values), {}, {}};
     case Take::curve:
@@ -156,7 +225,7 @@ double distance(const Quantity& quantity, const Answer& a, const Answer& b)
 bool asks_for_fields(const Study& study)
 {
   return std::any_of(study.quantities.begin(), study.quantities.end(),
-                     [](const Quantity& quantity) { return quantity.take == Take::quantile; });
+                     [](const Quantity& quantity) { return quantity.is_of_field(); });
 }
 
 bool has_all(const Study& study, const PointResult& result)
@@ -178,7 +247,7 @@ std::string unit_of(const Quantity& quantity)
 {
   if (quantity.take == Take::time_of_greatest) return "s";
   const std::size_t open = quantity.column.find('[');
-  if (quantity.take == Take::quantile || open == std::string::npos) return "";
+  if (quantity.is_of_field() || open == std::string::npos) return "";
   const std::string unit = quantity.column.substr(open + 1, quantity.column.size() - open - 2);
   return unit == "-" ? "" : unit;
 }

@@ -59,6 +59,7 @@ class StudyReader
     read_quantities();
     read_reference();
     read_budget();
+    read_expectations();
     read_limits();
     root_.finish();
     expect_answers();
@@ -150,19 +151,22 @@ class StudyReader
 
   void read_place(JsonReader& reader, Quantity& quantity)
   {
-    if (quantity.take != Take::quantile) {
+    if (!quantity.is_of_field()) {
       quantity.column = reader.text("column", "");
       if (quantity.column.empty()) reader.add_problem("column", "missing", "expected the name of a column");
       if (quantity.take == Take::value) quantity.time = reader.number("at");
+      quantity.plus = names(reader, "plus");
       return;
     }
     quantity.field = reader.text("field", "");
     quantity.material = reader.text("material", "");
-    quantity.quantile = reader.number("quantile");
+    if (const auto component = reader.optional_number("component")) quantity.component = static_cast<int>(*component);
+    if (quantity.take == Take::quantile) quantity.quantile = reader.number("quantile");
+    if (quantity.take == Take::field_rms) quantity.line = line(reader);
     if (quantity.field.empty()) reader.add_problem("field", "missing", "expected a field of the particles");
     if (quantity.material.empty()) reader.add_problem("material", "missing", "expected the name of a material");
     if (study_.measure.kind != Measure::Kind::run) {
-      reader.add_problem("take", "a quantile of a field", "expected it in studies of runs only");
+      reader.add_problem("take", "what is taken of a field", "expected it in studies of runs only");
     }
   }
 
@@ -233,6 +237,57 @@ class StudyReader
     return part;
   }
 
+  void read_expectations()
+  {
+    for (JsonReader& reader : root_.objects("expect")) {
+      Expectation expected;
+      expected.quantity = reader.text("quantity", "");
+      if (!find_quantity(expected.quantity)) {
+        reader.add_problem("quantity", fmt::format("\"{}\"", expected.quantity), "expected the name of a quantity");
+      }
+      expected.methods = names(reader, "methods");
+      for (const std::string& name : expected.methods) {
+        if (find_method(name) != nullptr) continue;
+        reader.add_problem("methods", fmt::format("\"{}\"", name), "expected names of methods");
+      }
+      if (!reader.has("methods")) {
+        for (const Method& method : study_.methods) expected.methods.push_back(method.name);
+      }
+      read_bar(reader, expected);
+      expected.why = reader.text("why", "");
+      reader.finish();
+      study_.expectations.push_back(std::move(expected));
+    }
+  }
+
+  /// One of the keys that say what has to hold.
+  void read_bar(JsonReader& reader, Expectation& expected)
+  {
+    using Kind = Expectation::Kind;
+    const std::vector<std::pair<std::string, Kind>> kinds{{"order_at_least", Kind::order_at_least},
+                                                          {"order_at_most", Kind::order_at_most},
+                                                          {"error_at_least", Kind::error_at_least},
+                                                          {"error_at_most", Kind::error_at_most},
+                                                          {"fails", Kind::fails}};
+    const auto is_there = [&](const auto& kind) { return reader.has(kind.first); };
+    if (std::count_if(kinds.begin(), kinds.end(), is_there) != 1) {
+      reader.add_problem("quantity", fmt::format("\"{}\", of which not one thing is to hold", expected.quantity),
+                         "expected one of order_at_least, order_at_most, error_at_least, error_at_most, fails");
+      return;
+    }
+    const auto& [key, kind] = *std::find_if(kinds.begin(), kinds.end(), is_there);
+    expected.kind = kind;
+    const bool is_of_order = kind == Kind::order_at_least || kind == Kind::order_at_most;
+    if (is_of_order && study_.refine.empty()) {
+      reader.add_problem(key, "an order in a study that refines nothing", "expected the key refine");
+    }
+    if (kind != Kind::fails) {
+      expected.limit = reader.number(key);
+    } else if (!reader.flag(key)) {
+      reader.add_problem(key, "false", "expected true, or another key: what has to hold is said");
+    }
+  }
+
   void read_limits()
   {
     study_.repeat = root_.whole_number("repeat");
@@ -250,6 +305,10 @@ class StudyReader
         root_.add_problem("quantities", fmt::format("\"{}\", a column, without a reference", quantity.name),
                           "expected a reference to compare it with");
       }
+      if (quantity.take == Take::farthest && !quantity.exact) {
+        root_.add_problem("quantities", fmt::format("\"{}\", the value farthest from no number", quantity.name),
+                          "expected the exact answer");
+      }
       if (quantity.is_column() && quantity.exact) {
         root_.add_problem("quantities", fmt::format("\"{}\", a column, with an exact number", quantity.name),
                           "expected a number that is taken of it");
@@ -265,6 +324,33 @@ class StudyReader
       return {};
     }
     return text;
+  }
+
+  std::vector<std::string> names(JsonReader& reader, const std::string& key)
+  {
+    std::vector<std::string> names;
+    for (const Json& name : list(reader, key)) {
+      if (name.is_string()) {
+        names.push_back(name);
+      } else {
+        reader.add_problem(key, name.dump(), "expected a list of texts");
+      }
+    }
+    return names;
+  }
+
+  /// A number at the origin, and one for each axis of a scene.
+  std::vector<double> line(JsonReader& reader)
+  {
+    std::vector<double> numbers;
+    for (const Json& number : list(reader, "line")) {
+      if (number.is_number()) numbers.push_back(number);
+    }
+    if (numbers.size() < 3 || numbers.size() > 4 || numbers.size() != list(reader, "line").size()) {
+      reader.add_problem("line", reader.has("line") ? "not that" : "missing",
+                         "expected a list of 3 or 4 numbers: at the origin, and for each metre along each axis");
+    }
+    return numbers;
   }
 
   std::vector<Json> list(JsonReader& reader, const std::string& key)

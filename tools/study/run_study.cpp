@@ -37,11 +37,12 @@ void expect_sound_reference(const Study& study, const std::vector<Point>& points
 StudyResults measure_all(const Study& study, const StudyOptions& options, const std::filesystem::path& cache)
 {
   const std::vector<Point> points = points_of(study);
-  StudyResults results{study, command_of(options), {}, measurements_of(study, points), {}};
+  StudyResults results{study, command_of(options), {}, measurements_of(study, points), {}, {}};
   expect_sound_reference(study, points, results.measurements);
   const auto measured = run_points(study, points, results.measurements, cache, options.quiet);
   for (std::size_t i = 0; i < points.size(); ++i) results.points.push_back({points[i], measured[i]});
   results.findings = findings_of(study, results.points);
+  results.gates = gates_of(study, results.points, results.findings);
   return results;
 }
 
@@ -49,6 +50,7 @@ void write(const StudyResults& results, const std::filesystem::path& folder)
 {
   runtime::write_whole_file(folder / "points.csv", to_csv(results));
   runtime::write_whole_file(folder / "study.json", to_json(results).dump(1) + "\n");
+  if (!results.gates.empty()) runtime::write_whole_file(folder / "gates.csv", gates_to_csv(results));
 }
 
 /// A study whose reference has failed shows its points, and is no success.
@@ -72,9 +74,10 @@ void run_study(const StudyOptions& options)
   const StudyFolder own(folder, options.force);
   const StudyResults results = measure_all(study, options, own.points());
   write(results, folder);
-  if (!options.quiet) print_out("{}", to_text(results));
+  const bool tell = !options.quiet && !options.only_progress;
+  if (tell) print_out("{}", to_text(results));
   draw_page("draw_study.py", folder);
-  if (!options.quiet) print_out("  written to {}: index.html, points.csv, charts\n", folder.string());
+  if (tell) print_out("  written to {}: index.html, points.csv, charts\n", folder.string());
   complain_of_reference(results);
 }
 

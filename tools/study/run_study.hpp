@@ -12,7 +12,10 @@ struct StudyOptions {
   bool in_short = false;
   /// Remove what another program has found.
   bool force = false;
+  /// Print no progress, and not what was found.
   bool quiet = false;
+  /// Print progress alone.
+  bool only_progress = false;
 };
 
 /// Reads a study, runs what has no result yet, and fills its folder: `points.csv`, `study.json`, and the page with its

@@ -56,11 +56,14 @@ enum class Take {
   least,
   last,
   value,             ///< at a time
+  farthest,          ///< that farthest from the exact answer
+  kept,              ///< the last over the first
   time_of_greatest,  ///< from the parabola through the three rows around it
   curve,             ///< over time: greatest difference from the reference's, over its greatest magnitude
   rows_rms,          ///< root mean square over the rows of the difference relative to the reference's row
   rows_max,          ///< the greatest of those
-  quantile           ///< of a field over a material's particles, at the last output
+  quantile,          ///< of a field over a material's particles, at the last output
+  field_rms          ///< the same way, root mean square of the field's difference from a line
 };
 
 /// What is asked of a point.
@@ -68,10 +71,16 @@ struct Quantity {
   std::string name;
   Take take = Take::last;
   std::string column;
+  /// Columns that are added to it.
+  std::vector<std::string> plus{};
   /// Where the value is taken [s].
   double time = 0;
   std::string field{}, material{};
+  /// Of a field of vectors: 0, 1 or 2; empty for one of numbers.
+  std::optional<int> component{};
   double quantile = 0.99;
+  /// What the field is to be at the origin, and how much more for each metre along each axis.
+  std::vector<double> line{};
   /// The exact answer, if it is known.
   std::optional<double> exact{};
   /// What errors are relative to, where that is not the reference.
@@ -79,6 +88,8 @@ struct Quantity {
 
   /// Whether a point's answer is a column, which only a reference makes a number.
   bool is_column() const { return take == Take::curve || take == Take::rows_rms || take == Take::rows_max; }
+  /// Whether it is taken from particles instead of from a column.
+  bool is_of_field() const { return take == Take::quantile || take == Take::field_rms; }
 };
 
 /// What points are compared with where no exact answer is known: one run, or, where `refinement` has values, the limit
@@ -114,6 +125,24 @@ struct Budget {
   std::vector<BudgetPart> parts;
 };
 
+/// What has to hold of some methods' results, said before they run.
+struct Expectation {
+  enum class Kind {
+    order_at_least,
+    order_at_most,
+    error_at_least,  ///< on the finest grid
+    error_at_most,
+    fails  ///< becomes unstable, or its error grows to the finest grid
+  };
+  Kind kind = Kind::error_at_most;
+  /// An order, or an error.
+  double limit = 0;
+  std::string quantity;
+  std::vector<std::string> methods;
+  /// For people.
+  std::string why;
+};
+
 struct Study {
   std::filesystem::path file;
   std::string title, about, takes;
@@ -125,6 +154,7 @@ struct Study {
   std::vector<Quantity> quantities;
   std::optional<ReferenceRuns> reference;
   std::optional<Budget> budget;
+  std::vector<Expectation> expectations;
   /// Timings of each point; of one that takes longer than `repeat_below` [s] only one.
   int repeat = 3;
   double repeat_below = 60;

@@ -51,16 +51,26 @@ const ObjectKeys& quantity_keys()
                      {"least", Take::least},
                      {"last", Take::last},
                      {"value", Take::value},
+                     {"farthest", Take::farthest},
+                     {"kept", Take::kept},
                      {"time_of_greatest", Take::time_of_greatest},
                      {"curve", Take::curve},
                      {"rows_rms", Take::rows_rms},
                      {"rows_max", Take::rows_max},
-                     {"quantile", Take::quantile}},
+                     {"quantile", Take::quantile},
+                     {"field_rms", Take::field_rms}},
                     "how it is taken"),
        {"column", Text{}, "", {}, "of `history.csv`, or of what `tamp drive` or `tamp modulus` writes"},
+       {"plus", Anything{}, "", {}, "a list of columns that are added to it"},
        {"at", Number{zero_or_above}, "s", none, "the time of a `value`"},
-       {"field", Text{}, "", {}, "of a `quantile`: a scalar field of the particles, such as `p`"},
-       {"material", Text{}, "", {}, "of a `quantile`"},
+       {"field", Text{}, "", {}, "of `quantile` and `field_rms`: a scalar field of the particles, such as `p`"},
+       {"component", Number{{.lower = 0, .upper = 2}}, "", none, "of a field of vectors: 0, 1 or 2 for x, y or z"},
+       {"material", Text{}, "", {}, "whose particles"},
+       {"line",
+        Anything{},
+        "",
+        {},
+        "of `field_rms`: what the field is to be at the origin, and its slopes along x, y, z"},
        {"quantile", Number{{.lower = 0, .upper = 1}}, "", {0.99}, "the part of the particles that lies below it"},
        {"exact", Number{}, "", none, "the exact answer"},
        {"scale", Number{above_zero}, "", none, "what errors are relative to, instead of the reference"}}};
@@ -111,6 +121,23 @@ const ObjectKeys& budget_keys()
   return keys;
 }
 
+const ObjectKeys& expectation_keys()
+{
+  const char* of_fit = "of the fit through all values of the refined setting, three at least";
+  const char* at_finest = "on the finest grid; without a refined setting, of every point";
+  static const ObjectKeys keys{
+      "",
+      {{"quantity", Text{}, "", compulsory, "the name of a quantity"},
+       {"methods", Anything{}, "", {}, "a list of their names; all where left out"},
+       {"order_at_least", Number{}, "", none, of_fit},
+       {"order_at_most", Number{}, "", none, of_fit},
+       {"error_at_least", Number{zero_or_above}, "", none, at_finest},
+       {"error_at_most", Number{zero_or_above}, "", none, at_finest},
+       {"fails", Flag{}, "", {false}, "becomes unstable, or has an error that grows to the finest grid"},
+       {"why", Text{}, "", {}, "what says so, for people"}}};
+  return keys;
+}
+
 }  // namespace
 
 const ObjectKeys& study_keys()
@@ -130,6 +157,7 @@ const ObjectKeys& study_keys()
        {"quantities", Objects{quantity_keys}, "", compulsory, "what is asked of each point"},
        {"reference", Object{reference_keys}, "", none, "what points are compared with"},
        {"budget", Object{budget_keys}, "", none, "which errors are how large"},
+       {"expect", Objects{expectation_keys}, "", none, "what has to hold of the results"},
        {"repeat", WholeNumber{1, most_repeats}, "", {3}, "timings of each point"},
        {"repeat_below_s", Number{above_zero}, "s", {60.0}, "a point that takes longer is timed once"},
        {"limit_s", Number{above_zero}, "s", none, "processor time that a point may take"},

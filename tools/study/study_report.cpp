@@ -174,6 +174,25 @@ Json budgets_json(const StudyResults& results)
   return all;
 }
 
+Json gates_json(const StudyResults& results)
+{
+  Json all = Json::array();
+  for (const Gate& gate : results.gates) {
+    const bool has_limit = gate.kind != Expectation::Kind::fails;
+    all.push_back({{"quantity", gate.quantity},
+                   {"method", gate.method},
+                   {"label", gate.label},
+                   {"kind", to_text(gate.kind)},
+                   {"limit", has_limit ? Json(gate.limit) : Json(nullptr)},
+                   {"found", value_or_null(gate.found)},
+                   {"holds", gate.holds},
+                   {"expected", gate.expected},
+                   {"note", gate.note},
+                   {"why", gate.why}});
+  }
+  return all;
+}
+
 Json costs_json(const Study& study)
 {
   Json all = Json::array();
@@ -251,6 +270,17 @@ std::string front_text(const StudyResults& results, const Quantity& quantity, co
   return text.empty() ? "    no errors of " + quantity.name + " are known\n" : text;
 }
 
+std::string gates_text(const StudyResults& results)
+{
+  if (results.gates.empty()) return "";
+  std::string text = "  expected:\n";
+  for (const Gate& gate : results.gates) {
+    text += fmt::format("    {}  {}: {}: {}, expected {}{}\n", gate.holds ? "holds" : "FAILS", gate.quantity,
+                        gate.label, gate.note, gate.expected, gate.why.empty() ? "" : " (" + gate.why + ")");
+  }
+  return text;
+}
+
 }  // namespace
 
 Json to_json(const StudyResults& results)
@@ -270,7 +300,8 @@ Json to_json(const StudyResults& results)
           {"methods", methods_json(results)},
           {"quantities", quantities_json(results)},
           {"points", points_json(results)},
-          {"budgets", budgets_json(results)}};
+          {"budgets", budgets_json(results)},
+          {"gates", gates_json(results)}};
 }
 
 std::string to_csv(const StudyResults& results)
@@ -284,6 +315,18 @@ std::string to_csv(const StudyResults& results)
       cells.push_back(csv_cell(value));
     }
     if (text.empty()) text = fmt::format("{}\n", fmt::join(names, ","));
+    text += fmt::format("{}\n", fmt::join(cells, ","));
+  }
+  return text;
+}
+
+std::string gates_to_csv(const StudyResults& results)
+{
+  const std::vector<std::string> names{"quantity", "label", "kind", "limit", "found", "holds", "note", "why"};
+  std::string text = fmt::format("{}\n", fmt::join(names, ","));
+  for (const Json& gate : gates_json(results)) {
+    std::vector<std::string> cells;
+    for (const std::string& name : names) cells.push_back(csv_cell(gate[name]));
     text += fmt::format("{}\n", fmt::join(cells, ","));
   }
   return text;
@@ -308,7 +351,7 @@ std::string to_text(const StudyResults& results)
       text += fmt::format("    {:<24} {:>9}  {}\n", part.name, amount, part.note);
     }
   }
-  return text;
+  return text + gates_text(results);
 }
 
 }  // namespace tamp::tools::study

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "tools/study/findings.hpp"
+#include "tools/study/gates.hpp"
 #include "tools/study/measurement.hpp"
 
 namespace tamp::tools::study
@@ -19,6 +20,7 @@ struct StudyResults {
   /// One for each point.
   std::vector<Measurement> measurements;
   Findings findings;
+  std::vector<Gate> gates;
 };
 
 /// `study.json`, which the page is drawn from, see docs/study.md.
@@ -27,7 +29,10 @@ Json to_json(const StudyResults& results);
 /// `points.csv`: a row for each point.
 std::string to_csv(const StudyResults& results);
 
-/// For a person at a terminal: each quantity's reference, its Pareto front, and the error budgets.
+/// `gates.csv`: a row for each expectation of each method.
+std::string gates_to_csv(const StudyResults& results);
+
+/// For a person at a terminal: each quantity's reference, its Pareto front, the error budgets, and what was expected.
 std::string to_text(const StudyResults& results);
 
 }  // namespace tamp::tools::study

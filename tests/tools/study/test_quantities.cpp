@@ -37,6 +37,23 @@ TEST_CASE("numbers are taken of a column")
   CHECK(taken(depth(Take::value, 9)).value == 0);
 }
 
+TEST_CASE("the value farthest from the exact answer may lie on either side of it")
+{
+  Quantity farthest = depth(Take::farthest);
+  farthest.exact = 2.5;
+  CHECK(taken(farthest).value == 0);
+  farthest.exact = 1;
+  CHECK(taken(farthest).value == 3);
+}
+
+TEST_CASE("what is kept is the last row over the first, of all columns that are added up")
+{
+  Quantity kept = depth(Take::kept);
+  CHECK(taken(kept, "0,4\n1,9\n2,3\n").value == Approx(0.75));
+  kept.plus = {"time[s]"};
+  CHECK(taken(kept, "0,4\n1,9\n2,3\n").value == Approx(1.25));
+}
+
 TEST_CASE("the time of the greatest value is that of the parabola through its neighbours")
 {
   // 5 - (t - 1.2)^2 at 0, 1 and 3

@@ -83,6 +83,56 @@ TEST_CASE("columns and budgets need the reference that they are measured by")
              Contains("\"speed\"; expected names of quantities"));
 }
 
+TEST_CASE("what is expected names quantities and methods that there are, and says one thing")
+{
+  const auto expecting = [](const std::string& expectation) {
+    return problems_of_study(R"({"refine": "/h", "expect": [)" + expectation + "]}");
+  };
+  CHECK(expecting(R"({"quantity": "depth", "methods": ["one"], "order_at_least": 1.9, "why": "theory"})").empty());
+  CHECK(expecting(R"({"quantity": "depth", "fails": true})").empty());
+  CHECK_THAT(expecting(R"({"quantity": "speed", "fails": true})"),
+             Contains("study.json#/expect/0/quantity: \"speed\""));
+  CHECK_THAT(expecting(R"({"quantity": "depth", "methods": ["two"], "fails": true})"),
+             Contains("study.json#/expect/0/methods: \"two\"; expected names of methods"));
+  CHECK_THAT(expecting(R"({"quantity": "depth", "methods": "one", "fails": true})"),
+             Contains("study.json#/expect/0/methods: string; expected a list"));
+  CHECK_THAT(expecting(R"({"quantity": "depth"})"), Contains("of which not one thing is to hold"));
+  CHECK_THAT(expecting(R"({"quantity": "depth", "fails": true, "error_at_most": 1})"),
+             Contains("of which not one thing is to hold"));
+  CHECK_THAT(expecting(R"({"quantity": "depth", "fails": false})"), Contains("study.json#/expect/0/fails: false"));
+  CHECK_THAT(expecting(R"({"quantity": "depth", "error_at_most": -1})"),
+             Contains("study.json#/expect/0/error_at_most"));
+  CHECK_THAT(expecting(R"({"quantity": "depth", "order": 2})"), Contains("study.json#/expect/0/order: unknown key"));
+  CHECK_THAT(problems_of_study(R"({"expect": [{"quantity": "depth", "order_at_least": 2}]})"),
+             Contains("study.json#/expect/0/order_at_least: an order in a study that refines nothing"));
+}
+
+TEST_CASE("an expectation without methods is for all")
+{
+  const TemporaryFolder folder;
+  folder.write("scene.json", "{}");
+  const auto file = folder.write("study.json", study_with(R"({"methods": [{"name": "one"}, {"name": "two"}],
+      "expect": [{"quantity": "depth", "error_at_most": 0.1}]})")
+                                                   .dump());
+
+  CHECK(tools::study::read_study(file, false).expectations.at(0).methods == std::vector<std::string>{"one", "two"});
+}
+
+TEST_CASE("what is taken of fields and of the farthest value says all that it needs")
+{
+  CHECK_THAT(problems_of_study(R"({"quantities": [{"name": "d", "column": "x", "take": "farthest"}]})"),
+             Contains("\"d\", the value farthest from no number"));
+  const auto line = [](const std::string& numbers) {
+    return problems_of_study(
+        R"({"quantities": [{"name": "p", "take": "field_rms", "field": "p", "material": "m", "line": )" + numbers +
+        "}]}");
+  };
+  CHECK(line("[1, 0, -2]").empty());
+  CHECK_THAT(line("[1, 0]"), Contains("study.json#/quantities/0/line"));
+  CHECK_THAT(line("[1, 0, \"z\"]"), Contains("study.json#/quantities/0/line"));
+  CHECK_THAT(line("null"), Contains("study.json#/quantities/0/line: missing"));
+}
+
 TEST_CASE("files among the settings are named from the study's folder")
 {
   const TemporaryFolder folder;

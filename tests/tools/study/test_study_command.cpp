@@ -1,4 +1,5 @@
 #include <catch2/catch.hpp>
+#include <cmath>
 #include <csignal>
 #include <nlohmann/json.hpp>
 #include <thread>
@@ -97,6 +98,45 @@ TEST_CASE("a study measures its points, and their errors against the exact answe
   }
   CHECK_THAT(points[0]["command"].get<std::string>(), Contains("--set /grid/cell_size=0.2"));
   CHECK_THAT(read_text(study.out() / "points.csv"), Contains("id,method,/grid/cell_size,ended,reason,core_s"));
+}
+
+TEST_CASE("numbers are taken of the particles' fields")
+{
+  const FlightStudy study;
+
+  const Outcome outcome = study.run(R"({
+    "sweep": null, "refine": null,
+    "quantities": [
+      {"name": "lowest", "take": "quantile", "quantile": 0, "field": "position", "component": 1, "material": "steel"},
+      {"name": "density", "take": "field_rms", "field": "density", "material": "steel", "line": [8000, 0, 100]}]
+  })");
+
+  INFO(outcome.err);
+  REQUIRE(outcome.exit_code == 0);
+  const Json values = study.results()["points"][0]["values"];
+  // Rows of particles have come from 0.625, 0.675, 0.725 and 0.775 m, 0.1 m down.
+  CHECK(values["lowest"].get<double>() == Approx(0.525));
+  const double mean_square = (0.525 * 0.525 + 0.575 * 0.575 + 0.625 * 0.625 + 0.675 * 0.675) / 4;
+  CHECK(values["density"].get<double>() == Approx(100 * std::sqrt(mean_square)));
+}
+
+TEST_CASE("what was expected is judged, told and written, and a study that misses it is done")
+{
+  const FlightStudy study;
+  const std::string patch = R"({"expect": [
+    {"quantity": "depth", "error_at_most": 1e-9, "why": "nothing acts on it"},
+    {"quantity": "depth", "methods": ["flight"], "error_at_least": 0.5}], "refine": "/grid/cell_size"})";
+
+  const Outcome outcome = study.run(patch);
+
+  REQUIRE(outcome.exit_code == 0);
+  const Json gates = study.results()["gates"];
+  REQUIRE(gates.size() == 2);
+  CHECK(gates[0]["holds"] == true);
+  CHECK(gates[1]["holds"] == false);
+  CHECK(gates[1]["expected"] == "error at least 50 %");
+  CHECK_THAT(read_text(study.out() / "gates.csv"), Contains("depth,flight,error_at_least,0.5"));
+  CHECK_THAT(read_text(study.out() / "index.html"), Contains("1 of 2 do not hold"));
 }
 
 TEST_CASE("a study that has all its results runs nothing, and writes the same again")

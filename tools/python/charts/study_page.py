@@ -45,7 +45,7 @@ def prefixes(study):
 
 def whole_page(study, sections):
     names = {point.id: short_text(study, point) for point in study.points}
-    content = "<main>\n" + head(study) + overview(study)
+    content = "<main>\n" + head(study) + overview(study) + expectations(study)
     for (quantity, charts), prefix in zip(sections, prefixes(study)):
         content += f'<section id="{prefix}">\n<h2>{escaped(quantity.name)}</h2>\n'
         content += f"<p>{escaped(reference_text(quantity))}</p>\n"
@@ -93,6 +93,18 @@ def overview(study):
     named = zip(study.quantities, prefixes(study))
     links = "".join(f'<a href="#{prefix}">{escaped(quantity.name)}</a>\n' for quantity, prefix in named)
     return f'{said}<nav aria-label="Quantities">\n{links}</nav>\n'
+
+
+def expectations(study):
+    """What was said before the runs, and whether it holds."""
+    if not study.gates:
+        return ""
+    missed = sum(not gate["holds"] for gate in study.gates)
+    said = f"{missed} of {len(study.gates)} do not hold" if missed else f"All {len(study.gates)} hold"
+    rows = [["holds" if g["holds"] else "DOES NOT HOLD", g["quantity"], g["label"], g["note"], g["expected"], g["why"]]
+            for g in study.gates]  # fmt: skip
+    table = page.as_html(Table(["", "quantity", "method", "found", "expected", "why"], rows))
+    return f'<section id="expected">\n<h2>What was expected</h2>\n<p>{said}.</p>\n{table}</section>\n'
 
 
 def reference_text(quantity):

@@ -1,0 +1,122 @@
+#include "tools/study/gates.hpp"
+
+#include <catch2/catch.hpp>
+#include <cmath>
+
+#include "tests/tools/temporary_folder.hpp"
+
+using namespace tamp;
+using namespace tamp::test;
+using namespace tamp::tools::study;
+using Kind = Expectation::Kind;
+
+namespace
+{
+
+/// What is judged of a method whose errors on cells of 4, 2 and 1 are these; NaN for a run that became unstable.
+Gate judged(Kind kind, double limit, const std::vector<double>& errors)
+{
+  const TemporaryFolder folder;
+  Study study;
+  study.refine = "/h";
+  Quantity way{"way", Take::last, "way[m]"};
+  way.exact = 10;
+  study.quantities = {way};
+  study.methods = {{"other", "other", false, {}, {{"/h", {8}}}, {}}, {"a", "a", false, {}, {{"/h", {4, 2, 1}}}, {}}};
+  study.expectations = {{kind, limit, "way", {"a"}, "theory"}};
+
+  std::vector<MeasuredPoint> measured;
+  for (const Point& point : points_of(study)) {
+    const double error = point.method == "a" ? errors.at(measured.size() - 1) : 0.5;
+    const auto file = folder.write(std::to_string(point.id) + "/history.csv",
+                                   "time[s],way[m]\n0," + std::to_string(10 * (1 - error)) + "\n");
+    measured.push_back({point, {End::done, "", {{{"core_s", 1}}}, HUGE_VAL, file.parent_path()}});
+    if (!std::isnan(error)) continue;
+    measured.back().result.end = End::unstable;
+    measured.back().result.reason = "the energy is wrong";
+  }
+  const auto gates = gates_of(study, measured, findings_of(study, measured));
+  REQUIRE(gates.size() == 1);
+  CHECK(gates[0].method == "a");
+  CHECK(gates[0].why == "theory");
+  return gates[0];
+}
+
+}  // namespace
+
+TEST_CASE("an order is that of the fit through all grids")
+{
+  // Slope of log2 0.16, 0.08, 0.02 over log2 4, 2, 1: (3 + 0) / 2.
+  const std::vector<double> errors{0.16, 0.08, 0.02};
+
+  CHECK(judged(Kind::order_at_least, 1.49, errors).holds);
+  CHECK(*judged(Kind::order_at_least, 1.49, errors).found == Approx(1.5).epsilon(1e-3));
+  CHECK_FALSE(judged(Kind::order_at_least, 1.51, errors).holds);
+  CHECK(judged(Kind::order_at_most, 1.51, errors).holds);
+  CHECK_FALSE(judged(Kind::order_at_most, 1.49, errors).holds);
+  CHECK(judged(Kind::order_at_least, 1.51, errors).expected == "order at least 1.51");
+  CHECK(judged(Kind::order_at_least, 1.51, errors).note == "order 1.50");
+}
+
+TEST_CASE("errors that do not fall from each to the next have an order still")
+{
+  // (0 - 2) / 2
+  CHECK(*judged(Kind::order_at_least, 1, {0.02, 0.16, 0.08}).found == Approx(-1).epsilon(1e-3));
+}
+
+TEST_CASE("a method with a run that failed has no order")
+{
+  const Gate gate = judged(Kind::order_at_most, 5, {0.16, 0.04, NAN});
+
+  CHECK_FALSE(gate.holds);
+  CHECK_FALSE(gate.found);
+  CHECK(gate.note == "no order: h 1: unstable: the energy is wrong");
+}
+
+TEST_CASE("an error of 0 gives no order")
+{
+  CHECK(judged(Kind::order_at_least, 1, {0.16, 0.04, 0}).note == "no order: fewer than three errors above 0");
+}
+
+TEST_CASE("the error that is judged is that of the finest grid")
+{
+  CHECK(judged(Kind::error_at_most, 0.03, {0.16, 0.08, 0.02}).holds);
+  CHECK_FALSE(judged(Kind::error_at_most, 0.01, {0.001, 0.001, 0.02}).holds);
+  CHECK(judged(Kind::error_at_least, 0.01, {0.001, 0.001, 0.02}).holds);
+  CHECK_FALSE(judged(Kind::error_at_least, 0.03, {0.16, 0.08, 0.02}).holds);
+  CHECK_FALSE(judged(Kind::error_at_most, 1, {0.16, 0.08, NAN}).holds);
+  CHECK(judged(Kind::error_at_most, 0.01, {0.16, 0.08, 0.02}).note == "error 2 %");
+  CHECK(judged(Kind::error_at_most, 0.01, {0.16, 0.08, 0.02}).expected == "error at most 1 %");
+}
+
+TEST_CASE("a method fails that becomes unstable, or whose error grows to the finest grid")
+{
+  CHECK(judged(Kind::fails, 0, {NAN, 0.08, 0.02}).holds);
+  CHECK(judged(Kind::fails, 0, {0.16, 0.02, 0.03}).holds);
+  CHECK_FALSE(judged(Kind::fails, 0, {0.04, 0.16, 0.08}).holds);
+  CHECK(judged(Kind::fails, 0, {0.04, 0.16, 0.08}).note == "error does not grow from 16 % to 8 %");
+}
+
+TEST_CASE("a study that refines nothing has each point judged by itself")
+{
+  const TemporaryFolder folder;
+  Study study;
+  Quantity way{"way", Take::last, "way[m]"};
+  way.exact = 1;
+  study.quantities = {way};
+  study.methods = {{"a", "a", false, {}, {{"/k", {1, 2}}}, {}}};
+  study.expectations = {{Kind::error_at_most, 0.1, "way", {"a"}, ""}};
+  std::vector<MeasuredPoint> measured;
+  for (const Point& point : points_of(study)) {
+    const auto file =
+        folder.write(std::to_string(point.id) + "/history.csv", point.id == 1 ? "way[m]\n1\n" : "way[m]\n2\n");
+    measured.push_back({point, {End::done, "", {{{"core_s", 1}}}, HUGE_VAL, file.parent_path()}});
+  }
+
+  const auto gates = gates_of(study, measured, findings_of(study, measured));
+
+  REQUIRE(gates.size() == 2);
+  CHECK(gates[0].holds);
+  CHECK_FALSE(gates[1].holds);
+  CHECK(gates[1].label == "a, k 2");
+}
