@@ -12,6 +12,7 @@
 #include "tools/console.hpp"
 #include "tools/errors.hpp"
 #include "tools/shipped_inputs.hpp"
+#include "tools/verify/verify.hpp"
 
 namespace tamp::tools
 {
@@ -79,6 +80,25 @@ std::string multiple_of_8(const std::string& bytes)
   return std::stoi(bytes) % 8 == 0 ? "" : bytes + " is no multiple of 8";
 }
 
+CLI::App* add_verify_command(CLI::App& bench)
+{
+  CLI::App* command = bench.add_subcommand(
+      "verify", "Hold the methods against exact answers: the studies of inputs/verification, and what they expect");
+  const auto options = std::make_shared<verify::VerifyOptions>();
+  command->add_option("NAME", options->names, "which studies; all without a name");
+  command->add_option("--out", options->folder, "holds a folder for each study, verification.json and verification.md");
+  command->add_flag("--short", options->in_short, "the studies' short forms");
+  command->add_flag("--force", options->force, "remove results of another program from the folders");
+  command->add_flag("--quiet", options->quiet, "print no progress and no table");
+  command->callback([options] {
+    if (runtime::Communicator::world().size() > 1) {
+      throw InputError({"verify", "started on several ranks", "expected one"});
+    }
+    verify::verify(*options);
+  });
+  return command;
+}
+
 }  // namespace
 
 CLI::App* add_bench_command(CLI::App& app)
@@ -115,7 +135,10 @@ CLI::App* add_bench_command(CLI::App& app)
                    "of tasks on several ranks: data that one sends to the next in a step, a multiple of 8")
       ->check(CLI::Range(8, 1 << 20))
       ->check(CLI::Validator(multiple_of_8, ""));
-  command->callback([options] { run_benchmarks(*options); });
+  const CLI::App* verify = add_verify_command(*command);
+  command->callback([options, verify] {
+    if (!verify->parsed()) run_benchmarks(*options);
+  });
   return command;
 }
 

@@ -1,0 +1,97 @@
+#include <catch2/catch.hpp>
+#include <nlohmann/json.hpp>
+
+#include "tests/tools/program.hpp"
+
+using namespace tamp::test;
+using Catch::Contains;
+using Json = nlohmann::json;
+
+namespace
+{
+
+/// A folder with studies of a block that flies 0.1 m through an empty box: one expects what comes out, one does not.
+class Studies
+{
+ public:
+  Studies()
+  {
+    folder_.write("inputs/verification/scenes/flight.json", R"({
+      "dimension": 2, "grid": { "upper": [1, 1], "cell_size": 0.1 }, "time": { "end": 1e-3 },
+      "materials": { "steel": { "type": "hypoelastic", "density": 8000, "bulk_modulus": 1e9, "shear_modulus": 7e8 } },
+      "bodies": { "block": { "material": "steel", "velocity": [0, -100],
+                             "geometry": { "type": "box", "lower": [0.4, 0.6], "upper": [0.6, 0.8] } } },
+      "output": { "history_interval": 1e-4, "fields_interval": 1e-3 }
+    })");
+    write_study("sound", 0.1);
+    write_study("unsound", 0.2);
+  }
+
+  Outcome verify(const std::string& arguments) const
+  {
+    return outcome_of("cd " + folder_.path().string() + " && " + TAMP_PROGRAM + " bench verify --out out " + arguments);
+  }
+
+  std::string table() const { return read_text(folder_.path() / "out/verification.md"); }
+  Json results() const { return Json::parse(read_text(folder_.path() / "out/verification.json")); }
+
+ private:
+  void write_study(const std::string& name, double exact)
+  {
+    Json study = Json::parse(R"({
+      "title": "A block that flies", "measure": { "run": "scenes/flight.json" }, "methods": [{ "name": "flight" }],
+      "sweep": { "/grid/cell_size": [0.2, 0.1, 0.05] }, "refine": "/grid/cell_size",
+      "quantities": [{ "name": "depth", "column": "block.depth[m]", "take": "greatest" }],
+      "expect": [{ "quantity": "depth", "error_at_most": 1e-6, "why": "nothing acts on it" }],
+      "repeat": 1, "short": { "sweep": { "/grid/cell_size": [0.2] } }
+    })");
+    study["quantities"][0]["exact"] = exact;
+    folder_.write("inputs/verification/" + name + ".json", study.dump());
+  }
+
+  TemporaryFolder folder_;
+};
+
+}  // namespace
+
+TEST_CASE("a verification whose expectations hold ends with 0, and prints the table that it writes")
+{
+  const Studies studies;
+
+  const Outcome outcome = studies.verify("sound");
+
+  INFO(outcome.err);
+  CHECK(outcome.exit_code == 0);
+  CHECK(outcome.out == studies.table());
+  CHECK_THAT(outcome.out, Contains("| method | 0.2 m") && Contains("| flight | ") && Contains("| yes "));
+  CHECK(outcome.out.find("unsound") == std::string::npos);
+  const Json results = studies.results();
+  CHECK(results["failures"].empty());
+  CHECK(results["studies"][0]["points"].size() == 3);
+}
+
+TEST_CASE("a verification with an expectation that does not hold runs all studies, and ends with 3")
+{
+  const Studies studies;
+
+  const Outcome outcome = studies.verify("--short --quiet");
+
+  CHECK(outcome.exit_code == 3);
+  CHECK(outcome.out.empty());
+  CHECK_THAT(outcome.err, Contains("1 of 2 expectations do not hold") &&
+                              Contains("unsound: flight, depth: error 50 %, expected error at most 0.0001 %"));
+  CHECK_THAT(studies.table(), Contains("### sound") && Contains("### unsound") && Contains("**NO**") &&
+                                  Contains("- does not hold: flight, depth: error 50 %"));
+  CHECK(studies.results()["studies"][0]["points"].size() == 1);
+}
+
+TEST_CASE("a verification of a study that there is not is refused before anything runs")
+{
+  const Studies studies;
+
+  const Outcome outcome = studies.verify("sound soft");
+
+  CHECK(outcome.exit_code == 2);
+  CHECK_THAT(outcome.err, Contains("soft: no study of inputs/verification; expected one of sound, unsound"));
+  CHECK_THROWS(studies.results());
+}

@@ -1,0 +1,26 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace tamp::tools::verify
+{
+
+struct VerifyOptions {
+  /// Studies of inputs/verification, without their ending; all where empty.
+  std::vector<std::string> names;
+  /// Holds a folder for each study, `verification.json` and `verification.md`.
+  std::filesystem::path folder{"runs/verify"};
+  bool in_short = false;
+  /// Remove what another program has found.
+  bool force = false;
+  bool quiet = false;
+};
+
+/// Runs the studies of inputs/verification one after the other, as `tamp study` does, and writes and prints a table of
+/// what came out beside what was expected. Throws InputError for a name that is no study's; FileError; Interrupted; and
+/// SimulationError, after all is written, if an expectation does not hold.
+void verify(const VerifyOptions& options);
+
+}  // namespace tamp::tools::verify
