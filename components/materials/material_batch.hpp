@@ -42,6 +42,8 @@ concept Hyperelastic = requires(const Model& model, const Matrix<3>& f)
 struct TangentModuli {
   double bulk_modulus;
   double shear_modulus;
+
+  double youngs_modulus() const { return 9 * bulk_modulus * shear_modulus / (3 * bulk_modulus + shear_modulus); }
 };
 
 /// Particles of a model for one step, in the frame that turns with the material, tension positive: spans of equal

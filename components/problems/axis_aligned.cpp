@@ -17,15 +17,31 @@ namespace
 
 constexpr double pi = std::numbers::pi;
 
+/// M_i of the header along each axis, at the stretches l [Pa].
+Vector<3> moduli_along(const NeoHookean& solid, const Vector<3>& l)
+{
+  const double J = l.prod(), T = l.squaredNorm();
+  const double shear = solid.shear_modulus * portable::pow(J, -2.0 / 3.0);
+  return l.unaryExpr([&](double stretch) {
+    const double square = stretch * stretch;
+    return 0.5 * solid.bulk_modulus * (J * J + 1) / square + shear * (5.0 / 9.0 * T / square - 1.0 / 3.0);
+  });
+}
+Vector<3> moduli_along(const NeoHookeanLog& solid, const Vector<3>& l)
+{
+  const double G = solid.shear_modulus, of_square = G + solid.lambda() * (1 - portable::log(l.prod()));
+  return l.unaryExpr([&](double stretch) { return G + of_square / (stretch * stretch); });
+}
+
 /// The solution and its derivatives at any place and time; 0 along the axes that do not move.
+template <class Solid>
 class AlignedMotion
 {
  public:
-  AlignedMotion(const AxisAligned& given, const NeoHookean& solid, double density)
+  AlignedMotion(const AxisAligned& given, const Solid& solid, double density)
       : given_(given), solid_(solid), density_(density), k_(pi / given.length)
   {
-    const double K = solid.bulk_modulus, G = solid.shear_modulus, E = 9 * K * G / (3 * K + G);
-    omega_ = k_ * std::sqrt(E / density);
+    omega_ = k_ * std::sqrt(solid.initial_moduli().youngs_modulus() / density);
   }
 
   Vector<3> displacement(const Vector<3>& X, double t) const
@@ -46,15 +62,8 @@ class AlignedMotion
   }
   Vector<3> body_force(const Vector<3>& X, double t) const
   {
-    const Vector<3> u = displacement(X, t), l = stretches(X, t);
-    const double J = l.prod(), T = l.squaredNorm();
-    const double shear = solid_.shear_modulus * portable::pow(J, -2.0 / 3.0);
-    return of_axes([&](int i) {
-      const double square = l[i] * l[i];
-      const double modulus =
-          0.5 * solid_.bulk_modulus * (J * J + 1) / square + shear * (5.0 / 9.0 * T / square - 1.0 / 3.0);
-      return u[i] * (k_ * k_ * modulus / density_ - omega_ * omega_);
-    });
+    const Vector<3> u = displacement(X, t), modulus = moduli_along(solid_, stretches(X, t));
+    return of_axes([&](int i) { return u[i] * (k_ * k_ * modulus[i] / density_ - omega_ * omega_); });
   }
 
  private:
@@ -70,27 +79,15 @@ class AlignedMotion
   }
 
   AxisAligned given_;
-  NeoHookean solid_;
+  Solid solid_;
   double density_;
   double k_;      ///< rad/m
   double omega_;  ///< rad/s
 };
 
-}  // namespace
-
-BodyFunctions AxisAligned::functions(const ProblemBody& body) const
+template <class Solid>
+BodyFunctions functions_of(const AlignedMotion<Solid>& motion)
 {
-  const auto* solid = std::get_if<NeoHookean>(&body.material);
-  if (solid == nullptr) throw BadValue("another material", "one of type neo_hookean, for which it is made");
-  if (n_axes > body.dimension) {
-    throw BadParameter("n_axes", std::to_string(n_axes),
-                       "at most the scene's dimension, " + std::to_string(body.dimension));
-  }
-  if (!(pi * amplitude < length)) {
-    throw BadParameter("amplitude", fmt::format("{}", amplitude),
-                       "less than length / pi, as more turns the body inside out");
-  }
-  const AlignedMotion motion(*this, *solid, body.density);
   BodyFunctions block;
   block.displacement = [motion](const Vector<3>& X) { return motion.displacement(X, 0); };
   block.deformation_gradient = [motion](const Vector<3>& X) -> Matrix<3> {
@@ -100,6 +97,27 @@ BodyFunctions AxisAligned::functions(const ProblemBody& body) const
   block.body_force = [motion](const Vector<3>& X, double t) { return motion.body_force(X, t); };
   block.exact_displacement = [motion](const Vector<3>& X, double t) { return motion.displacement(X, t); };
   return block;
+}
+
+}  // namespace
+
+BodyFunctions AxisAligned::functions(const ProblemBody& body) const
+{
+  if (n_axes > body.dimension) {
+    throw BadParameter("n_axes", std::to_string(n_axes),
+                       "at most the scene's dimension, " + std::to_string(body.dimension));
+  }
+  if (!(pi * amplitude < length)) {
+    throw BadParameter("amplitude", fmt::format("{}", amplitude),
+                       "less than length / pi, as more turns the body inside out");
+  }
+  if (const auto* solid = std::get_if<NeoHookean>(&body.material)) {
+    return functions_of(AlignedMotion(*this, *solid, body.density));
+  }
+  if (const auto* solid = std::get_if<NeoHookeanLog>(&body.material)) {
+    return functions_of(AlignedMotion(*this, *solid, body.density));
+  }
+  throw BadValue("another material", "one of type neo_hookean or neo_hookean_log, for which it is made");
 }
 
 }  // namespace tamp::components

@@ -13,14 +13,17 @@ namespace tamp::components
 ///
 ///     u_i = A sin(pi s_i / L) sin(pi c t / L + 2/3 pi i),    c^2 = E / density,
 ///
-/// along the first `n_axes` axes, i = 0, 1, 2 (P. C. Wallstedt and J. E. Guilkey, J. Comput. Phys. 227, 2008, for
-/// another law). The block spans L, or a whole number of times that, from `origin` along these axes, and the walls hold
-/// it there. F is diagonal, its entries l_i being functions of X_i alone; with J their product and T the sum of the
-/// squares of all three, the law of neo_hookean.hpp gives div P along axis i as M_i dl_i/dX_i, where
+/// along the first `n_axes` axes, i = 0, 1, 2 (P. C. Wallstedt and J. E. Guilkey, J. Comput. Phys. 227, 2008, for the
+/// logarithmic solid). The block spans L, or a whole number of times that, from `origin` along these axes, and the
+/// walls hold it there. F is diagonal, its entries l_i being functions of X_i alone, so that div P along axis i is M_i
+/// dl_i/dX_i, and what keeps up the motion is b_i = (pi / L)^2 u_i (M_i / density - c^2). With J the product of the
+/// stretches and T the sum of the squares of all three, the law of neo_hookean.hpp has
 ///
 ///     M_i = K/2 (J^2 + 1) / l_i^2 + G J^(-2/3) (5/9 T / l_i^2 - 1/3),
 ///
-/// and what keeps up the motion is b_i = (pi / L)^2 u_i (M_i / density - c^2).
+/// and that of neo_hookean_log.hpp
+///
+///     M_i = G + (G + lambda (1 - ln J)) / l_i^2.
 struct AxisAligned {
   static constexpr std::string_view type = "axis_aligned";
   static constexpr std::string_view meaning =

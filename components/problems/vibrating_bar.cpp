@@ -18,7 +18,8 @@ double elastic_wave_speed(const ProblemBody& body)
   };
   if (const auto* solid = std::get_if<Hypoelastic>(&body.material)) return speed_in(*solid);
   if (const auto* solid = std::get_if<NeoHookean>(&body.material)) return speed_in(*solid);
-  throw BadValue("a material that is not elastic", "one of type hypoelastic or neo_hookean");
+  if (const auto* solid = std::get_if<NeoHookeanLog>(&body.material)) return speed_in(*solid);
+  throw BadValue("a material that is not elastic", "one of type hypoelastic, neo_hookean or neo_hookean_log");
 }
 
 }  // namespace

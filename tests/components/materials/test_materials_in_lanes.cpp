@@ -14,6 +14,7 @@
 #include "components/materials/drucker_prager.hpp"
 #include "components/materials/hypoelastic.hpp"
 #include "components/materials/neo_hookean.hpp"
+#include "components/materials/neo_hookean_log.hpp"
 #include "tests/components/materials/one_particle.hpp"
 #include "tests/same_bits.hpp"
 
@@ -148,6 +149,7 @@ TEST_CASE("particles of a batch get the bits that each gets alone, in any order 
 
   check_any_order("hypoelastic", Hypoelastic{2e8, 1e8});
   check_any_order("neo hookean", NeoHookean{2e8, 1e8});
+  check_any_order("of logarithmic form", NeoHookeanLog{2e8, 1e8});
   check_any_order("drucker prager", soil);
   check_any_order("with a cut-off", cut_off);
   check_any_order("without friction", cohesive);

@@ -469,7 +469,7 @@ TEST_CASE("a projectile that starts inside the sand is told with where")
 
 TEST_CASE("an elastic material without stiffness is refused")
 {
-  for (const char* type : {"hypoelastic", "neo_hookean"}) {
+  for (const char* type : {"hypoelastic", "neo_hookean", "neo_hookean_log"}) {
     CHECK(problems_with({std::string("/materials/steel/type=") + type, "/materials/steel/bulk_modulus=0"}) ==
           "--set#/materials/steel/bulk_modulus: 0; expected a number above 0 [Pa]");
     CHECK(problems_with({std::string("/materials/steel/type=") + type, "/materials/steel/shear_modulus=-1"}) ==
@@ -517,15 +517,16 @@ TEST_CASE("sand that comes apart at no density, or perhaps, is refused")
 TEST_CASE("a name that is none of the choices is told with the choices")
 {
   CHECK(problems_with({"/materials/steel/type=hypoelastik"}) ==
-        "--set#/materials/steel/type: \"hypoelastik\"; expected one of hypoelastic, neo_hookean, drucker_prager, "
-        "tabular_cap, did you mean \"hypoelastic\"?");
+        "--set#/materials/steel/type: \"hypoelastik\"; expected one of hypoelastic, neo_hookean, neo_hookean_log, "
+        "drucker_prager, tabular_cap, did you mean \"hypoelastic\"?");
   CHECK(problems_with({"/interpolator=quintic_spline"}) ==
         "--set#/interpolator: \"quintic_spline\"; expected one of linear, gimp, cpgimp, cpdi, quadratic_spline, "
         "cubic_spline");
   CHECK(problems_with({"/interpolator=linear"}) ==
         "--set#/interpolator: \"linear\" with the time step's rule \"viscous\"; expected the rule \"published\", as a "
         "particle that hardly reaches a node would have no stable step; or another interpolator");
-  CHECK(problems_with({"/transfer=apic"}) == "--set#/transfer: \"apic\"; expected one of flip, affine");
+  CHECK(problems_with({"/transfer=mpm"}) ==
+        "--set#/transfer: \"mpm\"; expected one of flip, affine, pic, blend, apic, tpic, xpic, fmpm");
   CHECK(problems_with({"/boundaries/x-=wall"}) ==
         "--set#/boundaries/x-: \"wall\"; expected one of symmetry, open, no_slip, periodic");
   CHECK(problems_with({"/bodies/block/material=stel"}) ==
@@ -670,8 +671,8 @@ TEST_CASE("a missing file is told with the path that was tried")
 {
   CHECK(problems_with_sand({"/materials/sand/file=nothing.json"}) ==
         "--set#/materials/sand/file: there is no file nothing.json; expected the path of a JSON file\n"
-        "scenes/scene.json#/materials/sand/type: missing; expected one of hypoelastic, neo_hookean, drucker_prager, "
-        "tabular_cap");
+        "scenes/scene.json#/materials/sand/type: missing; expected one of hypoelastic, neo_hookean, neo_hookean_log, "
+        "drucker_prager, tabular_cap");
   CHECK(problems_with_sand({"/materials/sand/crush_curve=no.csv"}) ==
         "--set#/materials/sand/crush_curve: there is no file no.csv; expected the path of a file");
 }

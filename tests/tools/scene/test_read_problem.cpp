@@ -87,7 +87,7 @@ TEST_CASE("a problem that does not go with its body or its scene is told")
   const std::string steel =
       R"(/materials/steel={"type":"hypoelastic","density":8000,"bulk_modulus":10e9,"shear_modulus":7e9})";
   CHECK(problems_of_problem(aligned, {steel}) ==
-        at_problem + ": another material; expected one of type neo_hookean, for which it is made");
+        at_problem + ": another material; expected one of type neo_hookean or neo_hookean_log, for which it is made");
   CHECK(problems_of_problem(aligned, {"/bodies/block/rigid=true"}) ==
         at_problem + ": a rigid body's; expected that of a body that is not rigid");
   CHECK(problems_of_problem(aligned, {"/bodies/block/velocity=[1,0]"}) ==
