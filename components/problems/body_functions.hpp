@@ -26,6 +26,8 @@ struct BodyFunctions {
   OfTime body_force{};
   /// What theory says [m]; errors are measured against it.
   OfTime exact_displacement{};
+  /// Whether the functions hold at X; without one they do everywhere.
+  std::function<bool(const Vector<3>& X)> holds{};
   /// The particles' places; without one they are the sites of the lattice.
   std::optional<PolarLayout> layout{};
 };

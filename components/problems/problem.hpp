@@ -3,8 +3,11 @@
 #include <variant>
 
 #include "components/problems/axis_aligned.hpp"
+#include "components/problems/compacted_column.hpp"
+#include "components/problems/ring.hpp"
 #include "components/problems/rotating_disk.hpp"
 #include "components/problems/vibrating_bar.hpp"
+#include "components/problems/vortex.hpp"
 
 /// What every problem has:
 ///
@@ -16,6 +19,6 @@ namespace tamp::components
 {
 
 /// All the problems there are; one more is added here.
-using Problem = std::variant<AxisAligned, RotatingDisk, VibratingBar>;
+using Problem = std::variant<AxisAligned, CompactedColumn, Ring, RotatingDisk, VibratingBar, Vortex>;
 
 }  // namespace tamp::components

@@ -37,6 +37,8 @@ SPACE["bodies"]["block"]["geometry"] = {"type": "box", "lower": [2, 2, 2], "uppe
 SAND = {"file": str(ROOT / "inputs/materials/concrete-sand/table.json"), "density": 1050}
 QUICK = {"file": str(ROOT / "inputs/punch/quick.json")}
 CYLINDER = {"type": "cylinder", "first_end": [3, 3, 2], "second_end": [3, 3, 5], "radius": 1}
+LOG_SOLID = {"type": "neo_hookean_log", "bulk_modulus": 2e6, "shear_modulus": 3e6}
+RING = {"type": "ring", "centre": [4, 4], "inner_radius": 1, "outer_radius": 2, "amplitude": 0.1}
 DRIVEN = {"material": "steel", "rigid": True, "geometry": {"type": "box", "lower": [2, 2], "upper": [4, 4]}}
 
 # A scene, and what is put where in it.
@@ -78,6 +80,8 @@ SOUND = [
     (SPACE, {"/bodies/block/geometry": {"type": "revolved", "start": [4, 4, 2], "axis": [0, 0, 1], "profile": [[0, 1], [3, 1]]}}),
     (PLANE, {"/boundaries": {"y-": "periodic", "y+": "periodic"}, "/output": {"fields": ["p", "nodes/velocity"]}}),
     (PLANE, {"/bodies/block/pressure": {"values": [[0, 0], [1, 1e5]]}}),
+    (PLANE, {"/materials/steel": {**LOG_SOLID, "density": 1000}, "/bodies/block/problem": {**RING, "on_rings": False},
+             "/bodies/block/geometry": {"type": "box", "lower": [5, 3], "upper": [6, 5]}}),
     (QUICK, {"/materials": {"sand": {"modulus": {"type": "svr"}}}, "/artificial_viscosity": None}),
     (QUICK, {"/time": {"end": 1e-3}, "/bodies": {"punch": {"velocity": [0, -100]}}}),
 ]
@@ -142,6 +146,7 @@ BROKEN = [
     (PLANE, {"/bodies/block/pressure": {"value": 1, "within": {"lower": [0, 0]}}}),
     (PLANE, {"/bodies/block/problem": {"type": "axis_aligned", "amplitude": 0.1, "length": 1}}),
     (PLANE, {"/bodies/block/problem": {"type": "swinging_bar"}}),
+    (PLANE, {"/bodies/block/problem": {**RING, "on_rings": 1}}),
     (PLANE, {"/output": {"fields": "p"}}),
     # in scenes and materials that name another
     (QUICK, {"/time": {"ende": 1}}),

@@ -20,6 +20,8 @@ Key key_of(const components::ProblemParameter<P>& parameter)
         } else if constexpr (std::is_same_v<T, int>) {
           const WholeNumber number{static_cast<int>(parameter.range.lower), static_cast<int>(parameter.range.upper)};
           return {name, number, unit, left_out(usual.*member), ""};
+        } else if constexpr (std::is_same_v<T, bool>) {
+          return {name, Flag{}, unit, left_out(usual.*member), ""};
         } else {
           return {name, Numbers{per_axis, parameter.range}, unit, left_out((usual.*member)[0]), ""};
         }

@@ -62,7 +62,8 @@ std::string told(const Key& key)
   std::string text = "`" + key.name + "`";
   if (!key.meaning.empty()) text += ": " + key.meaning;
   if (!key.unit.empty()) text += " [" + shown_unit(key.unit) + "]";
-  if (key.default_value.value.is_number()) text += " (" + default_text(key) + ")";
+  if (key.default_value.value.is_number() || key.default_value.value.is_boolean())
+    text += " (" + default_text(key) + ")";
   return text;
 }
 

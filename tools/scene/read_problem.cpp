@@ -28,6 +28,8 @@ void read_parameter(const components::ProblemParameter<P>& parameter, JsonReader
           value = reader.number(key);
         } else if constexpr (std::is_same_v<Value, int>) {
           value = reader.whole_number(key);
+        } else if constexpr (std::is_same_v<Value, bool>) {
+          value = reader.flag(key);
         } else {
           const std::vector<double> numbers = reader.numbers(key);
           value.setZero();
@@ -55,7 +57,8 @@ std::optional<components::Problem> read_one_of(const std::variant<P...>*, const 
   return found;
 }
 
-/// Do the particles of a layout lie in the body, and do all start within the grid, none turned inside out?
+/// Do the particles of a layout lie in the body, others where the functions hold, and do all start within the grid,
+/// none turned inside out?
 template <int D>
 void check_places(const tasks::Scene& scene, const tasks::SceneBody& body, const JsonReader& reader)
 {
@@ -70,8 +73,12 @@ void check_places(const tasks::Scene& scene, const tasks::SceneBody& body, const
       reader.add_problem(problem_key, "a particle at " + text<D>(X), "expected all of them within the body's geometry");
       return;
     }
-    if (!functions.displacement) continue;
     const Vector<3> in_space = tasks::in_space<D>(X);
+    if (functions.holds && !functions.holds(in_space)) {
+      reader.add_problem("geometry", "a particle at " + text<D>(X), "expected all of them where the problem is set");
+      return;
+    }
+    if (!functions.displacement) continue;
     const Vector<D> x = X + functions.displacement(in_space).template head<D>();
     if (!((x - grid.lower).minCoeff() >= 0 && (grid.upper - x).minCoeff() > 0)) {
       reader.add_problem(problem_key, fmt::format("the particle of {} starts at {}", text<D>(X), text<D>(x)),

@@ -31,6 +31,11 @@ const std::string ring_of_disk =
     R"(/bodies/block/geometry={"type":"difference","of":[{"type":"ball","centre":[1,1],"radius":0.9},)"
     R"({"type":"ball","centre":[1,1],"radius":0.4}]})";
 
+const std::string log_solid =
+    R"(/materials/steel={"type":"neo_hookean_log","density":1,"bulk_modulus":400,"shear_modulus":600})";
+const std::string ring_of =
+    R"({"type":"ring","centre":[1,1],"outer_radius":0.9,"inner_radius":0.4,"amplitude":0.05,"on_rings":)";
+
 const std::string at_problem = "--set#/bodies/block/problem";
 
 }  // namespace
@@ -58,11 +63,29 @@ TEST_CASE("a body whose problem lays out its particles has those")
   CHECK(scene.bodies.at(0).n_particles == 8);
 }
 
+TEST_CASE("a body whose problem may lay out its particles has those of the lattice where it is told not to")
+{
+  const TemporaryFolder folder;
+  const std::string path = folder.write("small.json", small_scene);
+  const auto of_flag = [&](const std::string& flag) {
+    return tools::read_scene(path, with_problem(ring_of + flag + "}", {log_solid, ring_of_disk}));
+  };
+
+  // Of the sites at 0.25, 0.75, 1.25 and 1.75 along both axes none of the corners, 1.06 from the centre, nor of the
+  // four in the middle, 0.354 from it, lies in the ring.
+  CHECK(of_flag("false").scene.bodies.at(0).n_particles == 8);
+  CHECK(!of_flag("false").scene.bodies.at(0).functions.layout);
+  CHECK(of_flag("true").scene.bodies.at(0).functions.layout);
+  CHECK(of_flag("false").resolved["bodies"]["block"]["problem"]["on_rings"] == false);
+  CHECK(problems_of_problem(ring_of + "1}", {log_solid, ring_of_disk}) ==
+        at_problem + "/on_rings: 1; expected true or false");
+}
+
 TEST_CASE("a problem that is not known, or lacks something, is told")
 {
   CHECK(problems_of_problem(R"({"type":"axis_alined"})") ==
-        at_problem + R"(/type: "axis_alined"; expected one of axis_aligned, rotating_disk, vibrating_bar, )"
-                     R"(did you mean "axis_aligned"?)");
+        at_problem + R"(/type: "axis_alined"; expected one of axis_aligned, compacted_column, ring, rotating_disk, )"
+                     R"(vibrating_bar, vortex, did you mean "axis_aligned"?)");
   CHECK(problems_of_problem(R"({"type":"vibrating_bar","speed":1})") ==
         at_problem + "/wave_number: missing; expected a number above 0 [rad/m]");
   CHECK(problems_of_problem(R"({"type":"vibrating_bar","speed":1,"wave_number":-1})") ==
@@ -105,6 +128,23 @@ TEST_CASE("a problem that does not go with its body or its scene is told")
                                    R"(/bodies/block/geometry={"type":"box","lower":[0,0,0],"upper":[1,1,1]})",
                                    "/bodies/block/problem/centre=[1,1,1]"}) ==
         at_problem + ": a scene of dimension 3; expected one of dimension 2, in which it is a disk");
+}
+
+TEST_CASE("a ring whose rims would not be free is told")
+{
+  CHECK(problems_of_problem(ring_of + "true}", {log_solid, ring_of_disk, "/materials/steel/bulk_modulus=500"}) ==
+        at_problem +
+            ": a material of bulk modulus 500; expected 2/3 of its shear modulus, 400, with which its rims are "
+            "free");
+  CHECK(problems_of_problem(ring_of + "true}", {log_solid, ring_of_disk, "/materials/steel/bulk_modulus=300"}) ==
+        "--set#/materials/steel/bulk_modulus: 300; expected at least 2/3 of the shear modulus, 400");
+}
+
+TEST_CASE("particles of a lattice where a problem does not hold are told")
+{
+  CHECK(problems_of_problem(ring_of + "false}", {log_solid}) ==
+        "scene.json#/bodies/block/geometry: a particle at [0.25, 0.25]; expected all of them where the problem is "
+        "set");
 }
 
 TEST_CASE("particles that a problem puts outside of the body or the grid are told")
