@@ -526,7 +526,7 @@ TEST_CASE("a name that is none of the choices is told with the choices")
         "--set#/interpolator: \"linear\" with the time step's rule \"viscous\"; expected the rule \"published\", as a "
         "particle that hardly reaches a node would have no stable step; or another interpolator");
   CHECK(problems_with({"/transfer=mpm"}) ==
-        "--set#/transfer: \"mpm\"; expected one of flip, affine, pic, blend, apic, tpic, xpic, fmpm");
+        "--set#/transfer: \"mpm\"; expected one of flip, pic, blend, affine, apic, tpic, xpic, fmpm");
   CHECK(problems_with({"/boundaries/x-=wall"}) ==
         "--set#/boundaries/x-: \"wall\"; expected one of symmetry, open, no_slip, periodic");
   CHECK(problems_with({"/bodies/block/material=stel"}) ==
