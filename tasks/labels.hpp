@@ -4,6 +4,7 @@
 
 #include "components/contact/logistic_plane.hpp"
 #include "components/loads/pressure_load.hpp"
+#include "components/relief/cell_average.hpp"
 #include "components/shapes/node_sums.hpp"
 #include "components/tensors.hpp"
 #include "runtime/data/label.hpp"
@@ -56,8 +57,20 @@ inline const runtime::ParticleLabel<double, "own stiffness"> own_stiffness;
 /// Strain increment of this step, in the frame of its end.
 template <int D>
 inline const runtime::ParticleLabel<SymmetricTensor<D>, "strain increment"> strain_increment;
+/// dt times the gradient of the velocity in this step; row: component of velocity. Only where particles deform as their
+/// cells do.
+template <int D>
+inline const runtime::ParticleLabel<Matrix<D>, "step gradient"> step_gradient;
 
 }  // namespace particle
+
+namespace cell
+{
+
+/// Only where particles deform as their cells do.
+inline const runtime::CellLabel<components::CellVolume, "cell volume"> volume;
+
+}  // namespace cell
 
 namespace node
 {

@@ -36,6 +36,8 @@ Method<D>::Method(const Scene& given)
       passes(with_transfer([](const auto& transfer) { return transfer.passes; })),
       n_passes(with_transfer([](const auto& transfer) { return transfer.n_passes(); })),
       amplification(with_transfer([](const auto& transfer) -> double { return transfer.amplification(); })),
+      deformation_update(scene.deformation_update),
+      relief(scene.relief),
       cell_size(scene.grid.cell_size),
       least_node_mass(least_weight * least_particle_mass(scene)),
       gravity(vector_of<D>(scene.gravity)),

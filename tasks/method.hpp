@@ -86,6 +86,8 @@ struct Method {
   int n_passes;
   /// Of the motion of nodes by the transfer, for the bound on the step.
   double amplification;
+  DeformationUpdate deformation_update;
+  Relief relief;
   double cell_size;
   /// Nodes with less mass [kg] are not accelerated: they are touched by an edge of a particle to within round-off, and
   /// as force goes with the slope of the weight but mass with its square, they would turn round-off into finite strain.

@@ -10,11 +10,13 @@
 
 #include "components/contact/contact_table.hpp"
 #include "components/geometry/solid.hpp"
+#include "components/kinematics/deformation_update.hpp"
 #include "components/loads/artificial_viscosity.hpp"
 #include "components/loads/pressure_load.hpp"
 #include "components/loads/rotating_frame.hpp"
 #include "components/materials/material_model.hpp"
 #include "components/problems/body_functions.hpp"
+#include "components/relief/relief.hpp"
 #include "components/rigid/prescribed_motion.hpp"
 #include "components/shapes/interpolator.hpp"
 #include "components/transfers/transfers.hpp"
@@ -37,6 +39,9 @@ enum class StepRule { published, viscous };
 using components::Interpolator;
 
 using components::Transfer;
+
+using components::DeformationUpdate;
+using components::Relief;
 
 struct SceneTime {
   double end;
@@ -170,6 +175,8 @@ struct Scene {
   double flip_part = 0.99;
   /// Of XPIC and FMPM.
   int filter_order = 2;
+  DeformationUpdate deformation_update = DeformationUpdate::exact;
+  Relief relief = Relief::none;
   /// Along each axis of a cell.
   int particles_per_axis = 2;
   Triple gravity{0, 0, 0};

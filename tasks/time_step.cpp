@@ -65,6 +65,9 @@ std::vector<runtime::TaskDeclaration> time_step(const Method<D>& method,
   for (const RigidBody& body : method.rigid_bodies) step.push_back(move_rigid_particles(method, body.material));
   for (runtime::TaskDeclaration& phase : pass_velocities(method)) step.push_back(std::move(phase));
   if (!method.deformable_materials.empty()) step.push_back(grid_to_particles(method));
+  if (method.relief == Relief::cell_average && !method.deformable_materials.empty()) {
+    step.push_back(deform_as_cells(method));
+  }
   if (method.scene.has_body_force()) step.push_back(work_of_body_force(method));
   for (const int material : method.deformable_materials) step.push_back(update_stress(method, material));
   step.push_back(runtime::migration(particle::position<D>, step_totals, std::move(accepted),

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "components/kinematics/exact_update.hpp"
 #include "components/kinematics/polar_rotation.hpp"
 #include "components/tensors.hpp"
 
@@ -36,24 +37,19 @@ struct StrainIncrement {
 /// The arithmetic of strain_increment(), for one particle or for as many as Number has lanes. Of Lanes some may be off
 /// where stretches are more than a thousand times apart: the caller has to see which are `admissible` and which
 /// `rotates_to_round_off`.
-template <int D, class Number>
+template <int D, class Number, class Update = ExactUpdate>
 [[gnu::flatten]] StrainIncrement<D, Number> unchecked_increment(const Matrix<D, Number>& old_gradient,
                                                                 const Matrix<D, Number>& g)
 {
-  const Matrix<D, Number> identity = Matrix<D, Number>::Identity();
-  const Matrix<D, Number> f = identity + g, f_mid = identity + Number(0.5) * g;
+  const Matrix<D, Number> f = Update::template map<D, Number>(g);
   StrainIncrement<D, Number> step;
   step.deformation_gradient = f * old_gradient;
-  step.volume_ratio = f.determinant();
-  step.mid_step_volume_ratio = f_mid.determinant();
+  step.volume_ratio = Update::template volume_ratio<D, Number>(f, g);
+  step.mid_step_volume_ratio = Update::template mid_step_volume_ratio<D, Number>(g);
 
   const auto [old_rotation, rotation] = polar_rotations(old_gradient, step.deformation_gradient);
   step.rotation_increment = rotation * old_rotation.transpose();
-  // f without the rotations of its two ends: U_{n+1} U_n^-1.
-  const Matrix<D, Number> stretching = rotation.transpose() * f * old_rotation;
-  const Matrix<D, Number> rate = Number(2) * (stretching - identity) * (stretching + identity).inverse();
-  const Matrix<D, Number> symmetric_rate = Number(0.5) * (rate + rate.transpose());
-  step.strain_increment = symmetric_part<D>(rotation * symmetric_rate * rotation.transpose());
+  step.strain_increment = Update::template strain<D, Number>(f, g, old_rotation, rotation);
   return step;
 }
 
@@ -61,15 +57,14 @@ template <int D, class Number>
 /// of the positions is v dt with nothing left out (Banerjee, Brannon, Fox, Regueiro, PAR-10021867-092020-6, eqs 54-57).
 /// Row of g: component of velocity; column: direction of the gradient. det F_n must be above 0.
 ///
-/// Freed of the rotations of its two ends, f is the stretching S = R_{n+1}^T f R_n = U_{n+1} U_n^-1. Its rate, read at
-/// the middle of the step, is 2 (S - I) (S + I)^-1; the strain increment is the symmetric part of that, turned to the
-/// end of the step. A rotation laid over the motion, however large and however fast, leaves S as it is: the increment
-/// is objective to round-off, and second order in dt. (With the rate of f itself at mid-step, as T. J. R. Hughes and J.
-/// Winget have it, Int. J. Numer. Meth. Eng. 15, 1980, it would be objective for rigid motions only.)
-template <int D>
+/// A rotation laid over the motion, however large and however fast, leaves the stretching S as it is (see
+/// strain_between): with the exact update the increment is objective to round-off, and second order in dt. (With the
+/// rate of f itself at mid-step, as T. J. R. Hughes and J. Winget have it, Int. J. Numer. Meth. Eng. 15, 1980, it would
+/// be objective for rigid motions only.)
+template <int D, class Update = ExactUpdate>
 StrainIncrement<D> strain_increment(const Matrix<D>& deformation_gradient, const Matrix<D>& g)
 {
-  StrainIncrement<D> step = unchecked_increment<D, double>(deformation_gradient, g);
+  StrainIncrement<D> step = unchecked_increment<D, double, Update>(deformation_gradient, g);
   if (step.admissible()) return step;
   step.strain_increment.setZero();
   step.rotation_increment.setIdentity();

@@ -2,12 +2,11 @@
 #include <array>
 #include <stdexcept>
 
-#include "components/kinematics/deform.hpp"
 #include "components/shapes/transfer.hpp"
 #include "tasks/labels.hpp"
+#include "tasks/phases/deform.hpp"
 #include "tasks/phases/phases.hpp"
 #include "tasks/phases/places.hpp"
-#include "tasks/simulation_error.hpp"
 
 namespace tamp::tasks
 {
@@ -19,9 +18,6 @@ using runtime::TaskContext;
 
 namespace
 {
-
-/// Particles worked on together: their numbers between two kernels stay in the first-level cache.
-constexpr std::size_t batch = 32;
 
 template <int D>
 using Motions = std::span<const ParticleMotion<D>>;
@@ -70,80 +66,10 @@ void add_filtered_momentum(const Data& data, std::size_t first, Motions<D> motio
   }
 }
 
-/// What deforms particles is the gradient of the velocity at the middle of the step, over the shape at its middle (eqs
-/// 54-58); the old stress turns with them, and what the material answers is added by the next phase.
-template <int D, class Data>
-void deform(const Method<D>& method, const TaskContext& at, const Data& data, std::size_t first, Motions<D> motion)
+/// The task with what the transfer of the scene reads and keeps.
+template <int D, class Task, class Body>
+runtime::TaskDeclaration with_velocities(const Method<D>& method, Task task, const Body& body)
 {
-  std::array<Matrix<D>, batch> g;
-  for (std::size_t i = 0; i < motion.size(); ++i) g[i] = at.step.size * motion[i].velocity_gradient;
-  const auto of_batch = [&](const auto& field) { return field.subspan(first, motion.size()); };
-  const auto inside_out =
-      components::deform<D>({.g = std::span(g).first(motion.size()),
-                             .old_gradient = of_batch(data[particle::deformation_gradient<D>.previous()]),
-                             .old_volume = of_batch(data[particle::volume.previous()]),
-                             .old_stress = of_batch(data[particle::stress<D>.previous()]),
-                             .deformation_gradient = of_batch(data[particle::deformation_gradient<D>]),
-                             .volume = of_batch(data[particle::volume]),
-                             .stress = of_batch(data[particle::stress<D>]),
-                             .strain_increment = of_batch(data[particle::strain_increment<D>])});
-  if (!inside_out) return;
-  const std::size_t p = first + *inside_out;
-  const Vector<D>& x = data[particle::position<D>.previous()][p];
-  throw SimulationError("a particle is turned inside out", method.materials[static_cast<std::size_t>(at.group)].name,
-                        data[particle::id.previous()][p], {x.begin(), x.end()});
-}
-
-}  // namespace
-
-template <int D>
-runtime::TaskDeclaration grid_to_particles(const Method<D>& method)
-{
-  auto task =
-      runtime::task("grid to particles")
-          .over_patches_and_groups(method.deformable_materials)
-          .sparse()
-          .reads(node::inverse_mass.halo(method.halo), node::motion<D>.halo(method.halo), particle::id.previous(),
-                 particle::mass.previous(), particle::position<D>.previous(), particle::velocity<D>.previous(),
-                 particle::deformation_gradient<D>.previous(), particle::volume.previous(),
-                 particle::stress<D>.previous())
-          .computes(particle::position<D>, particle::velocity<D>, particle::deformation_gradient<D>, particle::volume,
-                    particle::stress<D>, particle::strain_increment<D>, particle::own_stiffness)
-          .reduces(filtered_momentum);
-  const bool filters = method.with_transfer([](const auto& transfer) { return transfer.filters; });
-  const auto body = [&method, filters](const TaskContext& at, auto data) {
-    const auto inverse_mass = data[node::inverse_mass];
-    const auto nodes = data[node::motion<D>];
-    const auto mass = data[particle::mass.previous()];
-    const auto own_stiffness = data[particle::own_stiffness];
-    const auto block = block_of<D>(at.layout, nodes);
-    const auto places = places_at_start<D>(data);
-    const components::Interpolation<D>& interpolation = method.interpolation(at.group);
-    std::array<ParticleMotion<D>, batch> buffer;
-    std::array<Vector<D>, batch> restored;
-    restored.fill(Vector<D>::Zero());
-    for (std::size_t first = 0; first < mass.size(); first += batch) {
-      const std::size_t size = std::min(batch, mass.size() - first);
-      const auto motion = std::span(buffer).first(size);
-      interpolation.grid_to_particles(block, places.subspan(first, size), nodes.data(), motion);
-      if constexpr (data.has(node::velocity_terms<D>)) {
-        interpolation.interpolate(block, places.subspan(first, size), data[node::velocity_terms<D>].data(), restored);
-      }
-      move<D>(method, at.step.size, data, first, motion, restored);
-      if (filters) add_filtered_momentum<D>(data, first, motion);
-      if constexpr (data.has(particle::velocity_moment<D>)) {
-        interpolation.velocity_moments(block, places.subspan(first, size), nodes.data(),
-                                       data[particle::velocity_moment<D>].subspan(first, size));
-      }
-      deform<D>(method, at, data, first, motion);
-      if (method.time_step_rule == StepRule::viscous) {
-        interpolation.own_stiffness(block, places.subspan(first, size), mass.subspan(first, size), inverse_mass.data(),
-                                    own_stiffness.subspan(first, size));
-      } else {
-        std::ranges::fill(own_stiffness.subspan(first, size), 0.0);
-      }
-    }
-  };
   if (method.passes == Passes::from_start && method.n_passes > 0) {
     return std::move(task).reads(node::velocity_terms<D>.halo(method.halo)).body(body);
   }
@@ -156,6 +82,66 @@ runtime::TaskDeclaration grid_to_particles(const Method<D>& method)
       return std::move(task).computes(particle::velocity_moment<D>).body(body);
   }
   throw std::logic_error("unknown surroundings");
+}
+
+}  // namespace
+
+template <int D>
+runtime::TaskDeclaration grid_to_particles(const Method<D>& method)
+{
+  auto task = runtime::task("grid to particles")
+                  .over_patches_and_groups(method.deformable_materials)
+                  .sparse()
+                  .reads(node::inverse_mass.halo(method.halo), node::motion<D>.halo(method.halo),
+                         particle::id.previous(), particle::mass.previous(), particle::position<D>.previous(),
+                         particle::velocity<D>.previous(), particle::deformation_gradient<D>.previous(),
+                         particle::volume.previous(), particle::stress<D>.previous())
+                  .computes(particle::position<D>, particle::velocity<D>, particle::own_stiffness)
+                  .reduces(filtered_momentum);
+  const bool filters = method.with_transfer([](const auto& transfer) { return transfer.filters; });
+  const auto body = [&method, filters](const TaskContext& at, auto data) {
+    const auto inverse_mass = data[node::inverse_mass];
+    const auto nodes = data[node::motion<D>];
+    const auto mass = data[particle::mass.previous()];
+    const auto own_stiffness = data[particle::own_stiffness];
+    const auto block = block_of<D>(at.layout, nodes);
+    const auto places = places_at_start<D>(data);
+    const components::Interpolation<D>& interpolation = method.interpolation(at.group);
+    if constexpr (data.has(cell::volume)) {
+      for_each(data[cell::volume].box(), [&](const runtime::Index& i) { data[cell::volume][i] = {}; });
+    }
+    std::array<ParticleMotion<D>, motion_batch> buffer;
+    std::array<Vector<D>, motion_batch> restored;
+    restored.fill(Vector<D>::Zero());
+    for (std::size_t first = 0; first < mass.size(); first += motion_batch) {
+      const std::size_t size = std::min(motion_batch, mass.size() - first);
+      const auto motion = std::span(buffer).first(size);
+      interpolation.grid_to_particles(block, places.subspan(first, size), nodes.data(), motion);
+      if constexpr (data.has(node::velocity_terms<D>)) {
+        interpolation.interpolate(block, places.subspan(first, size), data[node::velocity_terms<D>].data(), restored);
+      }
+      move<D>(method, at.step.size, data, first, motion, restored);
+      if (filters) add_filtered_momentum<D>(data, first, motion);
+      if constexpr (data.has(particle::velocity_moment<D>)) {
+        interpolation.velocity_moments(block, places.subspan(first, size), nodes.data(),
+                                       data[particle::velocity_moment<D>].subspan(first, size));
+      }
+      take_gradients<D>(method, at, data, block, nodes.data(), first, motion);
+      if (method.time_step_rule == StepRule::viscous) {
+        interpolation.own_stiffness(block, places.subspan(first, size), mass.subspan(first, size), inverse_mass.data(),
+                                    own_stiffness.subspan(first, size));
+      } else {
+        std::ranges::fill(own_stiffness.subspan(first, size), 0.0);
+      }
+    }
+  };
+  if (method.relief == Relief::cell_average) {
+    return with_velocities(method, std::move(task).computes(particle::step_gradient<D>, cell::volume), body);
+  }
+  return with_velocities(method,
+                         std::move(task).computes(particle::deformation_gradient<D>, particle::volume,
+                                                  particle::stress<D>, particle::strain_increment<D>),
+                         body);
 }
 
 template runtime::TaskDeclaration grid_to_particles(const Method<2>&);

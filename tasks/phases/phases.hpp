@@ -78,6 +78,10 @@ std::vector<runtime::TaskDeclaration> pass_velocities(const Method<D>& method);
 template <int D>
 runtime::TaskDeclaration grid_to_particles(const Method<D>& method);
 
+/// Where all particles of a cell share its change of volume, they are deformed by a phase of its own.
+template <int D>
+runtime::TaskDeclaration deform_as_cells(const Method<D>& method);
+
 /// The material answers the deformation of its particles with stress; sums energies and bounds the next step.
 template <int D>
 runtime::TaskDeclaration update_stress(const Method<D>& method, int material);

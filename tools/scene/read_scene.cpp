@@ -42,6 +42,8 @@ class SceneReader
     read_time();
     read_transfer();
     check_method(root_, scene_);
+    scene_.deformation_update = root_.choice<tasks::DeformationUpdate>("deformation_update");
+    scene_.relief = root_.choice<tasks::Relief>("relief");
     read_particles_per_cell();
     read_loads();
     read_materials();

@@ -46,18 +46,19 @@ struct Deformed {
   std::vector<SymmetricTensor<D>> stress, strain;
   std::optional<std::size_t> inside_out;
 
-  Deformed(const Particles<D>& particles, std::size_t first, std::size_t n)
+  Deformed(const Particles<D>& particles, std::size_t first, std::size_t n,
+           DeformationUpdate update = DeformationUpdate::exact)
       : gradient(n), volume(n), stress(n), strain(n)
   {
     const auto some = [&](const auto& values) { return std::span(values).subspan(first, n); };
-    inside_out = deform<D>({.g = some(particles.g),
-                            .old_gradient = some(particles.old_gradient),
-                            .old_volume = some(particles.old_volume),
-                            .old_stress = some(particles.old_stress),
-                            .deformation_gradient = gradient,
-                            .volume = volume,
-                            .stress = stress,
-                            .strain_increment = strain});
+    inside_out = deform<D>(update, {.g = some(particles.g),
+                                    .old_gradient = some(particles.old_gradient),
+                                    .old_volume = some(particles.old_volume),
+                                    .old_stress = some(particles.old_stress),
+                                    .deformation_gradient = gradient,
+                                    .volume = volume,
+                                    .stress = stress,
+                                    .strain_increment = strain});
   }
 };
 
@@ -66,12 +67,16 @@ struct Deformed {
 TEMPLATE_TEST_CASE_SIG("particles are deformed together as each alone by its strain increment", "", ((int D), D), 2, 3)
 {
   const Particles<D> particles(101);
+  const DeformationUpdate update =
+      GENERATE(DeformationUpdate::exact, DeformationUpdate::first_order, DeformationUpdate::exponential);
 
-  const Deformed<D> deformed(particles, 0, 101);
+  const Deformed<D> deformed(particles, 0, 101, update);
 
   CHECK_FALSE(deformed.inside_out);
   for (std::size_t p = 0; p < 101; ++p) {
-    const auto alone = strain_increment<D>(particles.old_gradient[p], particles.g[p]);
+    const auto alone = with_update(update, [&]<class Update>(const Update&) {
+      return strain_increment<D, Update>(particles.old_gradient[p], particles.g[p]);
+    });
     const SymmetricTensor<D> turned = rotated<D>(particles.old_stress[p], alone.rotation_increment);
     REQUIRE((deformed.gradient[p] - alone.deformation_gradient).norm() < 1e-15);
     REQUIRE((deformed.strain[p] - alone.strain_increment).norm() < 1e-14);

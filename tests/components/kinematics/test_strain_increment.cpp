@@ -8,6 +8,7 @@
 #include <numbers>
 #include <vector>
 
+#include "components/kinematics/deformation_update.hpp"
 #include "components/kinematics/strain_increment.hpp"
 
 using namespace tamp;
@@ -212,4 +213,109 @@ TEST_CASE("a step that turns a particle inside out or over is reported and does 
     CHECK(step.rotation_increment == Matrix<2>::Identity());
   }
   CHECK(strain_increment<2>(f, inside_out).volume_ratio == Approx(-0.5));
+}
+
+namespace
+{
+
+/// Simple shear of 1 while the particle turns by two radians, in `n` steps of g as the grid gives it: the increment of
+/// the displacement over the shape at the start of the step. How far F and the strain are off.
+struct ShearErrors {
+  double deformation_gradient;
+  double strain;
+};
+
+/// Reference: the strain of a simple shear that is turned as it goes, R^T D R integrated by Simpson's rule as above.
+struct TurnedShear {
+  static Matrix<2> turn(double angle) { return Eigen::Rotation2Dd(angle).toRotationMatrix(); }
+  static Matrix<2> deformation(double t) { return turn(2 * t) * (Matrix<2>() << 1, t, 0, 1).finished(); }
+  /// That of F: the turn, and tan(angle) = -t / 2 of the shear.
+  static Matrix<2> rotation(double t) { return turn(2 * t - std::atan(t / 2)); }
+  static Matrix<2> rate(double t)
+  {
+    return turn(2 * t) * (Matrix<2>() << 0, 0.5, 0.5, 0).finished() * turn(2 * t).transpose();
+  }
+  static Matrix<2> strain()
+  {
+    constexpr int n = 2000;
+    Matrix<2> sum = Matrix<2>::Zero();
+    for (int i = 0; i <= n; ++i) {
+      const double t = static_cast<double>(i) / n;
+      const double weight = (i == 0 || i == n ? 1.0 : i % 2 == 1 ? 4.0 : 2.0) / (3.0 * n);
+      sum += weight * rotation(t).transpose() * rate(t) * rotation(t);
+    }
+    return rotation(1) * sum * rotation(1).transpose();
+  }
+};
+
+template <class Update>
+ShearErrors shear_errors(int n)
+{
+  Matrix<2> f = Matrix<2>::Identity();
+  SymmetricTensor<2> strain = SymmetricTensor<2>::Zero();
+  for (int i = 0; i < n; ++i) {
+    const Matrix<2> start = TurnedShear::deformation(static_cast<double>(i) / n);
+    const Matrix<2> end = TurnedShear::deformation((i + 1.0) / n);
+    const auto step = strain_increment<2, Update>(f, end * start.inverse() - Matrix<2>::Identity());
+    strain = rotated<2>(strain, step.rotation_increment) + step.strain_increment;
+    f = step.deformation_gradient;
+  }
+  return {(f - TurnedShear::deformation(1)).norm(), (plane_part<2>(strain) - TurnedShear::strain()).norm()};
+}
+
+template <class Update>
+double order_of(double ShearErrors::*error)
+{
+  return std::log2(shear_errors<Update>(100).*error / shear_errors<Update>(200).*error);
+}
+
+}  // namespace
+
+TEST_CASE("in a shear that turns the exact update is of second order and the others are of first")
+{
+  CHECK(shear_errors<ExactUpdate>(50).deformation_gradient < 1e-13);
+  CHECK(shear_errors<FirstOrderUpdate>(50).deformation_gradient < 1e-13);
+  CHECK(order_of<ExponentialUpdate>(&ShearErrors::deformation_gradient) == Approx(1).margin(0.02));
+
+  CHECK(order_of<ExactUpdate>(&ShearErrors::strain) == Approx(2).margin(0.02));
+  CHECK(order_of<FirstOrderUpdate>(&ShearErrors::strain) == Approx(1).margin(0.02));
+  CHECK(order_of<ExponentialUpdate>(&ShearErrors::strain) == Approx(1).margin(0.02));
+}
+
+TEST_CASE("the exponential update has the determinant that the trace asks for and turns nothing inside out")
+{
+  const Matrix<2> f = (Matrix<2>() << 1.2, 0.1, -0.2, 0.7).finished();
+  const Matrix<3> f_in_space = (Matrix<3>() << 1.2, 0.1, 0.3, -0.2, 0.7, 0, 0, 0.1, 1.1).finished();
+  const Matrix<2> crushing = (Matrix<2>() << -2.5, 0.4, -0.3, -0.5).finished();
+  const Matrix<3> turning = (Matrix<3>() << -0.9, 1, 0.5, -1.2, -0.4, 0.2, 0.3, -0.2, 0.1).finished();
+
+  const auto plane = strain_increment<2, ExponentialUpdate>(f, crushing);
+  const auto space = strain_increment<3, ExponentialUpdate>(f_in_space, turning);
+
+  CHECK(plane.admissible());
+  CHECK(plane.volume_ratio == Approx(std::exp(-3.0)).epsilon(1e-15));
+  CHECK(plane.deformation_gradient.determinant() == Approx(std::exp(-3.0) * f.determinant()).epsilon(1e-13));
+  CHECK(trace(plane.strain_increment) == Approx(-3.0).epsilon(1e-14));
+  CHECK(space.volume_ratio == Approx(std::exp(-1.2)).epsilon(1e-15));
+  CHECK(space.deformation_gradient.determinant() == Approx(std::exp(-1.2) * f_in_space.determinant()).epsilon(1e-13));
+  CHECK(trace(space.strain_increment) == Approx(-1.2).epsilon(1e-14));
+}
+
+TEST_CASE("the exponential of a turning rate is the turn and that of a stretching rate the stretch")
+{
+  const double angle = 1.3;
+  const Vector<3> axis = Vector<3>(1, 2, -2) / 3;
+  const Matrix<3> turn = Eigen::AngleAxisd(angle, axis).toRotationMatrix();
+  const Matrix<3> stretch = Vector<3>(0.7, -1.1, 0.4).asDiagonal();
+
+  CHECK((exponential_of<3, double>(angle * cross_matrix(axis)) - turn).norm() < 1e-14);
+  CHECK((exponential_of<3, double>(stretch).diagonal().array() - stretch.diagonal().array().exp()).matrix().norm() <
+        1e-14);
+}
+
+TEST_CASE("a step too large for the exponential update is reported")
+{
+  const Matrix<2> turn = 4 * (Matrix<2>() << 0, -1, 1, 0).finished();
+
+  CHECK_FALSE(strain_increment<2, ExponentialUpdate>(Matrix<2>::Identity(), turn).admissible());
 }

@@ -1,0 +1,104 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <span>
+
+#include "components/kinematics/deform.hpp"
+#include "components/relief/f_bar.hpp"
+#include "components/relief/volume_changes.hpp"
+#include "components/shapes/transfer.hpp"
+#include "tasks/labels.hpp"
+#include "tasks/method.hpp"
+#include "tasks/simulation_error.hpp"
+
+namespace tamp::tasks
+{
+
+/// Particles whose motion goes through the kernels together: their numbers between two kernels stay in the first-level
+/// cache.
+inline constexpr std::size_t motion_batch = 32;
+
+/// What deforms particles is the gradient of the velocity at the middle of the step, over the shape at its start (eqs
+/// 54-58), as `g` times dt; the old stress turns with them, and what the material answers is added by the next phase.
+template <int D, class Data>
+void deform(const Method<D>& method, const runtime::TaskContext& at, const Data& data, std::size_t first,
+            std::span<const Matrix<D>> g)
+{
+  const auto of_batch = [&](const auto& field) { return field.subspan(first, g.size()); };
+  const auto inside_out = components::deform<D>(
+      method.deformation_update, {.g = g,
+                                  .old_gradient = of_batch(data[particle::deformation_gradient<D>.previous()]),
+                                  .old_volume = of_batch(data[particle::volume.previous()]),
+                                  .old_stress = of_batch(data[particle::stress<D>.previous()]),
+                                  .deformation_gradient = of_batch(data[particle::deformation_gradient<D>]),
+                                  .volume = of_batch(data[particle::volume]),
+                                  .stress = of_batch(data[particle::stress<D>]),
+                                  .strain_increment = of_batch(data[particle::strain_increment<D>])});
+  if (!inside_out) return;
+  const std::size_t p = first + *inside_out;
+  const Vector<D>& x = data[particle::position<D>.previous()][p];
+  throw SimulationError("a particle is turned inside out", method.materials[static_cast<std::size_t>(at.group)].name,
+                        data[particle::id.previous()][p], {x.begin(), x.end()});
+}
+
+/// The cell of the patch that holds a particle of it.
+template <int D>
+runtime::Index cell_of(const runtime::TaskContext& at, const Vector<D>& x)
+{
+  const runtime::Grid& grid = at.layout.grid();
+  runtime::Index cell = at.patch.cells.lower;
+  for (std::size_t k = 0; k < D; ++k) {
+    const double place = std::floor((x[static_cast<int>(k)] - grid.lower[k]) / grid.cell_size);
+    cell[k] = std::clamp(static_cast<int>(place), at.patch.cells.lower[k], at.patch.cells.upper[k] - 1);
+  }
+  return cell;
+}
+
+/// Keeps the gradients of a batch until those of the whole patch are known, and adds its changes of volume to its
+/// cells.
+template <int D, class Data>
+void keep(const Method<D>& method, const runtime::TaskContext& at, const Data& data, std::size_t first,
+          std::span<const Matrix<D>> g)
+{
+  const auto position = data[particle::position<D>.previous()];
+  const auto volume = data[particle::volume.previous()];
+  const auto cells = data[cell::volume];
+  std::array<double, motion_batch> change;
+  components::volume_changes<D>(method.deformation_update, g, std::span(change).first(g.size()));
+  for (std::size_t i = 0; i < g.size(); ++i) {
+    data[particle::step_gradient<D>][first + i] = g[i];
+    cells[cell_of<D>(at, position[first + i])].add(volume[first + i], change[i]);
+  }
+}
+
+/// Deforms a batch of particles by the gradients of its motion, which it got from `nodes`, or keeps them where the task
+/// has room for them.
+template <int D, class Data>
+void take_gradients(const Method<D>& method, const runtime::TaskContext& at, const Data& data,
+                    const components::GridBlock<D>& block, const components::NodeMotion<D>* nodes, std::size_t first,
+                    std::span<const components::ParticleMotion<D>> motion)
+{
+  std::array<Matrix<D>, motion_batch> buffer;
+  const auto g = std::span(buffer).first(motion.size());
+  for (std::size_t i = 0; i < g.size(); ++i) g[i] = at.step.size * motion[i].velocity_gradient;
+  if (method.relief == components::Relief::f_bar) {
+    std::array<Matrix<D>, motion_batch> at_centre;
+    std::array<double, motion_batch> change;
+    const auto centres = std::span(at_centre).first(g.size());
+    const auto changes = std::span(change).first(g.size());
+    components::centre_gradients<D>(block, nodes, data[particle::position<D>.previous()].subspan(first, g.size()),
+                                    at.step.size, centres);
+    components::volume_changes<D>(method.deformation_update, centres, changes);
+    components::set_volume_changes<D>(method.deformation_update, g, changes);
+  }
+  if constexpr (data.has(particle::step_gradient<D>)) {
+    keep<D>(method, at, data, first, g);
+  } else {
+    deform<D>(method, at, data, first, g);
+  }
+}
+
+}  // namespace tamp::tasks

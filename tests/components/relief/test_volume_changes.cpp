@@ -1,0 +1,140 @@
+#include <catch2/catch.hpp>
+
+#include <Eigen/Geometry>
+#include <cmath>
+#include <random>
+#include <vector>
+
+#include "components/kinematics/strain_increment.hpp"
+#include "components/relief/cell_average.hpp"
+#include "components/relief/f_bar.hpp"
+#include "components/relief/volume_changes.hpp"
+
+using namespace tamp;
+using namespace tamp::components;
+
+namespace
+{
+
+template <int D>
+std::vector<Matrix<D>> random_steps(int n, double size)
+{
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> uniform(-size, size);
+  std::vector<Matrix<D>> g(static_cast<std::size_t>(n));
+  for (Matrix<D>& step : g) step = Matrix<D>::NullaryExpr([&] { return uniform(random); });
+  return g;
+}
+
+/// Reference: f of each update.
+template <int D>
+Matrix<D> map_of(DeformationUpdate update, const Matrix<D>& g)
+{
+  return with_update(update, [&]<class Update>(const Update&) { return Update::template map<D, double>(g); });
+}
+
+}  // namespace
+
+TEMPLATE_TEST_CASE_SIG("a step that is given another change of volume has it and keeps its shape", "", ((int D), D), 2,
+                       3)
+{
+  const DeformationUpdate update =
+      GENERATE(DeformationUpdate::exact, DeformationUpdate::first_order, DeformationUpdate::exponential);
+  const std::vector<Matrix<D>> g = random_steps<D>(37, 0.1);
+  std::vector<double> wanted(g.size());
+  for (std::size_t p = 0; p < g.size(); ++p) wanted[p] = 0.2 * std::sin(1.0 + static_cast<double>(p));
+
+  std::vector<Matrix<D>> changed = g;
+  set_volume_changes<D>(update, changed, wanted);
+
+  for (std::size_t p = 0; p < g.size(); ++p) {
+    const Matrix<D> f = map_of<D>(update, g[p]), f_bar = map_of<D>(update, changed[p]);
+    REQUIRE(f_bar.determinant() == Approx(1 + wanted[p]).epsilon(1e-14));
+    REQUIRE((f_bar / f_bar(0, 0) - f / f(0, 0)).norm() < 1e-14);
+  }
+}
+
+TEMPLATE_TEST_CASE_SIG("small changes of volume are known to round-off of themselves", "", ((int D), D), 2, 3)
+{
+  // 1e-9 of a stretch and a shear whose volume change is known: det (1 + g) - 1 = (1 + 2e-9)(1 + 3e-9) - 1 - 20e-18.
+  Matrix<D> g = Matrix<D>::Zero();
+  g.template topLeftCorner<2, 2>() << 2e-9, 4e-9, 5e-9, 3e-9;
+  std::vector<double> change(1);
+
+  volume_changes<D>(DeformationUpdate::exact, std::vector<Matrix<D>>{g}, change);
+
+  CHECK(change[0] == Approx(5e-9 + 6e-18 - 20e-18).epsilon(1e-15));
+}
+
+TEMPLATE_TEST_CASE_SIG("a change of volume is the same however the step turns its particle", "", ((int D), D), 2, 3)
+{
+  Matrix<D> turn;
+  if constexpr (D == 2) {
+    turn = Eigen::Rotation2Dd(1.1).toRotationMatrix();
+  } else {
+    turn = Eigen::AngleAxisd(1.1, Vector<3>(1, 2, -2) / 3).toRotationMatrix();
+  }
+  const std::vector<Matrix<D>> g = random_steps<D>(11, 0.1);
+  const std::vector<double> wanted(g.size(), 0.03);
+  std::vector<Matrix<D>> plain = g, turned = g;
+  for (Matrix<D>& step : turned) step = turn * (Matrix<D>::Identity() + step) - Matrix<D>::Identity();
+
+  set_volume_changes<D>(DeformationUpdate::exact, plain, wanted);
+  set_volume_changes<D>(DeformationUpdate::exact, turned, wanted);
+
+  for (std::size_t p = 0; p < g.size(); ++p) {
+    const Matrix<D> expected = turn * (Matrix<D>::Identity() + plain[p]) - Matrix<D>::Identity();
+    REQUIRE((turned[p] - expected).norm() < 1e-14);
+  }
+}
+
+TEST_CASE("a particle that is turned inside out stays so whatever its cell does")
+{
+  std::vector<Matrix<2>> g(1, Matrix<2>::Zero());
+  g[0](0, 0) = -1.5;
+
+  set_volume_changes<2>(DeformationUpdate::exact, g, std::vector<double>{0.1});
+
+  CHECK(g[0](0, 0) == -1.5);
+  CHECK(g[0](1, 1) == 0);
+}
+
+TEST_CASE("the mean change of a cell keeps the volume of its matter")
+{
+  CellVolume cell;
+  cell.add(2, 0.10);
+  cell.add(1, -0.05);
+
+  CHECK(cell.mean_change() == Approx(0.05));
+  CHECK(cell.volume * (1 + cell.mean_change()) == Approx(2 * 1.10 + 1 * 0.95));
+}
+
+TEMPLATE_TEST_CASE_SIG("the gradient at a cell's centre is that of a linear velocity and of no alternating one", "",
+                       ((int D), D), 2, 3)
+{
+  GridBlock<D> block;
+  block.origin.setConstant(-0.5);
+  block.cell_size = 0.25;
+  std::ptrdiff_t n_nodes = 1;
+  for (std::size_t k = 0; k < D; ++k) {
+    block.n_nodes[k] = 4;
+    block.strides[k] = n_nodes;
+    n_nodes *= 4;
+  }
+  Matrix<D> gradient;
+  for (int i = 0; i < D * D; ++i) gradient.data()[i] = 0.3 * i - 0.7;
+  std::vector<NodeMotion<D>> nodes(static_cast<std::size_t>(n_nodes));
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    const Vector<D> cells = block.cells_to(static_cast<std::ptrdiff_t>(i));
+    // The last term changes its sign from node to node along every axis.
+    const double alternating = std::pow(-1.0, cells.sum());
+    nodes[i].set(gradient * (block.origin + block.cell_size * cells) + alternating * Vector<D>::Ones(),
+                 Vector<D>::Zero());
+  }
+  const std::vector<Vector<D>> places{Vector<D>::Constant(-0.49), Vector<D>::Constant(0.1)};
+  std::vector<Matrix<D>> g(places.size());
+
+  centre_gradients<D>(block, nodes.data(), places, 0.1, g);
+
+  for (const Matrix<D>& step : g) CHECK((step - 0.1 * gradient).norm() < 1e-15);
+}
