@@ -16,7 +16,6 @@ namespace tamp::tasks
 {
 
 using components::MaterialBatch;
-using components::Surroundings;
 using runtime::TaskContext;
 
 namespace
@@ -168,14 +167,12 @@ FailedUpdate failed_update(const Model& model, int material, std::size_t p, comp
 template <int D, class Data>
 void forget_gradients(const Data& data, std::size_t first, std::span<const double> bulk_modulus)
 {
-  const auto forget = [&](const auto& of_all) {
-    const auto gradient = of_all.subspan(first, bulk_modulus.size());
+  if constexpr (data.has(particle::velocity_gradient<D>)) {
+    const auto gradient = data[particle::velocity_gradient<D>].subspan(first, bulk_modulus.size());
     for (std::size_t k = 0; k < gradient.size(); ++k) {
       if (bulk_modulus[k] == 0) gradient[k].setZero();
     }
-  };
-  if constexpr (data.has(particle::velocity_gradient<D>)) forget(data[particle::velocity_gradient<D>]);
-  if constexpr (data.has(particle::velocity_moment<D>)) forget(data[particle::velocity_moment<D>]);
+  }
 }
 
 /// Takes all particles to the material batch by batch.
@@ -222,11 +219,9 @@ runtime::TaskDeclaration update_of(const Method<D>& method, int material, const 
           .computes(particle::viscous_pressure)
           .reduces(step_totals);
   if constexpr (requires { model.may_come_apart(); }) {
-    if (model.may_come_apart() && method.surroundings == Surroundings::gradient) {
+    // Where particles take the velocity of the nodes, these have slowed that motion.
+    if (model.may_come_apart() && method.scene.transfer == Transfer::affine) {
       return with_body(method, model, std::move(task).updates(particle::velocity_gradient<D>));
-    }
-    if (model.may_come_apart() && method.surroundings == Surroundings::moment) {
-      return with_body(method, model, std::move(task).updates(particle::velocity_moment<D>));
     }
   }
   return with_body(method, model, std::move(task));

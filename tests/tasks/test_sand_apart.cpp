@@ -46,7 +46,7 @@ TEST_CASE("sand that is thrown apart keeps its momentum and accounts for its ene
 {
   const int dimension = GENERATE(2, 3);
   Scene scene = spinning_sand(dimension);
-  scene.transfer = GENERATE(Transfer::flip, Transfer::affine, Transfer::apic);
+  scene.transfer = GENERATE(Transfer::flip, Transfer::affine);
   const auto simulation = Simulation::make(scene, 2);
   const ParticleReport before = simulation->report();
   const double stable_step = simulation->totals().stable_step;
@@ -70,6 +70,27 @@ TEST_CASE("sand that is thrown apart keeps its momentum and accounts for its ene
   }
   // Nearly nothing is stiff any more.
   CHECK(simulation->totals().stable_step > 1.5 * stable_step);
+}
+
+TEST_CASE("sand that is thrown apart gains no energy by gradients that come from nodes alone")
+{
+  Scene scene = spinning_sand(2);
+  scene.transfer = GENERATE(Transfer::apic, Transfer::tpic);
+  scene.interpolator = GENERATE(Interpolator::gimp, Interpolator::quadratic_spline);
+  const auto simulation = Simulation::make(scene, 2);
+  const ParticleReport before = simulation->report();
+
+  advance_to(*simulation, 0.02);
+
+  // The gradients of the block's spin are energy too, m omega^2 D, which reports do not count: D, the second moment of
+  // weights along an axis, is at 1/4 and 3/4 of a cell 1/4 * 3/4 cells^2 where they are linear, and 1/4 for splines.
+  const double moment = (scene.interpolator == Interpolator::gimp ? 3.0 / 16 : 0.25) * 0.05 * 0.05;
+  const double within = total_mass(before) * 100 * 100 * moment;
+  const ParticleReport after = simulation->report();
+  CAPTURE(before.kinetic, within, after.kinetic, worked(simulation->totals()));
+  CHECK((after.momentum() - before.momentum()).norm() < 1e-12 * before.momentum().norm());
+  CHECK(after.kinetic + worked(simulation->totals()) < before.kinetic + within);
+  CHECK(sum(numbers_of(*simulation, "apart")) > 0);
 }
 
 TEST_CASE("sand that has come apart joins where it is pushed together, on any threads alike")
