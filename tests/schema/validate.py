@@ -212,7 +212,7 @@ class Both:
 
 def is_scene(file):
     """Neither a material nor a solid, nor a study or what it names; but for the scenes of studies."""
-    if "studies" in file.parts:
+    if "studies" in file.parts or file.parent.name == "verification":
         return file.parent.name == "scenes"
     return "materials" not in file.parts and file.name != "projectile.json"
 

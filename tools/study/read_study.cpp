@@ -160,7 +160,7 @@ class StudyReader
     }
     quantity.field = reader.text("field", "");
     quantity.material = reader.text("material", "");
-    if (const auto component = reader.optional_number("component")) quantity.component = static_cast<int>(*component);
+    if (reader.has("component")) quantity.component = reader.whole_number("component");
     if (quantity.take == Take::quantile) quantity.quantile = reader.number("quantile");
     if (quantity.take == Take::field_rms) quantity.line = line(reader);
     if (quantity.field.empty()) reader.add_problem("field", "missing", "expected a field of the particles");

@@ -64,7 +64,7 @@ const ObjectKeys& quantity_keys()
        {"plus", Anything{}, "", {}, "a list of columns that are added to it"},
        {"at", Number{zero_or_above}, "s", none, "the time of a `value`"},
        {"field", Text{}, "", {}, "of `quantile` and `field_rms`: a scalar field of the particles, such as `p`"},
-       {"component", Number{{.lower = 0, .upper = 2}}, "", none, "of a field of vectors: 0, 1 or 2 for x, y or z"},
+       {"component", WholeNumber{0, 2}, "", none, "of a field of vectors: 0, 1 or 2 for x, y or z"},
        {"material", Text{}, "", {}, "whose particles"},
        {"line",
         Anything{},

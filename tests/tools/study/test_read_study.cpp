@@ -131,6 +131,14 @@ TEST_CASE("what is taken of fields and of the farthest value says all that it ne
   CHECK_THAT(line("[1, 0]"), Contains("study.json#/quantities/0/line"));
   CHECK_THAT(line("[1, 0, \"z\"]"), Contains("study.json#/quantities/0/line"));
   CHECK_THAT(line("null"), Contains("study.json#/quantities/0/line: missing"));
+  const auto component = [](const std::string& number) {
+    return problems_of_study(R"({"quantities": [{"name": "x", "take": "quantile", "field": "position", "material": "m",
+                                                 "component": )" +
+                             number + "}]}");
+  };
+  CHECK(component("2").empty());
+  CHECK_THAT(component("3"), Contains("study.json#/quantities/0/component"));
+  CHECK_THAT(component("0.5"), Contains("study.json#/quantities/0/component"));
 }
 
 TEST_CASE("files among the settings are named from the study's folder")
