@@ -181,6 +181,28 @@ TEST_CASE("the error against the ring falls with the cell size where strains are
   CHECK(std::log2(coarse / fine) == Approx(1.72).margin(0.03));
 }
 
+TEST_CASE("the error against the compacted column is of second order where it is elastic and strains are small")
+{
+  constexpr double compaction = 2e-3, displacement = 0.4 * compaction / 2;
+  const auto error_of = [&](int n_cells) {
+    Scene scene = empty_scene(2, {n_cells + n_cells / 10, 4, 1}, 0.4 / n_cells);
+    scene.faces[0][0] = Face::symmetry;
+    add_walls(scene, 1);
+    scene.materials.push_back({"elastic", 1624, components::Hypoelastic{4e8, 3e8}});
+    SceneBody& body = add_box(scene, 0, {0, 0, 0}, {0.4, 1.6 / n_cells, 0});
+    const components::CompactedColumn problem{.length = 0.4, .compaction = compaction, .duration = 4e-3};
+    body.functions = problem.functions({2, 1624, scene.materials[0].model});
+    scene.interpolator = Interpolator::quadratic_spline;
+    scene.time.multiplier = 0.4;
+    return worst_error(scene, 4e-3).rms / displacement;
+  };
+
+  const double coarse = error_of(20), fine = error_of(40);
+
+  CHECK(coarse == Approx(5.29e-4).epsilon(0.02));
+  CHECK(std::log2(coarse / fine) == Approx(2).margin(0.03));
+}
+
 namespace
 {
 
