@@ -155,6 +155,7 @@ class SimulationOf : public Simulation
     own.read(last_step_size_);
     own.read(totals_);
     own.read(grid_totals_);
+    own.read(taken_at_end_);
     own.read(contact_);
     own.read(contact_since_);
     own.read(loads_);
@@ -203,6 +204,7 @@ class SimulationOf : public Simulation
     own.add(last_step_size_);
     own.add(totals_);
     own.add(grid_totals_);
+    own.add(taken_at_end_);
     own.add(contact_);
     own.add(contact_since_);
     own.add(loads_);
@@ -330,6 +332,7 @@ class SimulationOf : public Simulation
     totals_.contact += of_nodes.taken_by_walls;
     totals_.viscous += of_nodes.taken_by_damping;
     if (scene_.has_body_force()) totals_.driving += engine_->warehouse().result(body_force_work).value;
+    add_filtered(step, of_nodes);
     contact_.combine(engine_->warehouse().result(contact_impulses));
     last_driving_ = step.driving;
     if (method_.pressed_materials.empty()) return;
@@ -337,6 +340,18 @@ class SimulationOf : public Simulation
     loads_.combine(loads);
     totals_.driving += loads.work;
     last_driving_ += loads.work;
+  }
+
+  /// What particles filtered out of the motion of the nodes in the step. Body forces work on particles as stress does;
+  /// pressure loads work on nodes, of which nothing is filtered out.
+  void add_filtered(const StepTotals& step, const GridTotals& of_nodes)
+  {
+    auto& results = engine_->warehouse();
+    const double by_loads = method_.pressed_materials.empty() ? 0 : results.result(load_totals).work_at_start;
+    const double by_body_forces = scene_.has_body_force() ? 0.5 * results.result(body_force_work).value : 0;
+    totals_.filter += of_nodes.gained_by_nodes - of_nodes.gained_by_particles;
+    totals_.filter += of_nodes.taken_at_start + by_loads - taken_at_end_;
+    taken_at_end_ = step.taken_at_end - by_body_forces;
   }
 
   /// Looks at what the patches have cost since the last look, and deals them anew if that pays.

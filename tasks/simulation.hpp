@@ -74,7 +74,7 @@ class Simulation
   const StepTotals& totals() const { return totals_; }
   /// What driving and pressure loads did in the last step [J].
   double last_driving() const { return last_driving_; }
-  /// What the grid gave to the particles since the start [N s].
+  /// Sums over the nodes since the start.
   const GridTotals& grid_totals() const { return grid_totals_; }
 
   /// By material, the means since the last call, or the start; not collective, but to be called by all ranks alike.
@@ -147,6 +147,8 @@ class Simulation
   double last_step_size_ = 0;
   StepTotals totals_;
   GridTotals grid_totals_;
+  /// What forces on particles took in the second half of the last step [J].
+  double taken_at_end_ = 0;
   double last_driving_ = 0;
   /// Since the forces of contact were last taken.
   ContactImpulses contact_;

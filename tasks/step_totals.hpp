@@ -42,6 +42,13 @@ struct StepTotals {
   /// Work of what drives bodies, in this step [J]. The simulation adds that of body forces and of pressure loads to its
   /// sum.
   double driving = 0;
+  /// What stress takes from the motion at the end of this step in its second half, as particles tell: half of the sum
+  /// of V sigma:strain, with viscous pressure [J].
+  double taken_at_end = 0;
+  /// What particles filter out of the motion of the nodes. The simulation alone sums it up: what nodes gain and
+  /// particles do not, and what forces take at the start of a step from the velocities that particles bring, which are
+  /// not those of the end of the step before, more than they took then.
+  double filter = 0;
   /// Stress updates of all materials.
   components::UpdateCounts updates;
   /// The failed update with the lowest id in the first step that had any.
@@ -60,6 +67,8 @@ struct StepTotals {
     viscous += other.viscous;
     contact += other.contact;
     driving += other.driving;
+    taken_at_end += other.taken_at_end;
+    filter += other.filter;
     updates.add(other.updates);
     if (other.failed.particle >= 0) note(other.failed);
   }
@@ -72,7 +81,7 @@ struct BodyForceWork {
   void combine(const BodyForceWork& other) { value += other.value; }
 };
 
-/// Sums over the nodes of one step.
+/// Sums over the nodes of one step, and over what their particles take from them.
 struct GridTotals {
   /// What all particles take from the nodes [N s]: gravity, loads and the walls; forces within and between bodies
   /// cancel. The simulation adds what transfers filter to its sum.
@@ -81,12 +90,20 @@ struct GridTotals {
   double taken_by_walls = 0;
   /// That which local damping takes [J].
   double taken_by_damping = 0;
+  /// Kinetic energy that the nodes of deformable materials gain, and what of it their particles do [J].
+  double gained_by_nodes = 0, gained_by_particles = 0;
+  /// What forces take from these nodes' velocities at the start of the step in the half of the step before: minus
+  /// the sum of f.v dt/2 [J].
+  double taken_at_start = 0;
 
   void combine(const GridTotals& other)
   {
     for (std::size_t k = 0; k < 3; ++k) impulse[k] += other.impulse[k];
     taken_by_walls += other.taken_by_walls;
     taken_by_damping += other.taken_by_damping;
+    gained_by_nodes += other.gained_by_nodes;
+    gained_by_particles += other.gained_by_particles;
+    taken_at_start += other.taken_at_start;
   }
 };
 
@@ -106,10 +123,13 @@ struct LoadTotals {
   /// To each material [N s].
   std::array<std::array<double, 3>, runtime::PerGroup<int>::max_groups> impulse{};
   double work = 0;  ///< J
+  /// At the velocities of the start of the step, in the half of the step before [J].
+  double work_at_start = 0;
 
   void combine(const LoadTotals& other)
   {
     work += other.work;
+    work_at_start += other.work_at_start;
     for (std::size_t g = 0; g < impulse.size(); ++g) {
       for (std::size_t k = 0; k < 3; ++k) impulse[g][k] += other.impulse[g][k];
     }

@@ -66,6 +66,20 @@ void add_filtered_momentum(const Data& data, std::size_t first, Motions<D> motio
   }
 }
 
+/// Kinetic energy that `n` particles from `first` on have gained [J].
+template <int D, class Data>
+double gained(const Data& data, std::size_t first, std::size_t n)
+{
+  const auto mass = data[particle::mass.previous()];
+  const auto old_velocity = data[particle::velocity<D>.previous()];
+  const auto velocity = data[particle::velocity<D>];
+  double energy = 0;
+  for (std::size_t p = first; p < first + n; ++p) {
+    energy += 0.5 * mass[p] * (velocity[p] - old_velocity[p]).dot(velocity[p] + old_velocity[p]);
+  }
+  return energy;
+}
+
 /// The task with what the transfer of the scene reads and keeps.
 template <int D, class Task, class Body>
 runtime::TaskDeclaration with_velocities(const Method<D>& method, Task task, const Body& body)
@@ -97,7 +111,7 @@ runtime::TaskDeclaration grid_to_particles(const Method<D>& method)
                          particle::velocity<D>.previous(), particle::deformation_gradient<D>.previous(),
                          particle::volume.previous(), particle::stress<D>.previous())
                   .computes(particle::position<D>, particle::velocity<D>, particle::own_stiffness)
-                  .reduces(filtered_momentum);
+                  .reduces(grid_totals, filtered_momentum);
   const bool filters = method.with_transfer([](const auto& transfer) { return transfer.filters; });
   const auto body = [&method, filters](const TaskContext& at, auto data) {
     const auto inverse_mass = data[node::inverse_mass];
@@ -121,6 +135,7 @@ runtime::TaskDeclaration grid_to_particles(const Method<D>& method)
         interpolation.interpolate(block, places.subspan(first, size), data[node::velocity_terms<D>].data(), restored);
       }
       move<D>(method, at.step.size, data, first, motion, restored);
+      data[grid_totals].gained_by_particles += gained<D>(data, first, size);
       if (filters) add_filtered_momentum<D>(data, first, motion);
       if constexpr (data.has(particle::velocity_moment<D>)) {
         interpolation.velocity_moments(block, places.subspan(first, size), nodes.data(),

@@ -116,12 +116,15 @@ runtime::TaskDeclaration account_for_pressure(const Method<D>& method)
         LoadTotals& totals = data[load_totals];
         auto& given = totals.impulse[static_cast<std::size_t>(at.group)];
         const double kick = 0.5 * (at.step.previous_size + at.step.size);
+        const double half_step_before = 0.5 * at.step.previous_size;
         for_each(counted_nodes(method, at), [&](const Index& i) {
           const double mass = sums[i].mass();
           if (!(mass > method.least_node_mass)) return;
           const Vector<D> change =
               kick / mass * components::pressure_force(pressure[i], mass, sums[i].surface_gradient());
-          totals.work += 0.5 * mass * change.dot(sums[i].momentum() / mass + motion[i].velocity());
+          const Vector<D> at_start = sums[i].momentum() / mass;
+          totals.work += 0.5 * mass * change.dot(at_start + motion[i].velocity());
+          totals.work_at_start += half_step_before / kick * mass * change.dot(at_start);
           for (std::size_t k = 0; k < std::size_t{D}; ++k) {
             given[k] += own_mass(method, at, sums, i, k) * change[static_cast<int>(k)];
           }

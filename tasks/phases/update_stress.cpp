@@ -56,7 +56,7 @@ MaterialBatch<D, typename Model::State> batch_at(std::size_t first, const Data& 
 
 /// What each particle of a batch adds to the totals of the step, and its bound on the next.
 struct BatchAccount {
-  std::array<double, batch_size> elastic, plastic, viscous, stable_step;
+  std::array<double, batch_size> elastic, plastic, viscous, taken_at_end, stable_step;
 
   /// Adds them up in the order of the particles, whatever lanes they have been worked out in.
   void add_to(StepTotals& totals, std::size_t n) const
@@ -65,6 +65,7 @@ struct BatchAccount {
       totals.elastic += elastic[k];
       totals.plastic += plastic[k];
       totals.viscous += viscous[k];
+      totals.taken_at_end += taken_at_end[k];
       // Written so that what is not a number does not pass for a bound.
       totals.stable_step = stable_step[k] >= totals.stable_step ? totals.stable_step : stable_step[k];
     }
@@ -105,13 +106,16 @@ void account(const Method<D>& method, double dt, const Data& data, std::size_t f
     const Lanes q = viscosity ? viscosity->pressure(p.density, p.bulk_modulus, p.volume_rate, method.cell_size) : 0.0;
     set_lanes(viscous_pressure, k, q);
 
-    // Work at the middle of the step; the viscous pressure that acted was that of the step before.
+    // Work at the middle of the step. What the viscous pressure of the step before takes in its second half is that of
+    // the step before: so both pressures have half of this step.
     const Lanes mid_volume = 0.5 * (old_volume + volume);
     const SymmetricTensor<D, Lanes> mid_stress = Lanes(0.5) * (lanes(old_stress) + lanes(stress));
     const Lanes plastic = lanes(answer.plastic_work) * volume;
     set_lanes(account.elastic, k, double_dot(mid_stress, strain) * mid_volume - plastic);
     set_lanes(account.plastic, k, plastic);
-    set_lanes(account.viscous, k, lanes(old_viscous_pressure) * (old_volume - volume));
+    set_lanes(account.viscous, k, 0.5 * (lanes(old_viscous_pressure) + q) * (old_volume - volume));
+    set_lanes(account.taken_at_end, k,
+              0.5 * (double_dot(lanes(stress), strain) * mid_volume + q * (old_volume - volume)));
     const Lanes stable_step =
         method.time_step_rule == StepRule::published
             ? components::published_time_step<D>(

@@ -2,6 +2,7 @@
 
 #include "components/boundary/rough_wall.hpp"
 #include "tasks/labels.hpp"
+#include "tasks/phases/kick.hpp"
 #include "tasks/phases/phases.hpp"
 
 namespace tamp::tasks
@@ -17,16 +18,35 @@ using runtime::TaskContext;
 namespace
 {
 
-/// What the particles of one material take from the nodes that this patch counts.
+/// What the particles of one material take from the nodes that this patch counts, and what these tell of the energy
+/// that particles filter out.
 template <int D>
-void add_impulse(const Method<D>& method, const TaskContext& at, const GridView<const NodeSums<D>>& sums,
-                 const GridView<NodeMotion<D>>& motion, GridTotals& totals)
+void add_taken(const Method<D>& method, const TaskContext& at, const GridView<const NodeSums<D>>& sums,
+               const GridView<NodeMotion<D>>& motion, GridTotals& totals)
 {
+  const double half_step_before = 0.5 * at.step.previous_size;
   for_each(counted_nodes(method, at), [&](const Index& i) {
-    const Vector<D> change = motion[i].velocity_change();
+    const Vector<D> change = motion[i].velocity_change(), at_end = motion[i].velocity(), at_start = at_end - change;
     for (std::size_t k = 0; k < std::size_t{D}; ++k) {
       totals.impulse[k] += own_mass(method, at, sums, i, k) * change[static_cast<int>(k)];
     }
+    totals.gained_by_nodes += 0.5 * sums[i].mass() * change.dot(at_start + at_end);
+    totals.taken_at_start -= half_step_before * sums[i].internal_force().dot(at_start);
+  });
+}
+
+/// The energy that local damping took from the nodes that this patch counts: its impulse times the mean of the
+/// velocities before and after the step, which contact and walls have a part in.
+template <int D>
+void add_damping(const Method<D>& method, const TaskContext& at, const GridView<const NodeSums<D>>& sums,
+                 const GridView<NodeMotion<D>>& motion, GridTotals& totals)
+{
+  for_each(counted_nodes(method, at), [&](const Index& i) {
+    const double mass = sums[i].mass();
+    if (!(mass > method.least_node_mass)) return;
+    const Kicked<D> change = kicked(method, at, i, sums[i]);
+    const Vector<D> at_start = sums[i].momentum() / mass;
+    totals.taken_by_damping += 0.5 * mass * (change.undamped - change.damped).dot(at_start + motion[i].velocity());
   });
 }
 
@@ -78,7 +98,10 @@ runtime::TaskDeclaration walls(const Method<D>& method)
             if (wall.face != Face::symmetry) hold(method, at, wall, sums[g], motion, data[grid_totals]);
           });
           for_each_wall(method, at, motion.box(), [&](const Wall<D>& wall) { wall.image.mirror(motion.data()); });
-          add_impulse(method, at, sums[g], motion, data[grid_totals]);
+          add_taken(method, at, sums[g], motion, data[grid_totals]);
+          if (method.damping > 0 && method.rigid_body(static_cast<int>(g)) == nullptr) {
+            add_damping(method, at, sums[g], motion, data[grid_totals]);
+          }
         }
       });
 }

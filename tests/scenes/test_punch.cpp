@@ -109,8 +109,9 @@ TEST_CASE("the quick punch keeps energy, momentum and particles while it is driv
   CHECK(std::abs(row.at("punch.tilt[deg]")) < 1e-6);
   // The scene is symmetric, so nothing goes sideways.
   CHECK(std::abs(row.at("momentum_x[N s]")) < 1e-9 * std::abs(row.at("momentum_y[N s]")));
-  CHECK(row.at("total[J]") == Approx(row.at("kinetic[J]") + row.at("elastic[J]") + row.at("plastic[J]") +
-                                     row.at("viscous[J]") + row.at("contact[J]") - row.at("external[J]")));
+  CHECK(row.at("total[J]") ==
+        Approx(row.at("kinetic[J]") + row.at("elastic[J]") + row.at("plastic[J]") + row.at("viscous[J]") +
+               row.at("contact[J]") + row.at("filter[J]") - row.at("external[J]")));
 }
 
 TEST_CASE("a run's folder holds what scripts rely on", "[scenes]")

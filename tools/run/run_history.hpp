@@ -14,13 +14,15 @@ namespace tamp::tools
 {
 
 /// The energies of a simulation at one moment [J], counted since its start. What is left in motion and stored, what has
-/// turned to heat, and the work of gravity: `total` stays what it was at the start, as far as the method can.
+/// turned to heat, what particles filter out of the motion of the nodes, and the work of gravity: `total` stays what it
+/// was at the start but for the error of the steps.
 struct EnergyBalance {
   double kinetic;
   double elastic;
   double plastic;
   double viscous;
   double contact;
+  double filter;
   double external;
   double total;
 };
@@ -51,7 +53,8 @@ class RunHistory
   double energy_error() const { return energy_error_; }
   /// Says so if energy has come or gone by more than `limit` times what the run has been given so far: its initial
   /// energy and the work from outside; empty otherwise. Of the last measured state. Where particles have left, or
-  /// a centrifuge speeds up, the balance is not known, and nothing is said.
+  /// a centrifuge speeds up, the balance is not known, and nothing is said. What particles filter out is no error; what
+  /// they add is.
   std::string energy_problem(double limit) const;
   /// The largest work of gravity so far, without its sign [J]; a run that goes on has that of the run before.
   double given_from_outside() const { return given_from_outside_; }

@@ -140,6 +140,7 @@ Json run_summary(tasks::Simulation& simulation, const RunHistory& history, const
             {"plastic", e.plastic},
             {"viscous", e.viscous},
             {"contact", e.contact},
+            {"filter", e.filter},
             {"external", e.external},
             {"total", e.total}}},
           {"forecast", to_json(outcome.forecast)},
@@ -182,9 +183,11 @@ std::string summary_text(const Json& summary)
   text += fmt::format("  for output the steps stood still for {:.2g} s, {:.2g} s of it for the writer\n",
                       seconds("history_s") + seconds("fields_s") + seconds("checkpoints_s") + seconds("waited_s"),
                       seconds("waited_s"));
-  text += fmt::format("  energy error {:.3g}, momentum error {:.3g}, {} particles lost, state digest {}\n",
-                      summary["energy_error"].get<double>(), summary["momentum_error"].get<double>(),
-                      summary["particles"]["lost"].get<std::size_t>(), summary["state_digest"].get<std::string>());
+  text += fmt::format(
+      "  energy error {:.3g}, {:.3g} J filtered out, momentum error {:.3g}, {} particles lost, state digest {}\n",
+      summary["energy_error"].get<double>(), summary["energies_J"]["filter"].get<double>(),
+      summary["momentum_error"].get<double>(), summary["particles"]["lost"].get<std::size_t>(),
+      summary["state_digest"].get<std::string>());
   const Json& monitors = summary["monitors"];
   const auto count = [&](const char* name) { return monitors[name].get<std::size_t>(); };
   if (count("modulus_extrapolations") + count("limited_substeps") + count("failed_updates") > 0) {
