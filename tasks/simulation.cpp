@@ -348,7 +348,7 @@ class SimulationOf : public Simulation
   {
     auto& results = engine_->warehouse();
     const double by_loads = method_.pressed_materials.empty() ? 0 : results.result(load_totals).work_at_start;
-    const double by_body_forces = scene_.has_body_force() ? 0.5 * results.result(body_force_work).value : 0;
+    const double by_body_forces = scene_.has_body_force() ? results.result(body_force_work).at_end : 0;
     totals_.filter += of_nodes.gained_by_nodes - of_nodes.gained_by_particles;
     totals_.filter += of_nodes.taken_at_start + by_loads - taken_at_end_;
     taken_at_end_ = step.taken_at_end - by_body_forces;

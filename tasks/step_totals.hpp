@@ -77,8 +77,14 @@ struct StepTotals {
 /// Work of body forces in one step [J].
 struct BodyForceWork {
   double value = 0;
+  /// By the forces of its end, in its second half.
+  double at_end = 0;
 
-  void combine(const BodyForceWork& other) { value += other.value; }
+  void combine(const BodyForceWork& other)
+  {
+    value += other.value;
+    at_end += other.at_end;
+  }
 };
 
 /// Sums over the nodes of one step, and over what their particles take from them.

@@ -69,7 +69,8 @@ runtime::TaskDeclaration body_force(const Method<D>& method)
       });
 }
 
-/// Over the way that particles go, as gravity's is counted; the force is that of the middle of the step.
+/// Over the way that particles go, as gravity's is counted: half of it by the forces of the start of the step and half
+/// by those of its end, which are those that kick the nodes before and after.
 template <int D>
 runtime::TaskDeclaration work_of_body_force(const Method<D>& method)
 {
@@ -82,11 +83,17 @@ runtime::TaskDeclaration work_of_body_force(const Method<D>& method)
       .body([&method](const TaskContext& at, auto data) {
         const auto before = data[particle::position<D>.previous()];
         const auto after = data[particle::position<D>];
-        const auto forces =
-            body_forces_on<D>(method.scene, at.step.time + 0.5 * at.step.size, data[particle::body.previous()],
-                              data[particle::mass.previous()], data[particle::reference_position<D>.previous()]);
-        double& work = data[body_force_work].value;
-        for (std::size_t p = 0; p < forces.size(); ++p) work += forces[p].dot(after[p] - before[p]);
+        const auto forces_at = [&](double time) {
+          return body_forces_on<D>(method.scene, time, data[particle::body.previous()], data[particle::mass.previous()],
+                                   data[particle::reference_position<D>.previous()]);
+        };
+        const auto at_start = forces_at(at.step.time), at_end = forces_at(at.step.time + at.step.size);
+        BodyForceWork& work = data[body_force_work];
+        for (std::size_t p = 0; p < at_start.size(); ++p) {
+          const Vector<D> half_way = 0.5 * (after[p] - before[p]);
+          work.value += (at_start[p] + at_end[p]).dot(half_way);
+          work.at_end += at_end[p].dot(half_way);
+        }
       });
 }
 

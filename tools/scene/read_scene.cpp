@@ -41,7 +41,7 @@ class SceneReader
     read_faces(grid_is_good);
     read_time();
     read_transfer();
-    check_method(root_, scene_);
+    if (document_.problems.size() == n_before) check_method(root_, scene_);
     scene_.deformation_update = root_.choice<tasks::DeformationUpdate>("deformation_update");
     scene_.relief = root_.choice<tasks::Relief>("relief");
     read_particles_per_cell();

@@ -521,12 +521,13 @@ TEST_CASE("a name that is none of the choices is told with the choices")
         "drucker_prager, tabular_cap, did you mean \"hypoelastic\"?");
   CHECK(problems_with({"/interpolator=quintic_spline"}) ==
         "--set#/interpolator: \"quintic_spline\"; expected one of linear, gimp, cpgimp, cpdi, quadratic_spline, "
-        "cubic_spline");
+        "cubic_spline, did you mean \"quadratic_spline\"?");
   CHECK(problems_with({"/interpolator=linear"}) ==
         "--set#/interpolator: \"linear\" with the time step's rule \"viscous\"; expected the rule \"published\", as a "
         "particle that hardly reaches a node would have no stable step; or another interpolator");
   CHECK(problems_with({"/transfer=mpm"}) ==
-        "--set#/transfer: \"mpm\"; expected one of flip, pic, blend, affine, apic, tpic, xpic, fmpm");
+        "--set#/transfer: \"mpm\"; expected one of flip, pic, blend, affine, apic, tpic, xpic, fmpm, did you mean "
+        "\"fmpm\"?");
   CHECK(problems_with({"/boundaries/x-=wall"}) ==
         "--set#/boundaries/x-: \"wall\"; expected one of symmetry, open, no_slip, periodic");
   CHECK(problems_with({"/bodies/block/material=stel"}) ==
