@@ -236,14 +236,13 @@ const ObjectKeys& scene_keys()
                "strain free of rotations; `\"first_order\"`, by 1 + g, with the symmetric part of g for strain, as "
                "published codes have it; `\"exponential\"`, by exp(g), which turns nothing inside out; see "
                "[method.md](method.md)"),
-           choice<tasks::Relief>(
-               "relief", scene.relief,
-               {{"none", tasks::Relief::none},
-                {"cell_average", tasks::Relief::cell_average},
-                {"f_bar", tasks::Relief::f_bar}},
-               "from locking, and from pressures that alternate between particles, by sharing changes of volume: with "
-               "`\"cell_average\"` all particles of a material in a cell take their mean, with `\"f_bar\"` that at the "
-               "centre of the cell; see [method.md](method.md)"),
+           choice<tasks::Relief>("relief", scene.relief,
+                                 {{"none", tasks::Relief::none},
+                                  {"cell_average", tasks::Relief::cell_average},
+                                  {"f_bar", tasks::Relief::f_bar}},
+                                 "from locking, by sharing changes of volume: with `\"cell_average\"` all particles of "
+                                 "a material in a cell take their mean, with `\"f_bar\"` that at the "
+                                 "centre of the cell; see [method.md](method.md)"),
            {"particles_per_cell",
             WholeNumbers{per_axis, 1, most_particles_per_axis},
             "",

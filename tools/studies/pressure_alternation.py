@@ -27,11 +27,11 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 FIELDS = ("p", "J", "elastic_volumetric", "plastic_volumetric")
 
 
-def lattice_of(step, material, cell_size):
-    """Each particle's place in the lattice it started in, in halves of a cell (two particles an axis)."""
+def lattice_of(step, material, spacing):
+    """Each particle's place in the lattice it started in."""
     particles = step[f"particles/{material}"]
     order = numpy.argsort(particles["id"][:])
-    return numpy.round(particles["position"][:][order, :2] * 2 / cell_size - 0.5).astype(int)
+    return numpy.round(particles["position"][:][order, :2] / spacing - 0.5).astype(int)
 
 
 def fields_of(step, material):
@@ -79,7 +79,8 @@ def run(arguments, changes):
             last = list(csv.DictReader(file))[-1]
         with h5py.File(f"{folder}/run/fields.h5") as file:
             steps = sorted(name for name in file if name.startswith("step_"))
-            lattice = lattice_of(file[steps[0]], arguments.sand, scene["grid"]["cell_size"])
+            spacing = scene["grid"]["cell_size"] / scene["particles_per_cell"][0]
+            lattice = lattice_of(file[steps[0]], arguments.sand, spacing)
             fields = fields_of(file[steps[-1]], arguments.sand)
     cells = []
     for axis in (0, 1):
