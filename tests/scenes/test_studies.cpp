@@ -101,12 +101,6 @@ TEST_CASE("the short study of the bar finds second order, and the published boun
   CHECK(study.methods("unstable") == std::set<std::string>{"published bound, 1"});
 }
 
-TEST_CASE("the short study of two disks runs through")
-{
-  const ShortStudy study = run_short("disks");
-  CHECK(study.methods("done").contains("regression"));
-}
-
 TEST_CASE("the short study of the report's settings runs a slab one cell thick, with 8 particles a cell")
 {
   const Json point = run_short("cost").results["points"][0];
@@ -136,9 +130,4 @@ TEST_CASE("the short study of the projectile has an error budget")
   const ShortStudy study = run_short("projectile");
   CHECK(study.methods("done").contains("regression"));
   CHECK(study.results["budgets"].size() == 2);
-}
-
-TEST_CASE("the short study of the projectile's later way runs through")
-{
-  CHECK(run_short("projectile_late").methods("done").contains("regression"));
 }
