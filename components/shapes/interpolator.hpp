@@ -12,12 +12,6 @@ constexpr int n_layers_beyond(Interpolator)
   return 1;
 }
 
-/// Whether the weights of particles follow their deformation.
-constexpr bool deforms(Interpolator interpolator)
-{
-  return interpolator == Interpolator::cpgimp || interpolator == Interpolator::cpdi;
-}
-
 /// Whether weights reach more than one node along every axis wherever the particle is, so that they have second
 /// moments, which `apic` divides by.
 constexpr bool has_second_moments(Interpolator interpolator)

@@ -161,8 +161,7 @@ TEMPLATE_TEST_CASE_SIG("cpGIMP averages over a box as long as the particle is st
   }
 }
 
-TEMPLATE_TEST_CASE_SIG("a turned particle has the weights of cpGIMP that it had, and on its own those of GIMP", "",
-                       ((int D), D), 2, 3)
+TEMPLATE_TEST_CASE_SIG("a particle that is only turned has the weights of GIMP under cpGIMP", "", ((int D), D), 2, 3)
 {
   const auto block = block_of_nodes<D>(6, cell_size);
   std::mt19937 random(3);
