@@ -121,7 +121,6 @@ inline const runtime::ReductionLabel<HostRequests, "host requests"> host_request
 /// What a step adds to the energies, and how long the next may be.
 inline const runtime::ReductionLabel<StepTotals, "step totals"> step_totals;
 inline const runtime::ReductionLabel<GridTotals, "grid totals"> grid_totals;
-inline const runtime::ReductionLabel<FilteredMomentum, "filtered momentum"> filtered_momentum;
 /// Where a scene has body forces.
 inline const runtime::ReductionLabel<BodyForceWork, "body force work"> body_force_work;
 inline const runtime::ReductionLabel<ContactImpulses, "contact impulses"> contact_impulses;

@@ -325,10 +325,6 @@ class SimulationOf : public Simulation
     asked_ = engine_->warehouse().result(host_requests).bits;
     const GridTotals& of_nodes = engine_->warehouse().result(tasks::grid_totals);
     grid_totals_.combine(of_nodes);
-    if (!method_.deformable_materials.empty()) {
-      const FilteredMomentum& filtered = engine_->warehouse().result(filtered_momentum);
-      for (std::size_t k = 0; k < 3; ++k) grid_totals_.impulse[k] += filtered.value[k];
-    }
     totals_.contact += of_nodes.taken_by_walls;
     totals_.viscous += of_nodes.taken_by_damping;
     if (scene_.has_body_force()) totals_.driving += engine_->warehouse().result(body_force_work).value;

@@ -90,7 +90,7 @@ struct BodyForceWork {
 /// Sums over the nodes of one step, and over what their particles take from them.
 struct GridTotals {
   /// What all particles take from the nodes [N s]: gravity, loads and the walls; forces within and between bodies
-  /// cancel. The simulation adds what transfers filter to its sum.
+  /// cancel. What transfers that filter velocities add is here too: 0 but where images behind walls have a part.
   std::array<double, 3> impulse{0, 0, 0};
   /// The energy that walls take by friction and by stopping what runs into them [J].
   double taken_by_walls = 0;
@@ -110,17 +110,6 @@ struct GridTotals {
     gained_by_nodes += other.gained_by_nodes;
     gained_by_particles += other.gained_by_particles;
     taken_at_start += other.taken_at_start;
-  }
-};
-
-/// Momentum that transfers which filter velocities give to particles in one step, beside what these take from the nodes
-/// [N s]: 0 but where images behind walls have a part in the velocities of nodes.
-struct FilteredMomentum {
-  std::array<double, 3> value{0, 0, 0};
-
-  void combine(const FilteredMomentum& other)
-  {
-    for (std::size_t k = 0; k < 3; ++k) value[k] += other.value[k];
   }
 };
 

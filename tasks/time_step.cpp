@@ -83,7 +83,6 @@ runtime::HostData host_data(const Method<D>& method)
                           &particle::volume, &particle::stress<D>, &particle::viscous_pressure, &rigid_states},
                          {&step_totals, &grid_totals, &contact_impulses, &host_requests}};
   for (const SceneMaterial& material : method.materials) add_state_of(material.model, data);
-  if (!method.deformable_materials.empty()) data.results.push_back(&filtered_momentum);
   if (!method.pressed_materials.empty()) data.results.push_back(&load_totals);
   if (method.scene.is_periodic()) data.state.push_back(&particle::laps);
   if (method.surroundings == Surroundings::gradient) data.state.push_back(&particle::velocity_gradient<D>);

@@ -58,7 +58,7 @@ void add_filtered_momentum(const Data& data, std::size_t first, Motions<D> motio
 {
   const auto mass = data[particle::mass.previous()];
   const auto before = data[particle::velocity<D>.previous()], after = data[particle::velocity<D>];
-  auto& sum = data[filtered_momentum].value;
+  auto& sum = data[grid_totals].impulse;
   for (std::size_t i = 0; i < motion.size(); ++i) {
     const std::size_t p = first + i;
     const Vector<D> filtered = mass[p] * (after[p] - before[p] - motion[i].velocity_change);
@@ -111,7 +111,7 @@ runtime::TaskDeclaration grid_to_particles(const Method<D>& method)
                          particle::velocity<D>.previous(), particle::deformation_gradient<D>.previous(),
                          particle::volume.previous(), particle::stress<D>.previous())
                   .computes(particle::position<D>, particle::velocity<D>, particle::own_stiffness)
-                  .reduces(grid_totals, filtered_momentum);
+                  .reduces(grid_totals);
   const bool filters = method.with_transfer([](const auto& transfer) { return transfer.filters; });
   const auto body = [&method, filters](const TaskContext& at, auto data) {
     const auto inverse_mass = data[node::inverse_mass];
