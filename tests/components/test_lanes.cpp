@@ -6,6 +6,9 @@
 #include <numeric>
 #include <vector>
 
+namespace test_lanes
+{
+
 using namespace tamp;
 
 TEST_CASE("numbers that stand one after the other at places of each lane's own are read side by side")
@@ -50,3 +53,5 @@ TEST_CASE("what is behind the point is cut off in both directions")
     CHECK(whole[l] == (l % 2 == 0 ? 1 : -1) * static_cast<double>(l));
   }
 }
+
+}  // namespace test_lanes

@@ -6,6 +6,9 @@
 #include <tuple>
 #include <vector>
 
+namespace test_packs
+{
+
 using namespace tamp;
 
 namespace
@@ -87,3 +90,5 @@ TEST_CASE("a condition is counted over the first lanes")
     CHECK(count(number > 0.0 && first_lanes(n)) == (n > 0 ? n - 1 : 0));
   }
 }
+
+}  // namespace test_packs

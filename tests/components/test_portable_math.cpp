@@ -16,6 +16,9 @@
 
 #include "tests/same_bits.hpp"
 
+namespace test_portable_math
+{
+
 namespace portable = tamp::portable;
 using tamp::Lanes;
 using tamp::test::same_bits;
@@ -153,3 +156,5 @@ TEST_CASE("nothing that decides a result calls the C library's elementary functi
   }
   CHECK(n_symbols > 100);
 }
+
+}  // namespace test_portable_math

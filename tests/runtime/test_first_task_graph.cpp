@@ -5,6 +5,9 @@
 #include <sstream>
 #include <string>
 
+namespace test_first_task_graph
+{
+
 namespace
 {
 
@@ -59,3 +62,5 @@ TEST_CASE("the program of the first task graph finds its order, and the same dig
   CHECK(alone.output.find("order 1.9") != std::string::npos);
   CHECK(together.output == alone.output);
 }
+
+}  // namespace test_first_task_graph

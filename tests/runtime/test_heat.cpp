@@ -2,7 +2,7 @@
 
 #include <catch2/catch.hpp>
 
-namespace tamp::test
+namespace tamp::test::test_heat
 {
 
 TEST_CASE("heat diffuses at second order through any cut into patches", "[runtime]")
@@ -53,4 +53,4 @@ TEST_CASE("a reduction has the same bits for any number of threads", "[runtime]"
   CHECK(std::abs(alone) < 1e-12);
 }
 
-}  // namespace tamp::test
+}  // namespace tamp::test::test_heat

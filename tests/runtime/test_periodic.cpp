@@ -9,7 +9,7 @@
 #include "tests/runtime/shared_cores.hpp"
 
 /// Grids whose ends along some axes are one place.
-namespace tamp::runtime
+namespace tamp::runtime::test_periodic
 {
 
 namespace
@@ -452,4 +452,4 @@ TEST_CASE("a periodic grid loses what leaves it along another axis and what is n
   CHECK(n_lost == (dx == 0 ? 9U : 54U));
 }
 
-}  // namespace tamp::runtime
+}  // namespace tamp::runtime::test_periodic

@@ -5,6 +5,9 @@
 #include "tasks/simulation.hpp"
 #include "tools/scene/read_scene.hpp"
 
+namespace test_demand
+{
+
 using namespace tamp;
 
 namespace
@@ -46,3 +49,5 @@ TEST_CASE("the steps of the quick punch are forecast within a factor of two, fro
   CHECK(pace->n_steps < taken * 2);
   CHECK(pace->core_seconds > 0);
 }
+
+}  // namespace test_demand

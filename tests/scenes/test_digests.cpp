@@ -6,6 +6,9 @@
 
 #include "tests/tools/program.hpp"
 
+namespace test_digests
+{
+
 using namespace tamp::test;
 
 namespace
@@ -67,3 +70,5 @@ TEST_CASE("every shipped scene has a committed digest", "[scenes]")
     }
   }
 }
+
+}  // namespace test_digests

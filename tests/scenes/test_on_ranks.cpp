@@ -4,6 +4,9 @@
 #include "tests/runtime/shared_cores.hpp"
 #include "tools/scene/read_scene.hpp"
 
+namespace test_on_ranks
+{
+
 using namespace tamp;
 
 TEST_CASE("every shipped scene has the same digest on any ranks and threads", "[ranks]")
@@ -26,3 +29,5 @@ TEST_CASE("every shipped scene has the same digest on any ranks and threads", "[
   INFO(shipped.file);
   for (const int n_threads : {1, 2, 3}) CHECK(digest(n_threads, runtime::Communicator::world()) == alone);
 }
+
+}  // namespace test_on_ranks

@@ -9,7 +9,7 @@
 #include "tools/run/run.hpp"
 #include "tools/scene/read_scene.hpp"
 
-namespace tamp::tools
+namespace tamp::tools::test_punch
 {
 
 namespace
@@ -179,4 +179,4 @@ TEST_CASE("a run whose step becomes too small stops and keeps its last good stat
   CHECK(test::history_of(options.folder / "history.csv").back().at("step") == summary["steps"].get<double>());
 }
 
-}  // namespace tamp::tools
+}  // namespace tamp::tools::test_punch

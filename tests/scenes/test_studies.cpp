@@ -4,6 +4,9 @@
 
 #include "tests/tools/program.hpp"
 
+namespace test_studies
+{
+
 /// The shipped studies in their short forms, run through to the page.
 using namespace tamp::test;
 using Json = nlohmann::json;
@@ -131,3 +134,5 @@ TEST_CASE("the short study of the projectile has an error budget")
   CHECK(study.methods("done").contains("regression"));
   CHECK(study.results["budgets"].size() == 2);
 }
+
+}  // namespace test_studies

@@ -13,7 +13,7 @@
 #include "tools/run/run.hpp"
 #include "tools/scene/read_scene.hpp"
 
-namespace tamp::tools
+namespace tamp::tools::test_uxo
 {
 
 namespace
@@ -174,4 +174,4 @@ TEST_CASE("ejecta that leave through the open top are counted with their mass an
   CHECK(test::read_text(options.folder / "history.csv").find("-nan") == std::string::npos);
 }
 
-}  // namespace tamp::tools
+}  // namespace tamp::tools::test_uxo

@@ -3,6 +3,9 @@
 
 #include "tests/tools/program.hpp"
 
+namespace test_verification
+{
+
 /// The shipped verification in its short form.
 using namespace tamp::test;
 using Json = nlohmann::json;
@@ -39,3 +42,5 @@ TEST_CASE("every shipped verification says what has to hold, why, and in which s
     for (const Json& quantity : study.at("quantities")) CHECK(quantity.contains("exact"));
   }
 }
+
+}  // namespace test_verification

@@ -2,6 +2,9 @@
 
 #include "tests/tasks/scenes.hpp"
 
+namespace test_affine_transfer
+{
+
 using namespace tamp;
 using namespace tamp::test;
 
@@ -132,3 +135,5 @@ TEST_CASE("with any transfer a body meets a mirror as it meets its image")
   CHECK(velocities[0] > 0);
   CHECK(whole->report().momentum()[1] == Approx(start).epsilon(1e-12));
 }
+
+}  // namespace test_affine_transfer

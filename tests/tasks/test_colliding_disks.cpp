@@ -2,6 +2,9 @@
 
 #include "tests/tasks/scenes.hpp"
 
+namespace test_colliding_disks
+{
+
 using namespace tamp;
 using namespace tamp::test;
 
@@ -76,3 +79,5 @@ TEST_CASE("disks rebound with their momentum, symmetry and nearly all their ener
   CHECK(fine.imbalance < 0.1);
   CHECK(fine.imbalance / coarse.imbalance == Approx(0.5).margin(0.1));
 }
+
+}  // namespace test_colliding_disks

@@ -3,6 +3,9 @@
 #include "tests/components/materials/concrete_sand.hpp"
 #include "tests/tasks/scenes.hpp"
 
+namespace test_conservation
+{
+
 using namespace tamp;
 using namespace tamp::test;
 
@@ -135,3 +138,5 @@ TEST_CASE("the digest sees the smallest change of a velocity")
 
   CHECK(Simulation::make(scene, 1)->digest() != digest);
 }
+
+}  // namespace test_conservation

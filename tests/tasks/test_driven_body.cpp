@@ -6,6 +6,9 @@
 #include "tests/runtime/shared_cores.hpp"
 #include "tests/tasks/scenes.hpp"
 
+namespace test_driven_body
+{
+
 /// Rigid bodies whose motion is given: where they are, what they feel, and what driving them costs.
 using namespace tamp;
 using namespace tamp::test;
@@ -175,3 +178,5 @@ TEST_CASE("a driven body ends with the same bits on any ranks and threads", "[ra
     CHECK(simulation->take_contact_forces()[1].torque.z() != 0);
   }
 }
+
+}  // namespace test_driven_body

@@ -4,6 +4,9 @@
 
 #include "tests/tasks/scenes.hpp"
 
+namespace test_elastic_impact
+{
+
 using namespace tamp;
 using namespace tamp::test;
 
@@ -77,3 +80,5 @@ TEST_CASE("bars that collide press on each other as their impedances say, and th
   const double energy = left.density * h * speed * speed;
   CHECK(simulation->report().kinetic + worked(simulation->totals()) == Approx(energy).epsilon(0.005));
 }
+
+}  // namespace test_elastic_impact

@@ -7,6 +7,9 @@
 #include "tests/runtime/shared_cores.hpp"
 #include "tests/tasks/scenes.hpp"
 
+namespace test_energy_filter
+{
+
 /// What particles filter out of the motion of the nodes, and that energy is all there once it is counted.
 using namespace tamp;
 using namespace tamp::test;
@@ -298,3 +301,5 @@ TEST_CASE("what is filtered out is the same, bit by bit, on any ranks and thread
   }
   CHECK(expected != 0);
 }
+
+}  // namespace test_energy_filter

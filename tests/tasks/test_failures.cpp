@@ -9,6 +9,9 @@
 #include "tests/components/materials/concrete_sand.hpp"
 #include "tests/tasks/scenes.hpp"
 
+namespace test_failures
+{
+
 using namespace tamp;
 using namespace tamp::test;
 
@@ -197,3 +200,5 @@ TEST_CASE("updates that may fail are counted, and their particles marked")
   for (const double n : std::get<std::span<const double>>(marks->values)) marked += n;
   CHECK(marked == static_cast<double>(failures));
 }
+
+}  // namespace test_failures

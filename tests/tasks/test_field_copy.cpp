@@ -3,6 +3,9 @@
 #include "tests/runtime/shared_cores.hpp"
 #include "tests/tasks/scenes.hpp"
 
+namespace test_field_copy
+{
+
 using namespace tamp;
 using namespace tamp::test;
 
@@ -81,3 +84,5 @@ TEST_CASE("a copy of fields stays as it is while the simulation goes on")
   CHECK(numbers_of(copy) == then);
   CHECK(numbers_of(simulation->fields({}, true)) != then);
 }
+
+}  // namespace test_field_copy

@@ -2,6 +2,9 @@
 
 #include "tests/tasks/scenes.hpp"
 
+namespace test_free_flight
+{
+
 using namespace tamp;
 using namespace tamp::test;
 
@@ -99,3 +102,5 @@ TEST_CASE("what leaves through open faces is counted with its mass and momentum"
   CHECK(simulation->n_particles(0) == 0);
   CHECK(lost.momentum[0] == Approx(mass).epsilon(1e-12));
 }
+
+}  // namespace test_free_flight

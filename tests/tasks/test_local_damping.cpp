@@ -4,6 +4,9 @@
 
 #include "tests/tasks/scenes.hpp"
 
+namespace test_local_damping
+{
+
 using namespace tamp;
 using namespace tamp::test;
 
@@ -61,3 +64,5 @@ TEST_CASE("what local damping takes is what the swinging loses")
   CHECK(simulation->totals().viscous > 0.3 * given);
   CHECK(report.kinetic + worked(simulation->totals()) == Approx(given).epsilon(0.01));
 }
+
+}  // namespace test_local_damping

@@ -7,6 +7,9 @@
 #include "tests/runtime/shared_cores.hpp"
 #include "tests/tasks/scenes.hpp"
 
+namespace test_on_ranks
+{
+
 using namespace tamp;
 using namespace tamp::test;
 
@@ -239,3 +242,5 @@ TEST_CASE("a particle that goes wrong on one rank is the same error on all", "[r
   CHECK(simulation->n_steps() == single->n_steps());
   CHECK(simulation->digest() == single->digest());
 }
+
+}  // namespace test_on_ranks

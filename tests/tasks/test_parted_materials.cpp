@@ -3,6 +3,9 @@
 #include "components/contact/contact_table.hpp"
 #include "tests/tasks/scenes.hpp"
 
+namespace test_parted_materials
+{
+
 using namespace tamp;
 using namespace tamp::test;
 
@@ -143,3 +146,5 @@ TEST_CASE("ground under two bodies that meet by regression is not pushed along w
   CHECK(momentum(*simulation, 1) > 0.5 * before);
   CHECK(std::abs(momentum(*simulation, 2)) < 1e-3 * before);
 }
+
+}  // namespace test_parted_materials

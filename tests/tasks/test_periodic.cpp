@@ -5,6 +5,9 @@
 
 #include "tests/tasks/scenes.hpp"
 
+namespace test_periodic
+{
+
 /// Domains of which some axes have no ends: what leaves at one face enters at the other.
 using namespace tamp;
 using namespace tamp::test;
@@ -307,3 +310,5 @@ TEST_CASE("a standing wave between mirrors is half of one around a periodic doma
   CHECK(apart < 1e-9);
   CHECK(whole->report().kinetic == Approx(2 * half->report().kinetic).epsilon(1e-9));
 }
+
+}  // namespace test_periodic

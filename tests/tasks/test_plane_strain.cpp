@@ -2,6 +2,9 @@
 
 #include "tests/tasks/scenes.hpp"
 
+namespace test_plane_strain
+{
+
 using namespace tamp;
 using namespace tamp::test;
 
@@ -68,3 +71,5 @@ TEST_CASE("a slab between smooth walls does what plane strain does")
   CHECK(slab->grid_totals().impulse[1] == Approx(depth * plane->grid_totals().impulse[1]).epsilon(1e-9));
   CHECK(std::abs(slab->grid_totals().impulse[2]) < 1e-10 * slab->grid_totals().impulse[1]);
 }
+
+}  // namespace test_plane_strain

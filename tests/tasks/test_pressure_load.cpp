@@ -5,6 +5,9 @@
 #include "tasks/method.hpp"
 #include "tests/tasks/scenes.hpp"
 
+namespace test_pressure_load
+{
+
 using namespace tamp;
 using namespace tamp::test;
 
@@ -293,3 +296,5 @@ TEST_CASE("the surface of a pressed material is known, also where another's give
   CHECK(method.needs_surface_of(0) == pressed);
   CHECK(method.needs_surface_of(of_other));
 }
+
+}  // namespace test_pressure_load

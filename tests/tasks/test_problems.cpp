@@ -4,6 +4,9 @@
 #include "components/problems/problem.hpp"
 #include "tests/tasks/scenes.hpp"
 
+namespace test_problems
+{
+
 using namespace tamp;
 using namespace tamp::test;
 
@@ -408,3 +411,5 @@ TEST_CASE("a disk that a body force holds on its circles turns as the exact one,
   CHECK(error.rms() < 1e-3);
   CHECK(error.mass == Approx(mass));
 }
+
+}  // namespace test_problems

@@ -6,6 +6,9 @@
 #include "tests/runtime/shared_cores.hpp"
 #include "tests/tasks/scenes.hpp"
 
+namespace test_relief
+{
+
 using namespace tamp;
 using namespace tamp::test;
 
@@ -240,3 +243,5 @@ TEST_CASE("every way to deform gives the same motion in small steps")
     CHECK(std::log2(coarse / fine) == Approx(1).margin(0.1));
   }
 }
+
+}  // namespace test_relief

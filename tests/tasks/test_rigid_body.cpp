@@ -10,6 +10,9 @@
 #include "tests/components/materials/concrete_sand.hpp"
 #include "tests/tasks/scenes.hpp"
 
+namespace test_rigid_body
+{
+
 using namespace tamp;
 using namespace tamp::test;
 
@@ -425,3 +428,5 @@ TEST_CASE("a rigid body that spins too fast to be followed is a failure of the s
 
   CHECK_THROWS_AS(moved(body, {}, impulse, components::Held::nothing, 0.1), SimulationError);
 }
+
+}  // namespace test_rigid_body

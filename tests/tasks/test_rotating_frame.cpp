@@ -4,6 +4,9 @@
 
 #include "tests/tasks/scenes.hpp"
 
+namespace test_rotating_frame
+{
+
 using namespace tamp;
 using namespace tamp::test;
 
@@ -73,3 +76,5 @@ TEST_CASE("what a free particle gains in energy is the work of a steady centrifu
   // Velocities are those of the middle of the step.
   CHECK(end.gravity_work - start.gravity_work == Approx(gain).epsilon(2e-3));
 }
+
+}  // namespace test_rotating_frame

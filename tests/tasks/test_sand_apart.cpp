@@ -5,6 +5,9 @@
 #include "tests/components/materials/concrete_sand.hpp"
 #include "tests/tasks/scenes.hpp"
 
+namespace test_sand_apart
+{
+
 using namespace tamp;
 using namespace tamp::test;
 
@@ -108,3 +111,5 @@ TEST_CASE("sand that has come apart joins where it is pushed together, on any th
   CHECK(simulation->totals().updates.failures == 0);
   CHECK(simulation->digest() == other->digest());
 }
+
+}  // namespace test_sand_apart

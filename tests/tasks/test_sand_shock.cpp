@@ -5,6 +5,9 @@
 #include "tests/components/materials/concrete_sand.hpp"
 #include "tests/tasks/scenes.hpp"
 
+namespace test_sand_shock
+{
+
 using namespace tamp;
 using namespace tamp::test;
 
@@ -89,3 +92,5 @@ TEST_CASE("sand that runs at a wall at 200 m/s is shocked to its Hugoniot state"
   // The jump of momentum from what was measured alone.
   CHECK(stress / n == Approx(density * shock_speed * speed).epsilon(0.01));
 }
+
+}  // namespace test_sand_shock

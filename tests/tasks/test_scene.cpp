@@ -3,6 +3,9 @@
 #include "runtime/graph/graph_error.hpp"
 #include "tests/tasks/scenes.hpp"
 
+namespace test_scene
+{
+
 using namespace tamp;
 using namespace tamp::test;
 
@@ -39,3 +42,5 @@ TEST_CASE("a deformable body starts with its angular velocity, about its centre 
   CHECK((sums.spin() - spin).norm() < 1e-12 * spin.norm());
   CHECK((sums.momentum / sums.mass - velocity).norm() < 1e-12 * velocity.norm());
 }
+
+}  // namespace test_scene

@@ -4,6 +4,9 @@
 #include "tests/components/materials/concrete_sand.hpp"
 #include "tests/tasks/scenes.hpp"
 
+namespace test_settled_sand
+{
+
 using namespace tamp;
 using namespace tamp::test;
 
@@ -137,3 +140,5 @@ TEST_CASE("sand that cannot have settled is refused")
   not_sand.bodies[0].material = add_elastic(not_sand, 1000, 1e6, 0.3);
   CHECK_THROWS_AS(Simulation::make(not_sand, 1), components::BadValue);
 }
+
+}  // namespace test_settled_sand

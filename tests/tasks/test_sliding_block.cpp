@@ -2,6 +2,9 @@
 
 #include "tests/tasks/scenes.hpp"
 
+namespace test_sliding_block
+{
+
 using namespace tamp;
 using namespace tamp::test;
 
@@ -68,3 +71,5 @@ TEST_CASE("a block that friction has stopped stays where it is")
   // A hundredth of a cell.
   CHECK(way(*simulation) == Approx(stopped).margin(0.01 / 40));
 }
+
+}  // namespace test_sliding_block

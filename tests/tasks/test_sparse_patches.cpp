@@ -3,6 +3,9 @@
 #include "tests/runtime/shared_cores.hpp"
 #include "tests/tasks/scenes.hpp"
 
+namespace test_sparse_patches
+{
+
 using namespace tamp;
 using namespace tamp::test;
 
@@ -92,3 +95,5 @@ TEST_CASE("a rank is heard when all of its patches are empty", "[ranks]")
     CHECK(simulation->asked() == 4);
   }
 }
+
+}  // namespace test_sparse_patches

@@ -4,6 +4,9 @@
 
 #include "tests/tasks/scenes.hpp"
 
+namespace test_sphere_on_incline
+{
+
 using namespace tamp;
 using namespace tamp::test;
 
@@ -99,3 +102,5 @@ TEST_CASE("a rigid sphere with enough friction rolls down an incline")
   CHECK(speed == Approx(expected).epsilon(margin));
   CHECK(spin * radius == Approx(speed).epsilon(margin));
 }
+
+}  // namespace test_sphere_on_incline

@@ -8,6 +8,9 @@
 #include "tasks/simulation_error.hpp"
 #include "tests/tasks/scenes.hpp"
 
+namespace test_stable_step
+{
+
 using namespace tamp;
 using namespace tamp::test;
 
@@ -115,3 +118,5 @@ TEST_CASE("free elastic bodies stay bounded up to the bound on the step with tra
 
   CHECK(growth(scene, 1) < 1);
 }
+
+}  // namespace test_stable_step

@@ -5,6 +5,9 @@
 
 #include "tests/tasks/scenes.hpp"
 
+namespace test_transfers
+{
+
 using namespace tamp;
 using namespace tamp::test;
 
@@ -245,3 +248,5 @@ TEST_CASE("XPIC and FMPM of order 1 are PIC")
     }
   }
 }
+
+}  // namespace test_transfers

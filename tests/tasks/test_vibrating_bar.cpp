@@ -6,6 +6,9 @@
 #include "components/problems/vibrating_bar.hpp"
 #include "tests/tasks/scenes.hpp"
 
+namespace test_vibrating_bar
+{
+
 using namespace tamp;
 using namespace tamp::test;
 
@@ -198,3 +201,5 @@ TEST_CASE("errors are of second order in cell and step, and of first where the f
   CHECK(coarse_kick > 2 * std::abs(coarse));
   CHECK(0.5 * std::log2(coarse_kick / fine_kick) == Approx(1).margin(0.05));
 }
+
+}  // namespace test_vibrating_bar

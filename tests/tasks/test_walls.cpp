@@ -6,6 +6,9 @@
 #include "tests/runtime/shared_cores.hpp"
 #include "tests/tasks/scenes.hpp"
 
+namespace test_walls
+{
+
 /// Faces of the domain with friction, and without slip.
 using namespace tamp;
 using namespace tamp::test;
@@ -160,3 +163,5 @@ TEST_CASE("soil that collapses on a rough floor ends with the same bits on any r
     CHECK(simulation->totals().contact == alone->totals().contact);
   }
 }
+
+}  // namespace test_walls

@@ -5,6 +5,9 @@
 #include "tests/tools/program.hpp"
 #include "tests/tools/scene/small_scene.hpp"
 
+namespace test_budgets
+{
+
 /// What would take for ever, or more than there is, is refused at once.
 using namespace tamp::test;
 
@@ -118,3 +121,5 @@ TEST_CASE("a message has an end")
   CHECK_THAT(many.err, Catch::EndsWith("more problems\n"));
   CHECK(std::count(many.err.begin(), many.err.end(), '\n') == 51);
 }
+
+}  // namespace test_budgets

@@ -3,6 +3,9 @@
 #include "tests/tools/impact.hpp"
 #include "tests/tools/program.hpp"
 
+namespace test_charts
+{
+
 using namespace tamp;
 using Catch::Contains;
 
@@ -67,3 +70,5 @@ TEST_CASE("a Python without matplotlib is told from one whose drawing fails")
   CHECK(failing.exit_code == 4);
   CHECK_THAT(failing.err, Contains("could not be drawn; to try again:"));
 }
+
+}  // namespace test_charts

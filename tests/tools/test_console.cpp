@@ -4,6 +4,9 @@
 #include "tests/tools/program.hpp"
 #include "tests/tools/scene/small_scene.hpp"
 
+namespace test_console
+{
+
 using namespace tamp::test;
 
 TEST_CASE("a run goes on when nobody listens")
@@ -46,3 +49,5 @@ TEST_CASE("a command that prints ends quietly when its reader has gone, and with
   CHECK(full.exit_code == 4);
   CHECK_THAT(full.err, Catch::Contains("tamp: standard output: No space left on device"));
 }
+
+}  // namespace test_console

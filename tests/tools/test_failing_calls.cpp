@@ -8,6 +8,9 @@
 #  include "tests/tools/background_program.hpp"
 #  include "tests/tools/program.hpp"
 
+namespace test_failing_calls
+{
+
 /// What the system refuses ends a run with 4 and the place, and the checkpoint before it restarts.
 using namespace tamp::test;
 
@@ -160,4 +163,7 @@ TEST_CASE("what cannot be written in the background ends a run before its next o
   CHECK_THAT(outcome.err, Catch::Contains("step_00000005.h5") && Catch::Contains("No space left on device"));
   CHECK(fs::is_empty(out / "checkpoints"));
 }
+
+}  // namespace test_failing_calls
+
 #endif

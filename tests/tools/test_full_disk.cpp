@@ -3,6 +3,9 @@
 
 #include "tests/tools/program.hpp"
 
+namespace test_full_disk
+{
+
 using namespace tamp::test;
 
 namespace
@@ -44,3 +47,5 @@ TEST_CASE("a disk that fills while a checkpoint is written ends the run with 4, 
   REQUIRE(outcome_of(run + "--steps 150 --out " + folder.path().string() + "/straight").exit_code == 0);
   CHECK(digest_of(kept) == digest_of(folder.path() / "straight"));
 }
+
+}  // namespace test_full_disk

@@ -9,6 +9,9 @@
 #include "tests/tools/scene/small_models.hpp"
 #include "tests/tools/scene/small_scene.hpp"
 
+namespace test_modulus
+{
+
 using namespace tamp::test;
 
 namespace
@@ -234,3 +237,5 @@ TEST_CASE("files of states that cannot be answered end with 2 and their place")
   CHECK(tamp_with("modulus " + sand + " --at 0,0 --out " + (folder.path() / "out.csv").string()).exit_code == 2);
   CHECK(tamp_with("modulus " + sand + " --states /no/such/file.csv").exit_code == 4);
 }
+
+}  // namespace test_modulus

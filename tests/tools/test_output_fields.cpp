@@ -8,6 +8,9 @@
 #include "tests/tools/program.hpp"
 #include "tests/tools/scene/small_scene.hpp"
 
+namespace test_output_fields
+{
+
 using namespace tamp;
 using namespace tamp::test;
 
@@ -76,3 +79,5 @@ TEST_CASE("the size of a field file is forecast from the fields in it")
   CHECK(all == number * (n_particles * (1 + 3 + 3 + 6 + 1 + 1 + 1 + 1) + n_nodes * (1 + 3)));
   CHECK(some == number * (n_particles * (1 + 3 + 1 + 6) + n_nodes));
 }
+
+}  // namespace test_output_fields

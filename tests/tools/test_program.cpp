@@ -3,6 +3,9 @@
 #include "tests/tools/program.hpp"
 #include "tests/tools/scene/small_scene.hpp"
 
+namespace test_program
+{
+
 using namespace tamp::test;
 
 TEST_CASE("the version names the build, the compiler and every library")
@@ -93,3 +96,5 @@ TEST_CASE("a scene file that cannot be read ends with 4")
   CHECK(outcome.exit_code == 4);
   CHECK(outcome.err == "tamp: /no/such/scene.json: no such file\n");
 }
+
+}  // namespace test_program

@@ -14,6 +14,9 @@
 #include "tests/tools/background_program.hpp"
 #include "tests/tools/program.hpp"
 
+namespace test_restart
+{
+
 using namespace tamp::test;
 
 namespace
@@ -514,3 +517,5 @@ TEST_CASE("when one rank is killed all are gone within ten seconds, and the run 
   CHECK(tamp_with(restart_of(run, "--steps 150")).exit_code == 0);
   CHECK(summary_of(run)["state_digest"] == straight().digest);
 }
+
+}  // namespace test_restart

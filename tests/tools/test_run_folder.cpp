@@ -5,6 +5,9 @@
 #include "tools/errors.hpp"
 #include "tools/run/run_folder.hpp"
 
+namespace test_run_folder
+{
+
 using namespace tamp;
 using test::TemporaryFolder;
 using tools::RunFolder;
@@ -110,3 +113,5 @@ TEST_CASE("a folder that cannot be made is an error of files")
 {
   CHECK_THROWS_AS(use("/proc/no/such", begin), runtime::FileError);
 }
+
+}  // namespace test_run_folder

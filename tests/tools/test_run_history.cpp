@@ -5,6 +5,9 @@
 #include "tests/tools/temporary_folder.hpp"
 #include "tools/scene/read_scene.hpp"
 
+namespace test_run_history
+{
+
 using namespace tamp;
 
 namespace
@@ -88,3 +91,5 @@ TEST_CASE("an energy error is told beyond its limit, and never where the limit i
   CHECK(history.energy_problem(0.2).empty());
   CHECK(history.energy_problem(std::numeric_limits<double>::infinity()).empty());
 }
+
+}  // namespace test_run_history

@@ -8,6 +8,9 @@
 #include "tests/tools/temporary_folder.hpp"
 #include "tools/run/forecast.hpp"
 
+namespace test_run_output
+{
+
 using namespace tamp;
 
 namespace
@@ -100,3 +103,5 @@ TEST_CASE("output is written in the background as far as there is memory for cop
   CHECK(large.memory == 1000);
   CHECK_THAT(told(large), Catch::Contains("no room for copies"));
 }
+
+}  // namespace test_run_output

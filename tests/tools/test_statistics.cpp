@@ -2,6 +2,9 @@
 
 #include "tools/statistics.hpp"
 
+namespace test_statistics
+{
+
 using namespace tamp::tools;
 
 TEST_CASE("quartiles lie between the values in order")
@@ -20,3 +23,5 @@ TEST_CASE("the median of nothing is 0, and that of an even number of values lies
   CHECK(median({}) == 0);
   CHECK(median({4, 1, 3, 2}) == 2.5);
 }
+
+}  // namespace test_statistics

@@ -3,6 +3,9 @@
 
 #include "tests/tools/program.hpp"
 
+namespace test_wrong_physics
+{
+
 /// A run that ends in nonsense does not say "completed".
 using namespace tamp::test;
 
@@ -92,3 +95,5 @@ TEST_CASE("a run with warnings says so at its end, and with --strict ends with 3
   CHECK(strict.outcome.exit_code == 3);
   CHECK_THAT(strict.outcome.err, Catch::Contains("--strict"));
 }
+
+}  // namespace test_wrong_physics

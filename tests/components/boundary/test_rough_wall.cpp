@@ -2,6 +2,9 @@
 
 #include <catch2/catch.hpp>
 
+namespace test_rough_wall
+{
+
 using namespace tamp::components;
 using tamp::Vector;
 
@@ -24,3 +27,5 @@ TEST_CASE("what leaves a rough wall, or moves along without pressing, is free")
   CHECK(velocity_on_rough_wall<2>({3, 1}, 1, -1, 0.5) == Vector<2>(3, 1));
   CHECK(velocity_on_rough_wall<2>({3, 0}, 1, -1, 0.5) == Vector<2>(3, 0));
 }
+
+}  // namespace test_rough_wall

@@ -7,6 +7,9 @@
 #include "components/boundary/symmetry.hpp"
 #include "components/errors.hpp"
 
+namespace test_symmetry
+{
+
 using namespace tamp;
 using namespace tamp::components;
 
@@ -202,3 +205,5 @@ TEST_CASE("a wall without a node layer on each side is refused")
   CHECK_THROWS_AS(SymmetryWall<2>({4, 3}, 2, 1, 1), BadValue);
   CHECK_THROWS_AS(SymmetryWall<2>({4, 3}, 0, 1, 0), BadValue);
 }
+
+}  // namespace test_symmetry

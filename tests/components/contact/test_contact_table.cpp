@@ -5,6 +5,9 @@
 #include "components/contact/contact_table.hpp"
 #include "components/errors.hpp"
 
+namespace test_contact_table
+{
+
 using namespace tamp::components;
 
 TEST_CASE("every pair has the coefficient it was given last, in either order")
@@ -60,3 +63,5 @@ TEST_CASE("the surface of a group is needed unless each other group gives the no
   CHECK(table.needs_surface_of(0));
   CHECK(!ContactTable(1).needs_surface_of(0));
 }
+
+}  // namespace test_contact_table

@@ -8,6 +8,9 @@
 
 #include "components/contact/friction.hpp"
 
+namespace test_friction
+{
+
 using namespace tamp;
 using namespace tamp::components;
 
@@ -252,3 +255,5 @@ TEST_CASE("a pair's normal may be that of either surface alone")
   table.set(0, 1, 0.3, 1);
   CHECK(outward_of<2>(table, 0, 1, of_a, of_b) == -of_b);
 }
+
+}  // namespace test_friction

@@ -7,6 +7,9 @@
 #include "components/contact/logistic_plane.hpp"
 #include "components/shapes/gimp.hpp"
 
+namespace test_logistic_plane
+{
+
 using namespace tamp;
 using namespace tamp::components;
 
@@ -249,3 +252,5 @@ TEST_CASE("sums on a mirror are those of the particles with their images, halved
   CHECK((2 * one_side.gradient - both.gradient).norm() < 1e-12);
   CHECK(((2 * one_side.hessian - both.hessian) * any).norm() < 1e-12);
 }
+
+}  // namespace test_logistic_plane

@@ -2,6 +2,9 @@
 
 #include <catch2/catch.hpp>
 
+namespace test_monotone_cubic
+{
+
 using tamp::components::MonotoneCubic;
 
 TEST_CASE("a monotone cubic does not overshoot its points where a plain spline would")
@@ -26,3 +29,5 @@ TEST_CASE("a monotone cubic's slope is the derivative of its value")
     CHECK(curve.at(x).slope == Approx(difference).epsilon(1e-7));
   }
 }
+
+}  // namespace test_monotone_cubic

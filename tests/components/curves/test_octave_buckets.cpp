@@ -4,6 +4,9 @@
 #include <cmath>
 #include <limits>
 
+namespace test_octave_buckets
+{
+
 using tamp::components::OctaveBuckets;
 
 TEST_CASE(
@@ -33,3 +36,5 @@ TEST_CASE("numbers outside the range have the first or the last bucket, and what
   CHECK(buckets.of(std::numeric_limits<double>::infinity()) + 1 == buckets.size());
   CHECK(buckets.of(std::numeric_limits<double>::quiet_NaN()) == 0);
 }
+
+}  // namespace test_octave_buckets

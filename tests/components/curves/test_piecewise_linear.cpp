@@ -6,6 +6,9 @@
 
 #include "components/errors.hpp"
 
+namespace test_piecewise_linear
+{
+
 using tamp::components::BadValue;
 using tamp::components::PiecewiseLinear;
 
@@ -115,3 +118,5 @@ TEST_CASE("a table that does not ascend is refused with its row")
   CHECK(row_of_bad_value({0}, {0}) == -1);
   CHECK(row_of_bad_value({0, 1}, {0}) == -1);
 }
+
+}  // namespace test_piecewise_linear

@@ -9,6 +9,9 @@
 #include "components/geometry/closed_mesh.hpp"
 #include "components/geometry/solid.hpp"
 
+namespace test_closed_mesh
+{
+
 using namespace tamp;
 using namespace tamp::components;
 
@@ -140,3 +143,5 @@ TEST_CASE("text that is no STL, or is cut short, is refused")
   CHECK(fault(whole.substr(0, whole.size() / 2)) != "");
   CHECK(fault(whole) == "");
 }
+
+}  // namespace test_closed_mesh

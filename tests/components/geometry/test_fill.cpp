@@ -7,6 +7,9 @@
 #include "components/geometry/fill.hpp"
 #include "components/geometry/rotations.hpp"
 
+namespace test_fill
+{
+
 using namespace tamp;
 using namespace tamp::components;
 
@@ -88,3 +91,5 @@ TEST_CASE("a lattice without cells or sites is refused")
   CHECK_THROWS_AS(fill(here, ParticleLattice<2>{{0, 0}, 0.0, 2}, cells), BadValue);
   CHECK_THROWS_AS(fill(here, ParticleLattice<2>{{0, 0}, 1.0, 0}, cells), BadValue);
 }
+
+}  // namespace test_fill

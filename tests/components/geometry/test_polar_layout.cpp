@@ -4,6 +4,9 @@
 #include <cmath>
 #include <numbers>
 
+namespace test_polar_layout
+{
+
 using namespace tamp;
 using namespace tamp::components;
 
@@ -45,3 +48,5 @@ TEST_CASE("a ring thinner than the spacing is one ring of particles")
   CHECK(PolarLayout{{0, 0}, 1, 1.01}.sites(0.1).front().place.norm() == Approx(1.005));
   CHECK(PolarLayout{{0, 0}, 0, 0.01}.sites(0.1).size() == 3);
 }
+
+}  // namespace test_polar_layout

@@ -6,6 +6,9 @@
 #include "components/geometry/polygon.hpp"
 #include "components/geometry/solid.hpp"
 
+namespace test_polygon
+{
+
 using namespace tamp;
 using namespace tamp::components;
 
@@ -74,3 +77,5 @@ TEST_CASE("an extruded polygon is the polygon between its two heights")
   CHECK(fin.bounding_box().lower == Vector<3>(0, 0, -0.5));
   CHECK_THROWS_AS(Solid<3>(ExtrudedPolygon{Polygon({{0, 0}, {2, 0}, {0, 1}}), 1, 1}), BadValue);
 }
+
+}  // namespace test_polygon

@@ -13,6 +13,9 @@
 #include "components/geometry/solid.hpp"
 #include "tests/components/geometry/counted_volume.hpp"
 
+namespace test_round_solids
+{
+
 using namespace tamp;
 using namespace tamp::components;
 using tamp::test::counted_volume;
@@ -176,3 +179,5 @@ TEST_CASE("a profile that goes backward is told with its row")
     CHECK_THAT(bad.found, Catch::Contains("goes from 2.0"));
   }
 }
+
+}  // namespace test_round_solids

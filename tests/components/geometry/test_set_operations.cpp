@@ -12,6 +12,9 @@
 #include "components/geometry/set_operations.hpp"
 #include "components/geometry/transformed.hpp"
 
+namespace test_set_operations
+{
+
 using namespace tamp;
 using namespace tamp::components;
 
@@ -132,3 +135,5 @@ TEST_CASE("particles hold the volume of a solid the better the finer they are")
   CHECK(error(10) < 5e-2);
   CHECK(error(40) < 2e-3);
 }
+
+}  // namespace test_set_operations

@@ -11,6 +11,9 @@
 #include "components/geometry/solid.hpp"
 #include "tests/components/geometry/counted_volume.hpp"
 
+namespace test_solid
+{
+
 using namespace tamp;
 using namespace tamp::components;
 using tamp::test::counted_volume;
@@ -108,3 +111,5 @@ TEST_CASE("a shape without a volume, or with numbers that are none, is refused")
   CHECK_THROWS_AS(Solid<2>(RotatedBox<2>{{0, 0}, {1, 1}, reflection}), BadValue);
   CHECK_THROWS_AS(Solid<3>(Cylinder{{1, 1, 1}, {1, 1, 1}, 1}), BadValue);
 }
+
+}  // namespace test_solid

@@ -8,6 +8,9 @@
 
 #include "components/kinematics/deform.hpp"
 
+namespace test_deform
+{
+
 using namespace tamp;
 using namespace tamp::components;
 
@@ -108,3 +111,5 @@ TEMPLATE_TEST_CASE_SIG("the first particle that is turned inside out is named, w
     CHECK(Deformed<D>(particles, 0, 19).inside_out == last);
   }
 }
+
+}  // namespace test_deform

@@ -8,6 +8,9 @@
 
 #include "components/kinematics/polar_rotation.hpp"
 
+namespace test_polar_rotation
+{
+
 using namespace tamp;
 using namespace tamp::components;
 
@@ -118,3 +121,5 @@ TEST_CASE("the polar rotation of a pure stretch is the identity and of a rotatio
   CHECK((polar_rotation(half_turn) - half_turn).norm() == 0);
   CHECK((polar_rotation(quarter_turn) - quarter_turn).norm() < 1e-15);
 }
+
+}  // namespace test_polar_rotation

@@ -11,6 +11,9 @@
 #include "components/kinematics/deformation_update.hpp"
 #include "components/kinematics/strain_increment.hpp"
 
+namespace test_strain_increment
+{
+
 using namespace tamp;
 using namespace tamp::components;
 
@@ -319,3 +322,5 @@ TEST_CASE("a step too large for the exponential update is reported")
 
   CHECK_FALSE(strain_increment<2, ExponentialUpdate>(Matrix<2>::Identity(), turn).admissible());
 }
+
+}  // namespace test_strain_increment

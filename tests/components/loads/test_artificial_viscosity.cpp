@@ -2,6 +2,9 @@
 
 #include "components/loads/artificial_viscosity.hpp"
 
+namespace test_artificial_viscosity
+{
+
 using namespace tamp::components;
 
 TEST_CASE("artificial viscosity of a closing cell is the linear and the quadratic term")
@@ -30,3 +33,5 @@ TEST_CASE("there is no artificial viscosity in expansion or at rest")
   CHECK(viscosity.pressure<double>(1600, 4e8, 100, 0.01) == 0);
   CHECK(viscosity.pressure<double>(1600, 4e8, 0, 0.01) == 0);
 }
+
+}  // namespace test_artificial_viscosity

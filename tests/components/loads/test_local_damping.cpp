@@ -2,6 +2,9 @@
 
 #include <catch2/catch.hpp>
 
+namespace test_local_damping
+{
+
 using namespace tamp::components;
 using tamp::Vector;
 
@@ -15,3 +18,5 @@ TEST_CASE("local damping leaves what is at rest alone")
   CHECK(damped_change<2>({0, 0}, {4, -4}, 0.25) == Vector<2>(4, -4));
   CHECK(damped_change<2>({1, 1}, {0, 0}, 0.25) == Vector<2>(0, 0));
 }
+
+}  // namespace test_local_damping

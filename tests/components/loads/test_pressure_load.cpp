@@ -4,6 +4,9 @@
 
 #include "components/errors.hpp"
 
+namespace test_pressure_load
+{
+
 using namespace tamp;
 using namespace tamp::components;
 
@@ -61,3 +64,5 @@ TEST_CASE("the force on a node is its pressure against the surface gradient, by 
   CHECK(pressure_force<2>(sums, 0, {1, 1}) == Vector<2>(0, 0));
   CHECK(pressure_force<2>(sums.mirrored(0), 2, {0.5, -0.25}) == Vector<2>(-5, 7.5));
 }
+
+}  // namespace test_pressure_load

@@ -6,6 +6,9 @@
 
 #include "components/errors.hpp"
 
+namespace test_rotating_frame
+{
+
 using namespace tamp;
 using namespace tamp::components;
 
@@ -88,3 +91,5 @@ TEST_CASE("a frame that turns about an axis of zero length is refused")
 {
   CHECK_THROWS_AS(RotatingFrame(6, Vector<3>::Zero(), centre), BadValue);
 }
+
+}  // namespace test_rotating_frame

@@ -6,6 +6,9 @@
 #include "components/shapes/gimp.hpp"
 #include "components/shapes/transfer.hpp"
 
+namespace test_settled_stress
+{
+
 using namespace tamp;
 using namespace tamp::components;
 
@@ -104,3 +107,5 @@ TEST_CASE("layers between two walls balance a force that grows along them, with 
   for (const double s : stress) mean += s / static_cast<double>(stress.size());
   CHECK(std::abs(mean) < 1e-3 * density * 36 * 0.04 * 0.04);
 }
+
+}  // namespace test_settled_stress

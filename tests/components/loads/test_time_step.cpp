@@ -6,6 +6,9 @@
 
 #include "components/loads/time_step.hpp"
 
+namespace test_time_step
+{
+
 using namespace tamp;
 using namespace tamp::components;
 
@@ -137,3 +140,5 @@ TEMPLATE_TEST_CASE_SIG("in lanes each particle gets the viscous pressure and the
           published_time_step<D>(h, wave_speed(p.bulk_modulus, p.shear_modulus, p.density), p.velocity));
   }
 }
+
+}  // namespace test_time_step

@@ -3,7 +3,7 @@
 #include <stdexcept>
 
 #include "components/materials/invariants.hpp"
-#include "components/materials/material_batch.hpp"
+#include "components/materials/material_model.hpp"
 
 namespace tamp::test
 {

@@ -9,6 +9,9 @@
 #include "tests/components/materials/concrete_sand.hpp"
 #include "tests/components/materials/random_paths.hpp"
 
+namespace test_cap_lanes
+{
+
 using namespace tamp;
 using namespace tamp::components;
 
@@ -130,3 +133,5 @@ TEST_CASE("in whatever order particles of sand come, each gets the same bits")
   const std::vector<Numbers> out_of_order = update_all(sand, shuffled);
   for (std::size_t k = 0; k < order.size(); ++k) REQUIRE(out_of_order[k] == in_order[order[k]]);
 }
+
+}  // namespace test_cap_lanes

@@ -5,6 +5,9 @@
 #include <cmath>
 #include <limits>
 
+namespace test_cap_return
+{
+
 using namespace tamp::components;
 
 namespace
@@ -178,3 +181,5 @@ TEST_CASE("a trial near the apex takes few evaluations however little shear it h
   }
   CHECK(most <= 30);
 }
+
+}  // namespace test_cap_return

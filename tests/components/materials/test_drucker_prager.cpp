@@ -8,6 +8,9 @@
 #include "components/errors.hpp"
 #include "tests/components/materials/one_particle.hpp"
 
+namespace test_drucker_prager
+{
+
 using namespace tamp;
 using namespace tamp::components;
 
@@ -263,3 +266,5 @@ TEST_CASE("soil that would gain by flowing, that holds nothing, or bears more te
   CHECK_THROWS_AS(soil(30, 31, 0).check(), BadParameter);
   CHECK_THROWS_AS(soil(0, 0, 0).check(), BadParameter);
 }
+
+}  // namespace test_drucker_prager

@@ -5,6 +5,9 @@
 #include "components/materials/wave_speed.hpp"
 #include "tests/components/materials/one_particle.hpp"
 
+namespace test_hypoelastic
+{
+
 using namespace tamp;
 using namespace tamp::components;
 
@@ -29,3 +32,5 @@ TEST_CASE("the dilatational wave of steel runs at about 5.9 km/s")
 {
   CHECK(wave_speed(166e9, 79e9, 7850) == Approx(5878).epsilon(1e-3));
 }
+
+}  // namespace test_hypoelastic

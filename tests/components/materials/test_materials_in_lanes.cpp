@@ -18,6 +18,9 @@
 #include "tests/components/materials/one_particle.hpp"
 #include "tests/same_bits.hpp"
 
+namespace test_materials_in_lanes
+{
+
 using namespace tamp;
 using namespace tamp::components;
 
@@ -204,3 +207,5 @@ TEST_CASE("soil of a batch returns to its cone as one particle after the other, 
   }
   for (const int n : n_of_kind) CHECK(n > 5);
 }
+
+}  // namespace test_materials_in_lanes

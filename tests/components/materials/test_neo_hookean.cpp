@@ -7,6 +7,9 @@
 
 #include "tests/components/materials/one_particle.hpp"
 
+namespace test_neo_hookean
+{
+
 using namespace tamp;
 using namespace tamp::components;
 
@@ -173,3 +176,5 @@ TEST_CASE("no wave of a strained neo-Hookean solid is faster than its tangent mo
   // A bound that is far too high would make steps needlessly short.
   CHECK(fastest > 0.6 * bound);
 }
+
+}  // namespace test_neo_hookean

@@ -8,6 +8,9 @@
 #include "components/errors.hpp"
 #include "tests/components/materials/one_particle.hpp"
 
+namespace test_neo_hookean_log
+{
+
 using namespace tamp;
 using namespace tamp::components;
 
@@ -190,3 +193,5 @@ TEST_CASE("a logarithmic solid of a Poisson's ratio below 0 is refused")
   CHECK_THROWS_AS((NeoHookeanLog{0.6 * G, G}.check()), BadParameter);
   CHECK_NOTHROW(NeoHookeanLog{0.6666666 * G, G}.check());
 }
+
+}  // namespace test_neo_hookean_log

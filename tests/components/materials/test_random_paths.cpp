@@ -3,6 +3,9 @@
 #include "tests/components/materials/concrete_sand.hpp"
 #include "tests/components/materials/random_paths.hpp"
 
+namespace test_random_paths
+{
+
 using namespace tamp::components;
 
 TEST_CASE("on random paths of steps up to 5 % the sand never fails and never leaves the yield surface")
@@ -20,3 +23,5 @@ TEST_CASE("on random paths of steps up to 5 % the sand never fails and never lea
     CHECK(outcome.counts.split_updates > outcome.n_steps / 10);
   }
 }
+
+}  // namespace test_random_paths

@@ -10,6 +10,9 @@
 
 #include "tests/components/materials/concrete_sand.hpp"
 
+namespace test_separation
+{
+
 using namespace tamp;
 using namespace tamp::components;
 using concrete_sand::Sample;
@@ -305,3 +308,5 @@ TEST_CASE("sand that comes apart below none or above all of its density is refus
     CHECK_THROWS_AS(TabularCap(parameters), BadValue);
   }
 }
+
+}  // namespace test_separation

@@ -6,6 +6,9 @@
 
 #include "tests/components/materials/concrete_sand.hpp"
 
+namespace test_tabular_cap
+{
+
 using namespace tamp;
 using namespace tamp::components;
 using concrete_sand::Sample;
@@ -558,3 +561,5 @@ TEST_CASE("a sand is refused for an impossible Poisson's ratio and for a crush c
   CHECK(row(0.2, {0, 1e6, 2e6}) == 0);
   CHECK(row(0.2, {1e6, 2e6, 3e6}) == -2);
 }
+
+}  // namespace test_tabular_cap

@@ -5,6 +5,9 @@
 #include "components/errors.hpp"
 #include "tests/components/materials/concrete_sand.hpp"
 
+namespace test_yield_surface
+{
+
 using tamp::components::BadValue;
 using tamp::components::YieldSurface;
 
@@ -54,3 +57,5 @@ TEST_CASE("a yield table without a vertex, or with a strength that is no number,
   CHECK(row({0, 1, 2}, 1) == -1);
   CHECK(row({0, 1, 2}, 0.7) == -2);
 }
+
+}  // namespace test_yield_surface

@@ -10,6 +10,9 @@
 #include "components/errors.hpp"
 #include "tests/components/moduli/random_network.hpp"
 
+namespace test_dense_network
+{
+
 using tamp::components::Activation;
 using tamp::components::BadValue;
 using tamp::components::DenseLayer;
@@ -217,3 +220,5 @@ TEST_CASE("a dense network is not made from weights that are not finite, and say
     }
   }
 }
+
+}  // namespace test_dense_network

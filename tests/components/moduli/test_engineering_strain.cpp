@@ -5,6 +5,9 @@
 
 #include "tests/components/materials/concrete_sand.hpp"
 
+namespace test_engineering_strain
+{
+
 using tamp::components::ElasticPoint;
 using tamp::components::EngineeringStrain;
 using tamp::components::StrainRange;
@@ -67,3 +70,5 @@ TEST_CASE("the range of a converted model lies within the model's own")
     }
   }
 }
+
+}  // namespace test_engineering_strain

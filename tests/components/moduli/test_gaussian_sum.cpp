@@ -3,6 +3,9 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
+namespace test_gaussian_sum
+{
+
 using tamp::components::Gaussians;
 using tamp::components::GaussianSum;
 
@@ -64,3 +67,5 @@ TEST_CASE("what is subtracted on the diagonal changes a sum of Gaussians by the 
     }
   }
 }
+
+}  // namespace test_gaussian_sum

@@ -7,6 +7,9 @@
 
 #include "components/errors.hpp"
 
+namespace test_hermite_surface
+{
+
 using tamp::components::BadValue;
 using tamp::components::ElasticPoint;
 using tamp::components::HermiteSurface;
@@ -209,3 +212,5 @@ TEST_CASE("a surface over no range is refused")
 {
   CHECK_THROWS_AS(HermiteSurface({0.1, 0.1, 0, 0.3}, line_of(smooth), {1e-3, 1e-3}), BadValue);
 }
+
+}  // namespace test_hermite_surface

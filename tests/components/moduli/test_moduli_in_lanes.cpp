@@ -13,6 +13,9 @@
 #include "tests/components/moduli/random_network.hpp"
 #include "tests/same_bits.hpp"
 
+namespace test_moduli_in_lanes
+{
+
 using namespace tamp::components;
 using tamp::test::same_bits;
 
@@ -102,3 +105,5 @@ TEST_CASE("a model answers many states at once with the bits that it gives for e
   check_lanes("svr in engineering strain", EngineeringStrain<SupportVectorModulus>(support_vectors));
   check_lanes("network in engineering strain", EngineeringStrain<NetworkModulus>(relu));
 }
+
+}  // namespace test_moduli_in_lanes

@@ -6,6 +6,9 @@
 
 #include "tests/components/materials/concrete_sand.hpp"
 
+namespace test_modulus_surface
+{
+
 using tamp::components::ElasticModel;
 using tamp::components::ElasticPoint;
 using tamp::components::ElasticPointOf;
@@ -143,3 +146,5 @@ TEST_CASE("a compiled model asked in compression at zero strain has no pressure"
 {
   CHECK(std::abs(compiled_table().at(0, 0.15).pressure) < 1e-3 * compiled_table().at(0, 0.15).bulk_modulus * 1e-3);
 }
+
+}  // namespace test_modulus_surface

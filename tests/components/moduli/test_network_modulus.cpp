@@ -11,6 +11,9 @@
 #include "components/errors.hpp"
 #include "tests/components/moduli/random_network.hpp"
 
+namespace test_network_modulus
+{
+
 using tamp::components::Activation;
 using tamp::components::BadValue;
 using tamp::components::DenseNetwork;
@@ -265,3 +268,5 @@ TEST_CASE("a network modulus is not made from a network that is too rough to int
   fit.elastic.deviation = fit.plastic.deviation = 1e-5;
   CHECK_THROWS_WITH(NetworkModulus(fit), Catch::Contains("too rough to integrate"));
 }
+
+}  // namespace test_network_modulus

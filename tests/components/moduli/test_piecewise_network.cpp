@@ -8,6 +8,9 @@
 
 #include "tests/components/moduli/random_network.hpp"
 
+namespace test_piecewise_network
+{
+
 using tamp::components::Activation;
 using tamp::components::DenseLayer;
 using tamp::components::DenseNetwork;
@@ -90,3 +93,5 @@ TEST_CASE("a kink is where a neuron switches and nowhere else")
     }
   }
 }
+
+}  // namespace test_piecewise_network

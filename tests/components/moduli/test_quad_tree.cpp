@@ -2,6 +2,9 @@
 
 #include <catch2/catch.hpp>
 
+namespace test_quad_tree
+{
+
 using tamp::components::QuadTree;
 
 namespace
@@ -56,3 +59,5 @@ TEST_CASE("a quad tree contains its squares up to but not including the far edge
   CHECK_FALSE(tree.contains(0, 2 * unit));
   CHECK_FALSE(tree.contains(-1, 0));
 }
+
+}  // namespace test_quad_tree

@@ -8,6 +8,9 @@
 #include "components/errors.hpp"
 #include "tests/components/moduli/jittered_fit.hpp"
 
+namespace test_support_vector_modulus
+{
+
 using tamp::components::BadValue;
 using tamp::components::ElasticPoint;
 using tamp::components::StrainRange;
@@ -305,3 +308,5 @@ TEST_CASE("a fit that has no positive modulus at elastic strain zero is refused"
   CHECK(refusal(short_box).found == "total strains from -0.100000 to 0.200000, plastic ones from 0.000000 to 0.320000");
   CHECK(refusal(no_plastic).found == "plastic strains up to 0.000000");
 }
+
+}  // namespace test_support_vector_modulus

@@ -7,6 +7,9 @@
 #include "components/errors.hpp"
 #include "tests/components/materials/concrete_sand.hpp"
 
+namespace test_unloading_table
+{
+
 using tamp::components::BadValue;
 using tamp::components::ElasticPoint;
 using tamp::components::UnloadingTable;
@@ -184,3 +187,5 @@ TEST_CASE("states beyond the measured curves are out of range")
   CHECK_FALSE(table.in_range(0.01, 0.33));
   CHECK_FALSE(table.in_range(-0.01, 0.1));
 }
+
+}  // namespace test_unloading_table

@@ -7,6 +7,9 @@
 #include "components/errors.hpp"
 #include "tests/components/problems/force_needed.hpp"
 
+namespace test_axis_aligned
+{
+
 using namespace tamp;
 using namespace tamp::components;
 
@@ -73,3 +76,5 @@ TEST_CASE("the axis-aligned solution is refused for what it is not made for")
                   BadParameter);
   CHECK_NOTHROW(AxisAligned{.amplitude = 0.31, .length = 1, .n_axes = 1}.functions({2, density, solid}));
 }
+
+}  // namespace test_axis_aligned

@@ -7,6 +7,9 @@
 #include "tests/components/materials/concrete_sand.hpp"
 #include "tests/components/problems/force_needed.hpp"
 
+namespace test_compacted_column
+{
+
 using namespace tamp;
 using namespace tamp::components;
 
@@ -104,3 +107,5 @@ TEST_CASE("a column is compacted at its foot, free at its end, and at rest in th
   CHECK(u(0.4, 4e-3) == Approx(-0.04));
   CHECK(u(0.4, 9e-3) == u(0.4, 4e-3));
 }
+
+}  // namespace test_compacted_column

@@ -6,6 +6,9 @@
 #include "components/errors.hpp"
 #include "tests/components/problems/force_needed.hpp"
 
+namespace test_ring
+{
+
 using namespace tamp;
 using namespace tamp::components;
 
@@ -81,3 +84,5 @@ TEST_CASE("a ring that its solution does not hold for is refused")
   CHECK_NOTHROW(with([](Ring& ring) { ring.amplitude = 0.385; }));
   CHECK(!with([](Ring& ring) { ring.on_rings = false; }).layout);
 }
+
+}  // namespace test_ring

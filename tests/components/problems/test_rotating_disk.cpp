@@ -5,6 +5,9 @@
 
 #include "components/errors.hpp"
 
+namespace test_rotating_disk
+{
+
 using namespace tamp;
 using namespace tamp::components;
 
@@ -30,3 +33,5 @@ TEST_CASE("a rotating disk's force is the acceleration of its motion")
           {2, 1000, material})),
       BadParameter);
 }
+
+}  // namespace test_rotating_disk

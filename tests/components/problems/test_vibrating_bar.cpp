@@ -5,6 +5,9 @@
 
 #include "components/errors.hpp"
 
+namespace test_vibrating_bar
+{
+
 using namespace tamp;
 using namespace tamp::components;
 
@@ -30,3 +33,5 @@ TEST_CASE("a vibrating bar's solution is a wave that starts with its velocity")
           {2, 4, MaterialModel(DruckerPrager{.bulk_modulus = 60, .shear_modulus = 30, .friction_angle = 30})}),
       BadValue);
 }
+
+}  // namespace test_vibrating_bar

@@ -6,6 +6,9 @@
 #include "components/errors.hpp"
 #include "tests/components/problems/force_needed.hpp"
 
+namespace test_vortex
+{
+
 using namespace tamp;
 using namespace tamp::components;
 
@@ -90,3 +93,5 @@ TEST_CASE("a vortex that its solution does not hold for is refused")
   CHECK(!functions.holds(in_vortex(0.7, 3)));
   CHECK(!functions.holds(in_vortex(1.3, 3)));
 }
+
+}  // namespace test_vortex

@@ -10,6 +10,9 @@
 #include "components/relief/f_bar.hpp"
 #include "components/relief/volume_changes.hpp"
 
+namespace test_volume_changes
+{
+
 using namespace tamp;
 using namespace tamp::components;
 
@@ -138,3 +141,5 @@ TEMPLATE_TEST_CASE_SIG("the gradient at a cell's centre is that of a linear velo
 
   for (const Matrix<D>& step : g) CHECK((step - 0.1 * gradient).norm() < 1e-15);
 }
+
+}  // namespace test_volume_changes

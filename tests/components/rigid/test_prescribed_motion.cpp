@@ -4,6 +4,9 @@
 
 #include "components/errors.hpp"
 
+namespace test_prescribed_motion
+{
+
 using namespace tamp::components;
 using tamp::Vector;
 
@@ -48,3 +51,5 @@ TEST_CASE("times that do not ascend, and displacements that do not begin at zero
   CHECK_THROWS_AS(PrescribedMotion::of_displacements({{0, zero}}), BadValue);
   CHECK_THROWS_AS(PrescribedMotion::of_displacements({{0, one}, {1, one}}), BadValue);
 }
+
+}  // namespace test_prescribed_motion

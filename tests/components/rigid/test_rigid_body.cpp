@@ -7,6 +7,9 @@
 #include "components/errors.hpp"
 #include "components/rigid/rigid_body.hpp"
 
+namespace test_rigid_body
+{
+
 using namespace tamp::components;
 
 namespace
@@ -148,3 +151,5 @@ TEST_CASE("one particle is no rigid body")
   const std::vector<Vector3> place{Vector3::Zero()};
   CHECK_THROWS_AS(mass_properties(mass, place, 0.1, false), BadValue);
 }
+
+}  // namespace test_rigid_body

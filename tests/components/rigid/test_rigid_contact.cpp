@@ -3,6 +3,9 @@
 
 #include "components/rigid/rigid_contact.hpp"
 
+namespace test_rigid_contact
+{
+
 using namespace tamp::components;
 
 namespace
@@ -78,3 +81,5 @@ TEST_CASE("without contact a rigid body keeps its motion")
   CHECK((motion.velocity - free.momentum / 3).norm() < 1e-15);
   CHECK((motion.spin - angular_velocity(body, free)).norm() < 1e-15);
 }
+
+}  // namespace test_rigid_contact

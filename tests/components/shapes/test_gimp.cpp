@@ -6,6 +6,9 @@
 
 #include "tests/components/shapes/shape_reference.hpp"
 
+namespace test_gimp
+{
+
 using namespace tamp;
 using namespace tamp::components;
 using namespace tamp::test;
@@ -177,3 +180,5 @@ TEMPLATE_TEST_CASE_SIG("weights and gradients are continuous where the reached n
     }
   }
 }
+
+}  // namespace test_gimp

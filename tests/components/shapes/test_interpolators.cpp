@@ -13,6 +13,9 @@
 #include "components/shapes/transfer.hpp"
 #include "tests/components/shapes/shape_reference.hpp"
 
+namespace test_interpolators
+{
+
 using namespace tamp;
 using namespace tamp::components;
 using namespace tamp::test;
@@ -344,3 +347,5 @@ TEMPLATE_TEST_CASE_SIG("dense stencils take from the grid what they give to it",
   CHECK((motion[0].velocity_change - expected.velocity_change).norm() < 1e-13);
   CHECK((motion[0].velocity_gradient - expected.velocity_gradient).norm() * cell_size < 1e-13);
 }
+
+}  // namespace test_interpolators

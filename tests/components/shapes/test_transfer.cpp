@@ -10,6 +10,9 @@
 #include "components/transfers/apic.hpp"
 #include "tests/components/shapes/shape_reference.hpp"
 
+namespace test_transfer
+{
+
 using namespace tamp;
 using namespace tamp::components;
 using namespace tamp::test;
@@ -377,3 +380,5 @@ TEMPLATE_TEST_CASE_SIG("no place of a particle alone is stiffer than the greates
   // It just reaches the node behind.
   CHECK(alone(l - 1e-6) == Approx(greatest).epsilon(1e-4));
 }
+
+}  // namespace test_transfer

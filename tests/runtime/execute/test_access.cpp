@@ -2,7 +2,7 @@
 
 #include "tests/runtime/heat.hpp"
 
-namespace tamp::runtime
+namespace tamp::runtime::test_access
 {
 
 namespace
@@ -62,4 +62,4 @@ TEST_CASE("the checked build fills what is to be computed with not-a-number", "[
   CHECK(std::isnan(warehouse.grid_result(field, 0, 0)[{0, 0, 0}]) == checked_build);
 }
 
-}  // namespace tamp::runtime
+}  // namespace tamp::runtime::test_access

@@ -12,7 +12,7 @@
 #include "tests/runtime/execute/toy_work.hpp"
 #include "tests/runtime/heat.hpp"
 
-namespace tamp::runtime
+namespace tamp::runtime::test_executor
 {
 
 namespace
@@ -271,4 +271,4 @@ TEST_CASE("an executor serves several schedules in turn", "[executor]")
   CHECK(n == 150);
 }
 
-}  // namespace tamp::runtime
+}  // namespace tamp::runtime::test_executor

@@ -5,7 +5,7 @@
 #include "runtime/execute/executor.hpp"
 #include "runtime/execute/halo.hpp"
 
-namespace tamp::runtime
+namespace tamp::runtime::test_halo
 {
 
 namespace
@@ -134,4 +134,4 @@ TEST_CASE("state that others read of the step before only comes in every step", 
   CHECK(as_expected);
 }
 
-}  // namespace tamp::runtime
+}  // namespace tamp::runtime::test_halo

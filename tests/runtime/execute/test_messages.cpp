@@ -7,7 +7,7 @@
 #include "runtime/execute/executor.hpp"
 #include "tests/runtime/execute/toy_work.hpp"
 
-namespace tamp::runtime
+namespace tamp::runtime::test_messages
 {
 
 namespace
@@ -241,4 +241,4 @@ TEST_CASE("workers that share their cores get everything done, too", "[executor]
   CHECK(n_run == 20 * 20);
 }
 
-}  // namespace tamp::runtime
+}  // namespace tamp::runtime::test_messages

@@ -6,7 +6,7 @@
 #include "runtime/execute/bound_graph.hpp"
 #include "runtime/execute/executor.hpp"
 
-namespace tamp::runtime
+namespace tamp::runtime::test_migration
 {
 
 namespace
@@ -146,4 +146,4 @@ TEST_CASE("a particle that is not a number leaves the grid instead of being inde
   CHECK(drift.n_lost() == 64);
 }
 
-}  // namespace tamp::runtime
+}  // namespace tamp::runtime::test_migration

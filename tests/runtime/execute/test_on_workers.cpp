@@ -5,6 +5,9 @@
 
 #include "tests/runtime/shared_cores.hpp"
 
+namespace test_on_workers
+{
+
 using namespace tamp::runtime;
 
 TEST_CASE("workers make every call once, however many they are")
@@ -32,3 +35,5 @@ TEST_CASE("what a worker's call throws is thrown as it is, and the workers go on
 
   CHECK(n_calls == 1);
 }
+
+}  // namespace test_on_workers

@@ -8,7 +8,7 @@
 #include "runtime/profile/profiler.hpp"
 #include "tests/runtime/shared_cores.hpp"
 
-namespace tamp::runtime
+namespace tamp::runtime::test_sparse
 {
 
 namespace
@@ -288,4 +288,4 @@ TEST_CASE("a task that was always skipped is in the profile with zeros")
   }
 }
 
-}  // namespace tamp::runtime
+}  // namespace tamp::runtime::test_sparse

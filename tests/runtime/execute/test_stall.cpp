@@ -13,7 +13,7 @@
 #include "runtime/execute/executor.hpp"
 #include "tests/runtime/execute/toy_work.hpp"
 
-namespace tamp::runtime
+namespace tamp::runtime::test_stall
 {
 
 namespace
@@ -171,4 +171,4 @@ TEST_CASE("a stalled process reports on the standard error stream and ends with 
   CHECK_THAT(text, Contains("blocked: task 1 waits for message 0\n"));
 }
 
-}  // namespace tamp::runtime
+}  // namespace tamp::runtime::test_stall

@@ -5,7 +5,7 @@
 
 #include "runtime/graph/declaration.hpp"
 
-namespace tamp::runtime
+namespace tamp::runtime::test_task_data
 {
 
 namespace
@@ -65,4 +65,4 @@ TEST_CASE("a label that its task did not declare is not to be had, nor its value
   STATIC_REQUIRE_FALSE(Data::has(volume));
 }
 
-}  // namespace tamp::runtime
+}  // namespace tamp::runtime::test_task_data

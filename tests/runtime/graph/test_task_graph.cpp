@@ -5,7 +5,7 @@
 
 #include "runtime/graph/dump.hpp"
 
-namespace tamp::runtime
+namespace tamp::runtime::test_task_graph
 {
 
 namespace
@@ -303,4 +303,4 @@ TEST_CASE("what one rank needs of another for one purpose is one message, sent a
   }
 }
 
-}  // namespace tamp::runtime
+}  // namespace tamp::runtime::test_task_graph

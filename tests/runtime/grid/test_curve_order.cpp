@@ -5,7 +5,7 @@
 #include <cstdlib>
 #include <numeric>
 
-namespace tamp::runtime
+namespace tamp::runtime::test_curve_order
 {
 
 namespace
@@ -44,4 +44,4 @@ TEST_CASE("through a cube whose side is a power of two every step of the curve i
   CHECK(longest == 1);
 }
 
-}  // namespace tamp::runtime
+}  // namespace tamp::runtime::test_curve_order

@@ -5,7 +5,7 @@
 #include "runtime/profile/report.hpp"
 #include "tests/runtime/heat.hpp"
 
-namespace tamp::runtime
+namespace tamp::runtime::test_profiler
 {
 
 TEST_CASE("a quantile of durations is right to a bin", "[profile]")
@@ -56,4 +56,4 @@ TEST_CASE("the ledger knows the bytes of each label", "[profile]")
   CHECK(bytes == 4 * 10 * 10 * sizeof(double) * 2);
 }
 
-}  // namespace tamp::runtime
+}  // namespace tamp::runtime::test_profiler

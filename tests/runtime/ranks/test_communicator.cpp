@@ -2,6 +2,9 @@
 
 #include <catch2/catch.hpp>
 
+namespace test_communicator
+{
+
 using namespace tamp::runtime;
 
 TEST_CASE("sums, least and greatest values over the ranks are known to all", "[ranks]")
@@ -35,3 +38,5 @@ TEST_CASE("something is so on all ranks only if it is so on each", "[ranks]")
   CHECK(world.all(true));
   CHECK_FALSE(world.all(world.rank() != world.size() - 1));
 }
+
+}  // namespace test_communicator

@@ -6,7 +6,7 @@
 
 #include "runtime/ranks/load_balance.hpp"
 
-namespace tamp::runtime
+namespace tamp::runtime::test_deal_patches
 {
 
 namespace
@@ -61,4 +61,4 @@ TEST_CASE("patches are dealt anew only for a gain that is worth it", "[ranks of 
   CHECK(deal->imbalance_expected == Approx(1));
 }
 
-}  // namespace tamp::runtime
+}  // namespace tamp::runtime::test_deal_patches

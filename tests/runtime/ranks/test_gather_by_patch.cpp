@@ -2,6 +2,9 @@
 
 #include <catch2/catch.hpp>
 
+namespace test_gather_by_patch
+{
+
 using namespace tamp::runtime;
 
 TEST_CASE("values of patches come to the first rank in the order of the patches", "[ranks]")
@@ -25,3 +28,5 @@ TEST_CASE("values of patches come to the first rank in the order of the patches"
 
   CHECK(gathered == (world.is_first() ? all : std::vector<double>()));
 }
+
+}  // namespace test_gather_by_patch

@@ -4,6 +4,9 @@
 #include "runtime/file_error.hpp"
 #include "runtime/ranks/on_all_ranks.hpp"
 
+namespace test_on_all_ranks
+{
+
 using namespace tamp::runtime;
 
 TEST_CASE("a file that fails on one rank is an error on all, and says the same", "[ranks]")
@@ -37,3 +40,5 @@ TEST_CASE("work that succeeds on all ranks throws on none", "[ranks]")
   CHECK_NOTHROW(on_all_ranks(Communicator::world(), [&] { ++n_done; }));
   CHECK(n_done == 1);
 }
+
+}  // namespace test_on_all_ranks

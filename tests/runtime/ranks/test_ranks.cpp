@@ -9,7 +9,7 @@
 #include "runtime/ranks/deal_patches.hpp"
 #include "tests/runtime/shared_cores.hpp"
 
-namespace tamp::runtime
+namespace tamp::runtime::test_ranks
 {
 
 namespace
@@ -355,4 +355,4 @@ TEST_CASE("a task that throws on one rank stops the others, which hear why", "[r
   all.barrier();
 }
 
-}  // namespace tamp::runtime
+}  // namespace tamp::runtime::test_ranks

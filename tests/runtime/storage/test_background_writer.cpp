@@ -5,6 +5,9 @@
 #include <memory>
 #include <stdexcept>
 
+namespace test_background_writer
+{
+
 using tamp::runtime::BackgroundWriter;
 
 namespace
@@ -105,3 +108,5 @@ TEST_CASE("jobs that are left when a writer goes are done")
 
   CHECK(n_done == 3);
 }
+
+}  // namespace test_background_writer

@@ -6,6 +6,9 @@
 
 #include "runtime/storage/checksum.hpp"
 
+namespace test_checksum
+{
+
 using namespace tamp::runtime;
 
 namespace
@@ -62,3 +65,5 @@ TEST_CASE("bytes that were cut off, that are zero, or that changed places change
 
   CHECK(sums.size() == n_different);
 }
+
+}  // namespace test_checksum

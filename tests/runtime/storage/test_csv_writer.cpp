@@ -8,6 +8,9 @@
 #include "tests/runtime/storage/stored_data.hpp"
 #include "tests/runtime/storage/temporary_folder.hpp"
 
+namespace test_csv_writer
+{
+
 using namespace tamp::runtime;
 using namespace tamp::test;
 
@@ -146,3 +149,5 @@ TEST_CASE("a file that cannot be replaced is an error, and is left as it was")
   CHECK(fs::is_directory(folder.path / "summary.json"));
   CHECK_FALSE(fs::exists(folder.path / "summary.json.part"));
 }
+
+}  // namespace test_csv_writer

@@ -9,6 +9,9 @@
 #include "tests/runtime/storage/stored_data.hpp"
 #include "tests/runtime/storage/temporary_folder.hpp"
 
+namespace test_folder_lock
+{
+
 using namespace tamp::runtime;
 using namespace tamp::test;
 
@@ -106,3 +109,5 @@ TEST_CASE("a folder that cannot be locked is an error of files")
   CHECK_THROWS_AS(FolderLock("/no/such/folder"), FileError);
   CHECK_THROWS_AS(FolderLock("/proc"), FileError);
 }
+
+}  // namespace test_folder_lock

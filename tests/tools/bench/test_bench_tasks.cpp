@@ -4,6 +4,9 @@
 
 #include "tests/tools/program.hpp"
 
+namespace test_bench_tasks
+{
+
 using namespace tamp::test;
 
 TEST_CASE("the benchmark of tasks compares schedulers in one table and one file")
@@ -71,3 +74,5 @@ TEST_CASE("numbers of rounds and threads below one are refused")
   CHECK(tamp_with("bench tasks --rounds 0").exit_code == 2);
   CHECK(tamp_with("bench tasks --threads 1,0").exit_code == 2);
 }
+
+}  // namespace test_bench_tasks

@@ -4,6 +4,9 @@
 #include "tests/tools/program.hpp"
 #include "tools/bench/peak_rate.hpp"
 
+namespace test_bench_windows
+{
+
 using namespace tamp::test;
 
 namespace
@@ -76,3 +79,5 @@ TEST_CASE(
   CHECK(rate > 1e6);
   CHECK(rate < 1e12);
 }
+
+}  // namespace test_bench_windows

@@ -5,6 +5,9 @@
 #include "tools/bench/tasks_graph.hpp"
 #include "tools/bench/tasks_schedulers.hpp"
 
+namespace test_tasks_graph
+{
+
 using namespace tamp;
 using namespace tamp::tools::bench;
 
@@ -141,3 +144,5 @@ TEST_CASE("every scheduler of the comparison runs every task once, after what it
   }
 }
 #endif
+
+}  // namespace test_tasks_graph

@@ -4,6 +4,9 @@
 
 #include "tools/bench/tasks_metg.hpp"
 
+namespace test_tasks_metg
+{
+
 using namespace tamp::tools::bench;
 
 TEST_CASE("METG is interpolated in the logarithm of the granularity")
@@ -29,3 +32,5 @@ TEST_CASE("there is no METG where the efficiency does not rise through one half"
   CHECK_FALSE(metg50(std::vector<TaskSample>{{100, 10}, {200, 99}}));
   CHECK_FALSE(metg50(std::vector<TaskSample>{{100, 60}, {200, 150}}));
 }
+
+}  // namespace test_tasks_metg

@@ -4,6 +4,9 @@
 
 #include "tools/bench/tasks_pattern.hpp"
 
+namespace test_tasks_pattern
+{
+
 using namespace tamp::tools::bench;
 
 namespace
@@ -45,3 +48,5 @@ TEST_CASE("a point of the cube reads exactly the 27 points around it, across the
     CHECK(pattern.dependencies[static_cast<std::size_t>(a)] == expected);
   }
 }
+
+}  // namespace test_tasks_pattern

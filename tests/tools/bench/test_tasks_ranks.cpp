@@ -3,6 +3,9 @@
 
 #include "tools/bench/tasks_ranks_contestants.hpp"
 
+namespace test_tasks_ranks
+{
+
 using namespace tamp;
 using namespace tamp::tools::bench;
 
@@ -60,3 +63,5 @@ TEST_CASE("the graph and the exchange by hand run every step of the row, on one 
     CHECK(row.fault().empty());
   }
 }
+
+}  // namespace test_tasks_ranks

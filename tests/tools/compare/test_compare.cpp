@@ -6,6 +6,9 @@
 #include "tests/tools/impact.hpp"
 #include "tools/compare/compare.hpp"
 
+namespace test_compare
+{
+
 using namespace tamp;
 using Catch::Contains;
 using tools::Json;
@@ -141,3 +144,5 @@ TEST_CASE("a comparison's folder that is not empty is refused unless force is gi
   CHECK(compare_with(folder, line).exit_code == 2);
   CHECK(compare_with(folder, line + " --force").exit_code == 0);
 }
+
+}  // namespace test_compare

@@ -3,6 +3,9 @@
 #include "tools/compare/comparison.hpp"
 #include "tools/compare/comparison_report.hpp"
 
+namespace test_comparison
+{
+
 using namespace tamp::tools::compare;
 using Catch::Contains;
 
@@ -66,3 +69,5 @@ TEST_CASE("a reason with commas and quotes is one cell of the table")
 
   CHECK_THAT(to_csv(comparison_of({model})), Contains("unstable,\"step 3, particle \"\"7\"\"\","));
 }
+
+}  // namespace test_comparison

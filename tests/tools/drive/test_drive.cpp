@@ -11,6 +11,9 @@
 #include "tools/drive/drive_costs.hpp"
 #include "tools/scene/read_material.hpp"
 
+namespace test_drive
+{
+
 using namespace tamp;
 using tools::DeformationPath;
 using tools::drive;
@@ -264,3 +267,5 @@ TEST_CASE("the updates of a drive, made side by side for their cost, take the su
     CHECK(costs.ns_per_update > 0);
   }
 }
+
+}  // namespace test_drive

@@ -4,6 +4,9 @@
 
 #include "tests/tools/program.hpp"
 
+namespace test_drive_command
+{
+
 using namespace tamp::test;
 
 namespace
@@ -120,3 +123,5 @@ TEST_CASE("drive refuses rounds of a timing that is not asked for, and ends with
   CHECK(tamp_with(line + " --repeat 0 --summary " + (folder.path() / "s.json").string()).exit_code == 2);
   CHECK(tamp_with(line + " --summary /no/such/folder/summary.json").exit_code == 4);
 }
+
+}  // namespace test_drive_command

@@ -5,6 +5,9 @@
 #include "components/errors.hpp"
 #include "tools/drive/path.hpp"
 
+namespace test_path
+{
+
 using namespace tamp;
 using components::BadValue;
 using tools::DeformationPath;
@@ -85,3 +88,5 @@ TEST_CASE("a rotation needs an axis, and keeps it from one turned row to the nex
   CHECK(refused_row({{0, identity, 0.1, z}, {1, identity, 0.2, Vector<3>(1, 0, 0)}}) == 1);
   CHECK(refused_row({{0, identity, 0.1, z}, {1, identity}, {2, identity, 0.2, Vector<3>(1, 0, 0)}}) == -2);
 }
+
+}  // namespace test_path

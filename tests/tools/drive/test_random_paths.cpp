@@ -5,6 +5,9 @@
 #include "tests/components/materials/random_paths.hpp"
 #include "tools/scene/read_material.hpp"
 
+namespace test_random_paths
+{
+
 using namespace tamp;
 
 // Long, so it runs only when asked for, and prints what it counts:
@@ -51,3 +54,5 @@ TEST_CASE("on 100,000 random paths the MLP sand neither fails nor leaves the yie
 {
   follow_shipped_sand("mlp");
 }
+
+}  // namespace test_random_paths

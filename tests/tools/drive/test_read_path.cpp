@@ -6,6 +6,9 @@
 #include "tools/drive/read_path.hpp"
 #include "tools/errors.hpp"
 
+namespace test_read_path
+{
+
 using namespace tamp;
 using tools::read_path;
 
@@ -79,3 +82,5 @@ TEST_CASE("a path that is not there is an error of files")
 {
   CHECK_THROWS_AS(read_path("/no/such/path.csv"), runtime::FileError);
 }
+
+}  // namespace test_read_path

@@ -2,6 +2,9 @@
 
 #include "tests/tools/scene/small_scene.hpp"
 
+namespace test_bad_scenes
+{
+
 using namespace tamp::test;
 
 namespace
@@ -724,3 +727,5 @@ TEST_CASE("more materials or bodies than a step has room for are refused")
   }
   CHECK(problems_with(bodies) == "scene.json#/bodies: 18 entries; expected at most 16");
 }
+
+}  // namespace test_bad_scenes

@@ -4,6 +4,9 @@
 #include "tests/tools/scene/small_scene.hpp"
 #include "tools/scene/compiled_moduli.hpp"
 
+namespace test_compiled_moduli
+{
+
 using namespace tamp;
 using namespace tamp::test;
 
@@ -28,3 +31,5 @@ TEST_CASE(
   CHECK_THAT(lines[0], Catch::StartsWith("modulus of sand: svr compiled to 0.001: ") &&
                            Catch::Contains(" patches, largest error p "));
 }
+
+}  // namespace test_compiled_moduli

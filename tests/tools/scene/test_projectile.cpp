@@ -8,6 +8,9 @@
 #include "components/geometry/fill.hpp"
 #include "tests/tools/scene/small_scene.hpp"
 
+namespace test_projectile
+{
+
 using namespace tamp;
 using namespace tamp::test;
 
@@ -121,3 +124,5 @@ TEST_CASE("particles hold the projectile's volume the better the finer they are"
   CHECK(error(0.97e-3) < 5e-2);
   CHECK(error(0.243e-3) < 5e-3);
 }
+
+}  // namespace test_projectile

@@ -9,6 +9,9 @@
 #include "tools/scene/read_material.hpp"
 #include "tools/scene/read_modulus.hpp"
 
+namespace test_read_modulus
+{
+
 using namespace tamp;
 using namespace tamp::test;
 using components::ElasticPoint;
@@ -264,3 +267,5 @@ TEST_CASE("files of materials that name each other in a ring are told")
 
   CHECK_THAT(problems, Catch::Contains("b.json#/file: ") && Catch::Contains("names itself"));
 }
+
+}  // namespace test_read_modulus

@@ -8,6 +8,9 @@
 #include "tests/tools/scene/small_models.hpp"
 #include "tools/scene/read_network.hpp"
 
+namespace test_read_network
+{
+
 using namespace tamp;
 using namespace tamp::test;
 using components::Activation;
@@ -209,3 +212,5 @@ TEST_CASE("scaling and range that cannot be such are told")
   CHECK(problems_of_network(content) ==
         "n.h5#/range: [0, 0.1, 0.3, 0.2]; expected least < most elastic strain, least < most plastic strain");
 }
+
+}  // namespace test_read_network

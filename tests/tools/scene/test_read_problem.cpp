@@ -3,6 +3,9 @@
 #include "tests/tools/scene/small_scene.hpp"
 #include "tools/scene/print_json.hpp"
 
+namespace test_read_problem
+{
+
 using namespace tamp;
 using namespace tamp::test;
 
@@ -157,3 +160,5 @@ TEST_CASE("particles that a problem puts outside of the body or the grid are tol
              Catch::StartsWith(at_problem + ": the particle of [0.25, 0.25] starts at [0.25, -0.0098") &&
                  Catch::Contains("expected a place within the grid"));
 }
+
+}  // namespace test_read_problem

@@ -4,6 +4,9 @@
 #include "tests/tools/scene/small_scene.hpp"
 #include "tools/scene/print_json.hpp"
 
+namespace test_read_scene
+{
+
 using namespace tamp;
 using namespace tamp::test;
 using tools::read_scene;
@@ -175,3 +178,5 @@ TEST_CASE("every kind of geometry is read")
   CHECK(volume(R"({"type":"rotated_box","centre":[1,1,1],"sides":[1,0.5,1],"angle":45})") == Approx(0.5));
   CHECK(volume(R"({"type":"cylinder","first_end":[1,1,0],"second_end":[1,1,2],"radius":0.5})") == Approx(pi / 2));
 }
+
+}  // namespace test_read_scene

@@ -6,6 +6,9 @@
 #include "components/geometry/closed_mesh.hpp"
 #include "tests/tools/scene/small_scene.hpp"
 
+namespace test_read_solid
+{
+
 using namespace tamp;
 using namespace tamp::test;
 using tools::read_scene;
@@ -186,3 +189,5 @@ TEST_CASE("a mesh is read, scaled, and told when it is open, damaged or not ther
         "--set#/bodies/block/geometry: shape.stl holds no STL, or one that is damaged; expected triangles in STL, "
         "binary or text");
 }
+
+}  // namespace test_read_solid

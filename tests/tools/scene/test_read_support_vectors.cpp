@@ -7,6 +7,9 @@
 #include "tests/tools/scene/small_models.hpp"
 #include "tools/scene/read_support_vectors.hpp"
 
+namespace test_read_support_vectors
+{
+
 using namespace tamp;
 using namespace tamp::test;
 using nlohmann::json;
@@ -108,3 +111,5 @@ TEST_CASE("text that is no JSON, and a file that does not exist, are told")
   CHECK_THAT(problems_of_text(R"({"gamma": NaN})"), Catch::StartsWith("svr.json:1:"));
   CHECK_THROWS_AS(read_support_vectors("/no/such/svr.json"), runtime::FileError);
 }
+
+}  // namespace test_read_support_vectors

@@ -4,6 +4,9 @@
 
 #include "tools/scene/schema.hpp"
 
+namespace test_schema
+{
+
 using namespace tamp;
 
 namespace
@@ -49,3 +52,5 @@ TEST_CASE("the schema tells an editor unit, default and range of a key")
   CHECK(material.at("/allOf/0/then/properties/density/description"_json_pointer) ==
         "of the unstrained material [kg/m³]");
 }
+
+}  // namespace test_schema

@@ -7,6 +7,9 @@
 #include "tests/tools/problems.hpp"
 #include "tools/scene/unloading_curves.hpp"
 
+namespace test_unloading_curves
+{
+
 using namespace tamp;
 using namespace tamp::test;
 using nlohmann::json;
@@ -214,3 +217,5 @@ TEST_CASE("a bulk modulus that is not above zero is told with its place")
         Catch::StartsWith(data + "/Data/0/BulkModulus/1: ") && Catch::EndsWith("; expected a bulk modulus above 0"));
   }
 }
+
+}  // namespace test_unloading_curves

@@ -5,6 +5,9 @@
 
 #include "tests/tools/problems.hpp"
 
+namespace test_findings
+{
+
 using namespace tamp;
 using namespace tamp::test;
 using namespace tamp::tools::study;
@@ -180,3 +183,5 @@ TEST_CASE("an error budget has the greatest change of each part, and the distanc
   CHECK(*budget.parts[1].amount == Approx(0.025));
   CHECK_THAT(budget.parts[1].note, Catch::Contains("m 0.5: -2.5 %") && Catch::Contains("m 0.25: +1 %"));
 }
+
+}  // namespace test_findings

@@ -5,6 +5,9 @@
 
 #include "tests/tools/temporary_folder.hpp"
 
+namespace test_gates
+{
+
 using namespace tamp;
 using namespace tamp::test;
 using namespace tamp::tools::study;
@@ -120,3 +123,5 @@ TEST_CASE("a study that refines nothing has each point judged by itself")
   CHECK_FALSE(gates[1].holds);
   CHECK(gates[1].label == "a, k 2");
 }
+
+}  // namespace test_gates

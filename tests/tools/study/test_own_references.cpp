@@ -4,6 +4,9 @@
 #include "tools/errors.hpp"
 #include "tools/study/findings.hpp"
 
+namespace test_own_references
+{
+
 using namespace tamp::tools;
 using namespace tamp::tools::study;
 using tamp::test::TemporaryFolder;
@@ -73,3 +76,5 @@ TEST_CASE("an error budget asks for one reference of all methods")
   CHECK_THROWS_WITH(read_study(file, false),
                     Catch::Contains("#/budget/parts/0/to_reference: true; expected one reference for all methods"));
 }
+
+}  // namespace test_own_references

@@ -2,6 +2,9 @@
 
 #include <catch2/catch.hpp>
 
+namespace test_points
+{
+
 using namespace tamp;
 using namespace tamp::tools::study;
 using tools::Json;
@@ -60,3 +63,5 @@ TEST_CASE("references and error budgets add their own points")
   CHECK(points[9].settings == Settings{{"/time/end", 1}, {"/grid/cell_size", 2}, {"/time/multiplier", 0.25}});
   CHECK(points[9].setting("/nothing").is_null());
 }
+
+}  // namespace test_points

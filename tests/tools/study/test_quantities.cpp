@@ -4,6 +4,9 @@
 
 #include "tests/tools/problems.hpp"
 
+namespace test_quantities
+{
+
 using namespace tamp;
 using namespace tamp::test;
 using namespace tamp::tools::study;
@@ -100,3 +103,5 @@ TEST_CASE("the unit of a quantity is its column's")
   CHECK(unit_of(depth(Take::time_of_greatest)) == "s");
   CHECK(unit_of({"strain", Take::last, "strain[-]"}).empty());
 }
+
+}  // namespace test_quantities

@@ -3,6 +3,9 @@
 #include "tests/tools/problems.hpp"
 #include "tools/study/study.hpp"
 
+namespace test_read_study
+{
+
 using namespace tamp;
 using namespace tamp::test;
 using Catch::Contains;
@@ -170,3 +173,5 @@ TEST_CASE("the short form is laid over the study")
   CHECK(in_short.repeat == 1);
   CHECK(in_short.settings == tools::study::Settings{{"/a", 3}, {"/b", 2}});
 }
+
+}  // namespace test_read_study

@@ -3,6 +3,9 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
+namespace test_richardson
+{
+
 using namespace tamp::tools::study;
 
 namespace
@@ -78,3 +81,5 @@ TEST_CASE("the fitted order is the slope of the logarithms, without errors of 0"
   CHECK(fitted_order(spacings, std::vector{64.0, 16.0, 4.0, 0.0}) == Approx(2));
   CHECK(std::isnan(fitted_order(spacings, std::vector{64.0, 16.0, 0.0, 0.0})));
 }
+
+}  // namespace test_richardson

@@ -8,6 +8,9 @@
 #include "tests/tools/program.hpp"
 #include "tests/tools/scene/small_scene.hpp"
 
+namespace test_study_command
+{
+
 using namespace tamp::test;
 using Catch::Contains;
 using Json = nlohmann::json;
@@ -378,3 +381,5 @@ TEST_CASE("a reference that would be refused ends a study before anything runs")
   CHECK_THAT(outcome.err, Contains("study.json#/reference") && Contains("cell"));
   CHECK(study.n_kept() == 0);
 }
+
+}  // namespace test_study_command

@@ -3,6 +3,9 @@
 
 #include "tests/tools/program.hpp"
 
+namespace test_verify_command
+{
+
 using namespace tamp::test;
 using Catch::Contains;
 using Json = nlohmann::json;
@@ -95,3 +98,5 @@ TEST_CASE("a verification of a study that there is not is refused before anythin
   CHECK_THAT(outcome.err, Contains("soft: no study of inputs/verification; expected one of sound, unsound"));
   CHECK_THROWS(studies.results());
 }
+
+}  // namespace test_verify_command

@@ -8,6 +8,9 @@
 #include "tests/runtime/storage/stored_data.hpp"
 #include "tests/runtime/storage/temporary_folder.hpp"
 
+namespace test_checkpoint
+{
+
 using namespace tamp::test;
 
 namespace
@@ -310,3 +313,5 @@ TEST_CASE("a checkpoint that is written from a copy is of the moment at which th
   const FoundCheckpoint found = newest_checkpoint(folder.path / "copied", refused, world).value();
   CHECK(resumed(found, world, 1) == filled(1, world, 1));
 }
+
+}  // namespace test_checkpoint

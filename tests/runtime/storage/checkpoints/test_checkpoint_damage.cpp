@@ -8,6 +8,9 @@
 #include "tests/runtime/storage/stored_data.hpp"
 #include "tests/runtime/storage/temporary_folder.hpp"
 
+namespace test_checkpoint_damage
+{
+
 using namespace tamp::test;
 
 namespace
@@ -135,3 +138,5 @@ TEST_CASE("where every checkpoint is damaged none is found")
   CHECK_FALSE(newest_checkpoint(damaged.folder.path, refused));
   CHECK(refused.size() == 2);
 }
+
+}  // namespace test_checkpoint_damage

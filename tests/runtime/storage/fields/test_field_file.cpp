@@ -11,6 +11,9 @@
 #include "tests/runtime/storage/stored_data.hpp"
 #include "tests/runtime/storage/temporary_folder.hpp"
 
+namespace test_field_file
+{
+
 using namespace tamp::runtime;
 using namespace tamp::test;
 
@@ -192,3 +195,5 @@ TEST_CASE("a file that may not grow ends a step with an error that says so, and 
   CHECK(read_dataset(folder.path / "fields.h5", "/step_00000001/particles/sand/mass").values == particles.mass);
   CHECK(count(read_text(folder.path / "fields.xdmf"), "<Time Value=") == 1);
 }
+
+}  // namespace test_field_file

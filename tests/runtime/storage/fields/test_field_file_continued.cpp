@@ -9,6 +9,9 @@
 #include "tests/runtime/storage/stored_data.hpp"
 #include "tests/runtime/storage/temporary_folder.hpp"
 
+namespace test_field_file_continued
+{
+
 using namespace tamp::test;
 
 namespace
@@ -193,3 +196,5 @@ TEST_CASE("a field file that may not be written is not taken for a damaged one")
   CHECK(fs::exists(file));
   CHECK_FALSE(fs::exists(file.string() + ".damaged"));
 }
+
+}  // namespace test_field_file_continued

@@ -8,6 +8,9 @@
 #include "tests/runtime/storage/stored_data.hpp"
 #include "tests/runtime/storage/temporary_folder.hpp"
 
+namespace test_field_file_ranks
+{
+
 using namespace tamp::test;
 using namespace tamp::runtime;
 
@@ -183,3 +186,5 @@ TEST_CASE("what stops one rank from writing a step is an error on all, and the s
 
   CHECK(all_datasets(folder.path / "fields.h5").size() == 2 * 3);
 }
+
+}  // namespace test_field_file_ranks
