@@ -79,6 +79,12 @@ template <int D>
 inline const runtime::NodeLabel<components::NodeSums<D>, "node sums"> sums;
 template <int D>
 inline const runtime::NodeLabel<components::NodeMotion<D>, "node motion"> motion;
+/// What particles bring of their velocities for the gradients that deform them, and the velocities that these make.
+/// Only where particles do not deform by the velocities that move them.
+template <int D>
+inline const runtime::NodeLabel<components::NodeSums<D>, "carried sums"> carried_sums;
+template <int D>
+inline const runtime::NodeLabel<components::NodeMotion<D>, "carried motion"> carried_motion;
 /// 0 at nodes that hardly exist [1/kg].
 inline const runtime::NodeLabel<double, "inverse mass"> inverse_mass;
 /// Only for materials with a body under a pressure load.

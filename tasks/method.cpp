@@ -38,6 +38,7 @@ Method<D>::Method(const Scene& given)
       amplification(with_transfer([](const auto& transfer) -> double { return transfer.amplification(); })),
       deformation_update(scene.deformation_update),
       relief(scene.relief),
+      stress_timing(scene.stress_timing),
       cell_size(scene.grid.cell_size),
       least_node_mass(least_weight * least_particle_mass(scene)),
       gravity(vector_of<D>(scene.gravity)),

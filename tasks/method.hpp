@@ -88,6 +88,7 @@ struct Method {
   double amplification;
   DeformationUpdate deformation_update;
   Relief relief;
+  StressTiming stress_timing;
   double cell_size;
   /// Nodes with less mass [kg] are not accelerated: they are touched by an edge of a particle to within round-off, and
   /// as force goes with the slope of the weight but mass with its square, they would turn round-off into finite strain.

@@ -36,6 +36,11 @@ enum class Face { symmetry, open, friction, no_slip, periodic };
 /// How the time step is bounded, see components/loads/time_step.hpp.
 enum class StepRule { published, viscous };
 
+/// When stress follows the motion in a step, and by which velocities of nodes particles deform (Bardenhagen, J. Comput.
+/// Phys. 180, 2002): last, by those that move particles; first, by those that particles bring; or last, by those that
+/// particles bring back once they have their new velocities.
+enum class StressTiming { usl, usf, musl };
+
 using components::Interpolator;
 
 using components::Transfer;
@@ -177,6 +182,7 @@ struct Scene {
   int filter_order = 2;
   DeformationUpdate deformation_update = DeformationUpdate::exact;
   Relief relief = Relief::none;
+  StressTiming stress_timing = StressTiming::usl;
   /// Along each axis of a cell.
   int particles_per_axis = 2;
   Triple gravity{0, 0, 0};

@@ -343,11 +343,17 @@ class SimulationOf : public Simulation
   void add_filtered(const StepTotals& step, const GridTotals& of_nodes)
   {
     auto& results = engine_->warehouse();
-    const double by_loads = method_.pressed_materials.empty() ? 0 : results.result(load_totals).work_at_start;
-    const double by_body_forces = scene_.has_body_force() ? results.result(body_force_work).at_end : 0;
+    const LoadTotals loads = method_.pressed_materials.empty() ? LoadTotals{} : results.result(load_totals);
+    const BodyForceWork body_forces = scene_.has_body_force() ? results.result(body_force_work) : BodyForceWork{};
     totals_.filter += of_nodes.gained_by_nodes - of_nodes.gained_by_particles;
-    totals_.filter += of_nodes.taken_at_start + by_loads - taken_at_end_;
-    taken_at_end_ = step.taken_at_end - by_body_forces;
+    if (method_.stress_timing == StressTiming::usl) {
+      totals_.filter += of_nodes.taken_by_forces + loads.work_at_start - taken_at_end_;
+      taken_at_end_ = step.taken_at_end - body_forces.at_end;
+    } else {
+      // Stress works at other velocities than those of the nodes that its forces work on.
+      totals_.filter += of_nodes.taken_by_forces + loads.work + body_forces.value;
+      totals_.filter -= step.elastic + step.plastic + step.viscous;
+    }
   }
 
   /// Looks at what the patches have cost since the last look, and deals them anew if that pays.

@@ -35,6 +35,18 @@ runtime::TaskDeclaration hear_hosts()
       .body([](const runtime::TaskContext& at, auto data) { data[host_requests].bits = at.step.host_requests; });
 }
 
+/// Particles deform, where moving them has not done that, and their materials answer.
+template <int D>
+void add_stress(const Method<D>& method, std::vector<runtime::TaskDeclaration>& step)
+{
+  if (method.deformable_materials.empty()) return;
+  if (method.stress_timing != StressTiming::usl) {
+    for (runtime::TaskDeclaration& phase : deform_by_carried_velocities(method)) step.push_back(std::move(phase));
+  }
+  if (method.relief == Relief::cell_average) step.push_back(deform_as_cells(method));
+  for (const int material : method.deformable_materials) step.push_back(update_stress(method, material));
+}
+
 }  // namespace
 
 template <int D>
@@ -43,7 +55,8 @@ std::vector<runtime::TaskDeclaration> time_step(const Method<D>& method,
 {
   std::vector<runtime::TaskDeclaration> step;
   step.push_back(hear_hosts());
-  step.push_back(particles_to_grid(method));
+  if (method.stress_timing == StressTiming::usf) add_stress(method, step);
+  for (runtime::TaskDeclaration& phase : particles_to_grid(method)) step.push_back(std::move(phase));
   if (!method.pressed_materials.empty()) {
     for (runtime::TaskDeclaration& phase : press(method)) step.push_back(std::move(phase));
   }
@@ -65,11 +78,8 @@ std::vector<runtime::TaskDeclaration> time_step(const Method<D>& method,
   for (const RigidBody& body : method.rigid_bodies) step.push_back(move_rigid_particles(method, body.material));
   for (runtime::TaskDeclaration& phase : pass_velocities(method)) step.push_back(std::move(phase));
   if (!method.deformable_materials.empty()) step.push_back(grid_to_particles(method));
-  if (method.relief == Relief::cell_average && !method.deformable_materials.empty()) {
-    step.push_back(deform_as_cells(method));
-  }
   if (method.scene.has_body_force()) step.push_back(work_of_body_force(method));
-  for (const int material : method.deformable_materials) step.push_back(update_stress(method, material));
+  if (method.stress_timing != StressTiming::usf) add_stress(method, step);
   step.push_back(runtime::migration(particle::position<D>, step_totals, std::move(accepted),
                                     method.scene.is_periodic() ? &particle::laps : nullptr));
   return step;

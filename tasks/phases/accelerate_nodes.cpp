@@ -1,3 +1,5 @@
+#include <optional>
+
 #include "tasks/labels.hpp"
 #include "tasks/phases/kick.hpp"
 #include "tasks/phases/phases.hpp"
@@ -17,28 +19,32 @@ using runtime::TaskContext;
 template <int D>
 runtime::TaskDeclaration accelerate_nodes(const Method<D>& method)
 {
-  return runtime::task("accelerate nodes")
-      .over_patches_and_groups(method.deformable_materials)
-      .sparse()
-      .reads(node::sums<D>.halo(method.halo))
-      .computes(node::motion<D>.halo(method.halo), node::inverse_mass.halo(method.halo))
-      .body([&method](const TaskContext& at, auto data) {
-        const auto sums = data[node::sums<D>];
-        const auto motion = data[node::motion<D>];
-        const auto inverse_mass = data[node::inverse_mass];
-        for_each(sums.box(), [&](const Index& i) {
-          const NodeSums<D>& node = sums[i];
-          const double mass = node.mass();
-          inverse_mass[i] = mass > method.least_node_mass ? 1 / mass : 0;
-          if (!(mass > 0)) {
-            motion[i] = {};
-            return;
-          }
-          const Vector<D> velocity = node.momentum() / mass;
-          const Vector<D> change = kicked(method, at, i, node).damped;
-          motion[i].set(velocity + change, change);
-        });
-      });
+  auto task = runtime::task("accelerate nodes")
+                  .over_patches_and_groups(method.deformable_materials)
+                  .sparse()
+                  .reads(node::sums<D>.halo(method.halo))
+                  .computes(node::motion<D>.halo(method.halo));
+  const auto body = [&method](const TaskContext& at, auto data) {
+    const auto sums = data[node::sums<D>];
+    const auto motion = data[node::motion<D>];
+    std::optional<GridView<double>> inverse_mass;
+    if constexpr (data.has(node::inverse_mass)) inverse_mass.emplace(data[node::inverse_mass]);
+    for_each(sums.box(), [&](const Index& i) {
+      const NodeSums<D>& node = sums[i];
+      const double mass = node.mass();
+      if (inverse_mass) (*inverse_mass)[i] = mass > method.least_node_mass ? 1 / mass : 0;
+      if (!(mass > 0)) {
+        motion[i] = {};
+        return;
+      }
+      const Vector<D> velocity = node.momentum() / mass;
+      const Vector<D> change = kicked(method, at, i, node).damped;
+      motion[i].set(velocity + change, change);
+    });
+  };
+  // Where particles deform by other velocities, what they bring of these tells the masses too.
+  if (method.stress_timing != StressTiming::usl) return std::move(task).body(body);
+  return std::move(task).computes(node::inverse_mass.halo(method.halo)).body(body);
 }
 
 template runtime::TaskDeclaration accelerate_nodes(const Method<2>&);

@@ -12,6 +12,7 @@
 #include "components/shapes/transfer.hpp"
 #include "tasks/labels.hpp"
 #include "tasks/method.hpp"
+#include "tasks/phases/places.hpp"
 #include "tasks/simulation_error.hpp"
 
 namespace tamp::tasks
@@ -99,6 +100,47 @@ void take_gradients(const Method<D>& method, const runtime::TaskContext& at, con
   } else {
     deform<D>(method, at, data, first, g);
   }
+}
+
+/// The same, and how stiff these particles make their nodes.
+template <int D, class Data>
+void deform_by_nodes(const Method<D>& method, const runtime::TaskContext& at, const Data& data,
+                     const components::GridBlock<D>& block, const components::NodeMotion<D>* nodes,
+                     const double* inverse_mass, std::size_t first,
+                     std::span<const components::ParticleMotion<D>> motion)
+{
+  take_gradients<D>(method, at, data, block, nodes, first, motion);
+  const auto own_stiffness = data[particle::own_stiffness].subspan(first, motion.size());
+  if (method.time_step_rule == StepRule::viscous) {
+    const auto places = places_at_start<D>(data).subspan(first, motion.size());
+    const auto mass = data[particle::mass.previous()].subspan(first, motion.size());
+    method.interpolation(at.group).own_stiffness(block, places, mass, inverse_mass, own_stiffness);
+  } else {
+    std::ranges::fill(own_stiffness, 0.0);
+  }
+}
+
+/// Where particles deform as their cells do, these begin empty.
+template <class Data>
+void clear_cells(const Data& data)
+{
+  if constexpr (data.has(cell::volume)) {
+    for_each(data[cell::volume].box(), [&](const runtime::Index& i) { data[cell::volume][i] = {}; });
+  }
+}
+
+/// Declares what `deform_by_nodes` asks for beside places and masses, and hands the task on to `finish`.
+template <int D, class Task, class Finish>
+runtime::TaskDeclaration deforming(const Method<D>& method, Task task, const Finish& finish)
+{
+  auto reading = std::move(task)
+                     .reads(particle::id.previous(), particle::volume.previous(), particle::stress<D>.previous())
+                     .computes(particle::own_stiffness);
+  if (method.relief == Relief::cell_average) {
+    return finish(std::move(reading).computes(particle::step_gradient<D>, cell::volume));
+  }
+  return finish(std::move(reading).computes(particle::deformation_gradient<D>, particle::volume, particle::stress<D>,
+                                            particle::strain_increment<D>));
 }
 
 }  // namespace tamp::tasks

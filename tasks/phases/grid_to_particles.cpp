@@ -106,29 +106,22 @@ runtime::TaskDeclaration grid_to_particles(const Method<D>& method)
   auto task = runtime::task("grid to particles")
                   .over_patches_and_groups(method.deformable_materials)
                   .sparse()
-                  .reads(node::inverse_mass.halo(method.halo), node::motion<D>.halo(method.halo),
-                         particle::id.previous(), particle::mass.previous(), particle::position<D>.previous(),
-                         particle::velocity<D>.previous(), particle::deformation_gradient<D>.previous(),
-                         particle::volume.previous(), particle::stress<D>.previous())
-                  .computes(particle::position<D>, particle::velocity<D>, particle::own_stiffness)
+                  .reads(node::motion<D>.halo(method.halo), particle::mass.previous(), particle::position<D>.previous(),
+                         particle::velocity<D>.previous(), particle::deformation_gradient<D>.previous())
+                  .computes(particle::position<D>, particle::velocity<D>)
                   .reduces(grid_totals);
   const bool filters = method.with_transfer([](const auto& transfer) { return transfer.filters; });
   const auto body = [&method, filters](const TaskContext& at, auto data) {
-    const auto inverse_mass = data[node::inverse_mass];
     const auto nodes = data[node::motion<D>];
-    const auto mass = data[particle::mass.previous()];
-    const auto own_stiffness = data[particle::own_stiffness];
     const auto block = block_of<D>(at.layout, nodes);
     const auto places = places_at_start<D>(data);
     const components::Interpolation<D>& interpolation = method.interpolation(at.group);
-    if constexpr (data.has(cell::volume)) {
-      for_each(data[cell::volume].box(), [&](const runtime::Index& i) { data[cell::volume][i] = {}; });
-    }
+    clear_cells(data);
     std::array<ParticleMotion<D>, motion_batch> buffer;
     std::array<Vector<D>, motion_batch> restored;
     restored.fill(Vector<D>::Zero());
-    for (std::size_t first = 0; first < mass.size(); first += motion_batch) {
-      const std::size_t size = std::min(motion_batch, mass.size() - first);
+    for (std::size_t first = 0; first < places.size(); first += motion_batch) {
+      const std::size_t size = std::min(motion_batch, places.size() - first);
       const auto motion = std::span(buffer).first(size);
       interpolation.grid_to_particles(block, places.subspan(first, size), nodes.data(), motion);
       if constexpr (data.has(node::velocity_terms<D>)) {
@@ -141,22 +134,14 @@ runtime::TaskDeclaration grid_to_particles(const Method<D>& method)
         interpolation.velocity_moments(block, places.subspan(first, size), nodes.data(),
                                        data[particle::velocity_moment<D>].subspan(first, size));
       }
-      take_gradients<D>(method, at, data, block, nodes.data(), first, motion);
-      if (method.time_step_rule == StepRule::viscous) {
-        interpolation.own_stiffness(block, places.subspan(first, size), mass.subspan(first, size), inverse_mass.data(),
-                                    own_stiffness.subspan(first, size));
-      } else {
-        std::ranges::fill(own_stiffness.subspan(first, size), 0.0);
+      if constexpr (data.has(node::inverse_mass)) {
+        deform_by_nodes<D>(method, at, data, block, nodes.data(), data[node::inverse_mass].data(), first, motion);
       }
     }
   };
-  if (method.relief == Relief::cell_average) {
-    return with_velocities(method, std::move(task).computes(particle::step_gradient<D>, cell::volume), body);
-  }
-  return with_velocities(method,
-                         std::move(task).computes(particle::deformation_gradient<D>, particle::volume,
-                                                  particle::stress<D>, particle::strain_increment<D>),
-                         body);
+  if (method.stress_timing != StressTiming::usl) return with_velocities(method, std::move(task), body);
+  return deforming(method, std::move(task).reads(node::inverse_mass.halo(method.halo)),
+                   [&](auto whole_task) { return with_velocities(method, std::move(whole_task), body); });
 }
 
 template runtime::TaskDeclaration grid_to_particles(const Method<2>&);

@@ -1,8 +1,9 @@
-#include <stdexcept>
+#include <string>
+#include <utility>
 #include <vector>
 
-#include "components/shapes/transfer.hpp"
 #include "tasks/labels.hpp"
+#include "tasks/phases/bring_gradients.hpp"
 #include "tasks/phases/phases.hpp"
 #include "tasks/phases/places.hpp"
 #include "tasks/phases/walls.hpp"
@@ -10,90 +11,74 @@
 namespace tamp::tasks
 {
 
-using components::NodeSums;
-using components::Surroundings;
-using runtime::GridView;
-using runtime::Index;
 using runtime::TaskContext;
 
 namespace
 {
 
-template <int D>
-void fold(const Wall<D>& wall, const TaskContext& at, const GridView<NodeSums<D>>& sums)
+/// The task with what it gathers; it reads volume, stress and viscous pressure already, of the start of the step or as
+/// this step has made them.
+template <int D, class Task>
+runtime::TaskDeclaration gathering(const Method<D>& method, Task task)
 {
-  if (!wall.keeps_normal_push()) return wall.image.fold(sums.data());
-  wall.image.add_image(sums.data());
-  for_each_wall_node(wall, at.layout.grid(), sums.box(), [&](const Index& i) {
-    Vector<D> gradient = sums[i].surface_gradient();
-    gradient[wall.axis] = 0;
-    sums[i].set_surface_gradient(gradient);
-  });
-}
-
-/// The gradients [1/s] that moments of velocity come to with the weights of this step.
-template <int D>
-std::vector<Matrix<D>> affine_gradients(const components::Interpolation<D>& interpolation,
-                                        const components::GridBlock<D>& block,
-                                        const components::ParticlePlaces<D>& places,
-                                        std::span<const Matrix<D>> velocity_moments)
-{
-  std::vector<Matrix<D>> gradients(places.size());
-  interpolation.second_moments(block, places, gradients);
-  for (std::size_t p = 0; p < gradients.size(); ++p) {
-    gradients[p] = components::affine_gradient<D>(velocity_moments[p], gradients[p]);
-  }
-  return gradients;
-}
-
-}  // namespace
-
-template <int D>
-runtime::TaskDeclaration particles_to_grid(const Method<D>& method)
-{
-  auto task = runtime::task("particles to grid")
-                  .over_patches_and_groups()
-                  .sparse()
-                  .reads(particle::position<D>.previous(), particle::deformation_gradient<D>.previous(),
-                         particle::velocity<D>.previous(), particle::mass.previous(), particle::volume.previous(),
-                         particle::stress<D>.previous(), particle::viscous_pressure.previous())
-                  .accumulates(node::sums<D>.halo(method.halo));
-  const auto body = [&method](const TaskContext& at, auto data) {
+  auto whole = std::move(task).accumulates(node::sums<D>.halo(method.halo));
+  return with_gradients(method, std::move(whole), [&method](const TaskContext& at, auto data) {
     const auto sums = data[node::sums<D>];
     const auto block = block_of<D>(at.layout, sums);
     const components::Interpolation<D>& interpolation = method.interpolation(at.group);
     const components::ParticleSources<D> sources{.places = places_at_start<D>(data),
                                                  .velocity = data[particle::velocity<D>.previous()],
                                                  .mass = data[particle::mass.previous()],
-                                                 .volume = data[particle::volume.previous()],
-                                                 .stress = data[particle::stress<D>.previous()],
-                                                 .viscous_pressure = data[particle::viscous_pressure.previous()]};
+                                                 .volume = newest(data, particle::volume),
+                                                 .stress = newest(data, particle::stress<D>),
+                                                 .viscous_pressure = newest(data, particle::viscous_pressure)};
     interpolation.particles_to_grid(block, sources, method.needs_surface_of(at.group), sums.data());
-    if constexpr (data.has(particle::velocity_gradient<D>)) {
-      interpolation.add_gradient_momentum(block, sources.places, sources.mass,
-                                          data[particle::velocity_gradient<D>.previous()], sums.data());
-    }
-    if constexpr (data.has(particle::velocity_moment<D>)) {
-      interpolation.add_gradient_momentum(
-          block, sources.places, sources.mass,
-          affine_gradients<D>(interpolation, block, sources.places, data[particle::velocity_moment<D>.previous()]),
-          sums.data());
-    }
-    // The image behind a wall gives to the grid as the particles do.
+    bring_gradients<D>(interpolation, block, data, sums.data());
     for_each_wall(method, at, sums.box(), [&](const Wall<D>& wall) { fold(wall, at, sums); });
-  };
-  switch (method.surroundings) {
-    case Surroundings::none:
-      return std::move(task).body(body);
-    case Surroundings::gradient:
-      return std::move(task).reads(particle::velocity_gradient<D>.previous()).body(body);
-    case Surroundings::moment:
-      return std::move(task).reads(particle::velocity_moment<D>.previous()).body(body);
-  }
-  throw std::logic_error("unknown surroundings");
+  });
 }
 
-template runtime::TaskDeclaration particles_to_grid(const Method<2>&);
-template runtime::TaskDeclaration particles_to_grid(const Method<3>&);
+/// Of the materials given, all if none are.
+template <int D>
+runtime::TaskDeclaration gather_at_start(const Method<D>& method, const std::string& name, std::vector<int> materials)
+{
+  return gathering(method,
+                   runtime::task(name)
+                       .over_patches_and_groups(std::move(materials))
+                       .sparse()
+                       .reads(particle::position<D>.previous(), particle::deformation_gradient<D>.previous(),
+                              particle::velocity<D>.previous(), particle::mass.previous(), particle::volume.previous(),
+                              particle::stress<D>.previous(), particle::viscous_pressure.previous()));
+}
+
+template <int D>
+runtime::TaskDeclaration gather_updated(const Method<D>& method)
+{
+  return gathering(method, runtime::task("particles to grid")
+                               .over_patches_and_groups(method.deformable_materials)
+                               .sparse()
+                               .reads(particle::position<D>.previous(), particle::deformation_gradient<D>.previous(),
+                                      particle::velocity<D>.previous(), particle::mass.previous(), particle::volume,
+                                      particle::stress<D>, particle::viscous_pressure));
+}
+
+}  // namespace
+
+/// Where stress comes first, that of rigid bodies does not.
+template <int D>
+std::vector<runtime::TaskDeclaration> particles_to_grid(const Method<D>& method)
+{
+  if (method.stress_timing != StressTiming::usf || method.deformable_materials.empty()) {
+    return {gather_at_start(method, "particles to grid", {})};
+  }
+  std::vector<runtime::TaskDeclaration> phases{gather_updated(method)};
+  std::vector<int> rigid;
+  for (const RigidBody& body : method.rigid_bodies) rigid.push_back(body.material);
+  if (!rigid.empty()) phases.push_back(gather_at_start(method, "rigid particles to grid", rigid));
+  return phases;
+}
+
+template std::vector<runtime::TaskDeclaration> particles_to_grid(const Method<2>&);
+template std::vector<runtime::TaskDeclaration> particles_to_grid(const Method<3>&);
 
 }  // namespace tamp::tasks

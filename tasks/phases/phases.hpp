@@ -11,7 +11,7 @@ namespace tamp::tasks
 
 /// Particles give their mass, momentum and forces to the grid.
 template <int D>
-runtime::TaskDeclaration particles_to_grid(const Method<D>& method);
+std::vector<runtime::TaskDeclaration> particles_to_grid(const Method<D>& method);
 
 /// Pressure loads push on the nodes of the surfaces that they act on.
 template <int D>
@@ -74,9 +74,13 @@ runtime::TaskDeclaration move_rigid_particles(const Method<D>& method, int mater
 template <int D>
 std::vector<runtime::TaskDeclaration> pass_velocities(const Method<D>& method);
 
-/// Particles of the other materials are moved and deformed by the grid.
+/// Particles of the other materials are moved by the grid, and deformed where no other velocities do that.
 template <int D>
 runtime::TaskDeclaration grid_to_particles(const Method<D>& method);
+
+/// Particles bring their velocities to the nodes, and are deformed by what these come to there.
+template <int D>
+std::vector<runtime::TaskDeclaration> deform_by_carried_velocities(const Method<D>& method);
 
 /// Where all particles of a cell share its change of volume, they are deformed by a phase of its own.
 template <int D>

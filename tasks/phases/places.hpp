@@ -14,4 +14,15 @@ components::ParticlePlaces<D> places_at_start(const Data& data)
   return {data[particle::position<D>.previous()], data[particle::deformation_gradient<D>.previous()]};
 }
 
+/// A field as this step has made it, where the task reads that, and else as it was at the start of the step.
+template <class Data, class Label>
+decltype(auto) newest(const Data& data, const Label& label)
+{
+  if constexpr (requires { data[label]; }) {
+    return data[label];
+  } else {
+    return data[label.previous()];
+  }
+}
+
 }  // namespace tamp::tasks

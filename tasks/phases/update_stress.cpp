@@ -10,6 +10,7 @@
 #include "components/tensor_lanes.hpp"
 #include "tasks/labels.hpp"
 #include "tasks/phases/phases.hpp"
+#include "tasks/phases/places.hpp"
 #include "tasks/simulation_error.hpp"
 
 namespace tamp::tasks
@@ -80,7 +81,7 @@ void account(const Method<D>& method, double dt, const Data& data, std::size_t f
   const std::size_t n = old_stress.size();
   const auto of_batch = [&](const auto& field) { return field.subspan(first, n); };
   const auto mass = of_batch(data[particle::mass.previous()]);
-  const auto velocity = of_batch(data[particle::velocity<D>]);
+  const auto velocity = of_batch(newest(data, particle::velocity<D>));
   const auto old_volumes = of_batch(data[particle::volume.previous()]), volumes = of_batch(data[particle::volume]);
   const auto strains = of_batch(data[particle::strain_increment<D>]);
   const auto stress = of_batch(data[particle::stress<D>]);
@@ -132,10 +133,10 @@ template <int D, class Data>
 void check_finite(const Method<D>& method, int material, const Data& data, std::size_t first, std::size_t n)
 {
   const auto stress = data[particle::stress<D>];
-  const auto velocity = data[particle::velocity<D>];
+  const auto velocity = newest(data, particle::velocity<D>);
   for (std::size_t p = first; p < first + n; ++p) {
     if (stress[p].allFinite() && velocity[p].allFinite()) continue;
-    const Vector<D>& x = data[particle::position<D>][p];
+    const Vector<D>& x = newest(data, particle::position<D>)[p];
     throw SimulationError("stress or velocity is not finite", method.materials[static_cast<std::size_t>(material)].name,
                           data[particle::id.previous()][p], {x.begin(), x.end()});
   }
@@ -162,7 +163,7 @@ FailedUpdate failed_update(const Model& model, int material, std::size_t p, comp
       failed.state[k++] = column.value(model, data[particle::state<Model>][p], stress);
     }
   }
-  const Vector<D>& x = data[particle::position<D>][p];
+  const Vector<D>& x = newest(data, particle::position<D>)[p];
   std::copy(x.begin(), x.end(), failed.position.begin());
   return failed;
 }
@@ -213,22 +214,27 @@ runtime::TaskDeclaration with_body(const Method<D>& method, const Model& model, 
 template <int D, class Model>
 runtime::TaskDeclaration update_of(const Method<D>& method, int material, const Model& model)
 {
-  auto task =
-      runtime::task("update stress: " + method.materials[static_cast<std::size_t>(material)].name)
-          .over_patches_and_groups({material})
-          .reads(particle::id.previous(), particle::mass.previous(), particle::position<D>, particle::velocity<D>,
-                 particle::deformation_gradient<D>, particle::volume.previous(), particle::volume,
-                 particle::viscous_pressure.previous(), particle::own_stiffness, particle::strain_increment<D>)
-          .updates(particle::stress<D>)
-          .computes(particle::viscous_pressure)
-          .reduces(step_totals);
+  auto task = runtime::task("update stress: " + method.materials[static_cast<std::size_t>(material)].name)
+                  .over_patches_and_groups({material})
+                  .reads(particle::id.previous(), particle::mass.previous(), particle::deformation_gradient<D>,
+                         particle::volume.previous(), particle::volume, particle::viscous_pressure.previous(),
+                         particle::own_stiffness, particle::strain_increment<D>)
+                  .updates(particle::stress<D>)
+                  .computes(particle::viscous_pressure)
+                  .reduces(step_totals);
+  // Where stress comes first, particles have yet to move.
+  if (method.stress_timing == StressTiming::usf) {
+    return with_body(method, model,
+                     std::move(task).reads(particle::position<D>.previous(), particle::velocity<D>.previous()));
+  }
+  auto moved = std::move(task).reads(particle::position<D>, particle::velocity<D>);
   if constexpr (requires { model.may_come_apart(); }) {
     // Where particles take the velocity of the nodes, these have slowed that motion.
     if (model.may_come_apart() && method.scene.transfer == Transfer::affine) {
-      return with_body(method, model, std::move(task).updates(particle::velocity_gradient<D>));
+      return with_body(method, model, std::move(moved).updates(particle::velocity_gradient<D>));
     }
   }
-  return with_body(method, model, std::move(task));
+  return with_body(method, model, std::move(moved));
 }
 
 }  // namespace

@@ -24,14 +24,17 @@ template <int D>
 void add_taken(const Method<D>& method, const TaskContext& at, const GridView<const NodeSums<D>>& sums,
                const GridView<NodeMotion<D>>& motion, GridTotals& totals)
 {
-  const double half_step_before = 0.5 * at.step.previous_size;
+  const bool in_whole = method.stress_timing != StressTiming::usl;
+  const double half_step_before = 0.5 * at.step.previous_size, half_step = 0.5 * at.step.size;
   for_each(counted_nodes(method, at), [&](const Index& i) {
     const Vector<D> change = motion[i].velocity_change(), at_end = motion[i].velocity(), at_start = at_end - change;
     for (std::size_t k = 0; k < std::size_t{D}; ++k) {
       totals.impulse[k] += own_mass(method, at, sums, i, k) * change[static_cast<int>(k)];
     }
     totals.gained_by_nodes += 0.5 * sums[i].mass() * change.dot(at_start + at_end);
-    totals.taken_at_start -= half_step_before * sums[i].internal_force().dot(at_start);
+    const Vector<D> force = sums[i].internal_force();
+    totals.taken_by_forces -= in_whole ? 0.5 * (half_step_before + half_step) * force.dot(at_start + at_end)
+                                       : half_step_before * force.dot(at_start);
   });
 }
 

@@ -51,7 +51,7 @@ SOUND = [
     (PLANE, {"/interpolator": "linear", "/time/rule": "published"}),
     (PLANE, {"/interpolator": "cpdi"}),
     (PLANE, {"/deformation_update": "first_order", "/relief": "f_bar"}),
-    (SPACE, {"/deformation_update": "exponential", "/relief": "cell_average"}),
+    (SPACE, {"/deformation_update": "exponential", "/relief": "cell_average", "/stress_timing": "musl"}),
     (PLANE, {"/artificial_viscosity": {}, "/limits": {"energy_error": "off"}, "/failed_updates_allowed": 3}),
     (PLANE, {"/output": {"fields_interval": 0.5, "history_interval": 0.1, "near_nose": 0.2}}),
     (PLANE, {"/contact": [{"materials": ["steel", "iron"], "friction": 0.1, "normal": "iron"}]}),

@@ -150,7 +150,7 @@ TEST_CASE("what particles filter out of a FLIP step is the energy of the nodes' 
   const GridTotals& nodes = simulation->grid_totals();
   const double nodes_gain = nodes.gained_by_nodes - nodes_before.gained_by_nodes,
                particles_gain = nodes.gained_by_particles - nodes_before.gained_by_particles,
-               taken_at_start = nodes.taken_at_start - nodes_before.taken_at_start,
+               taken_at_start = nodes.taken_by_forces - nodes_before.taken_by_forces,
                taken_at_end = simulation->totals().taken_at_end - totals_before.taken_at_end;
   CHECK(plain.filtered_at_nodes > 1.2 * plain.filtered_at_particles);
   CHECK(nodes_gain - particles_gain == Approx(plain.filtered_at_nodes - plain.filtered_at_particles).epsilon(1e-8));

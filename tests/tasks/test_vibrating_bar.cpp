@@ -116,6 +116,18 @@ TEST_CASE("a bar swings at the frequency of its length and waves, and goes on sw
   CHECK(std::abs(vibration.energy_drift) < 1e-3);
 }
 
+TEST_CASE("whenever stress follows the motion, a bar swings at its frequency in short steps")
+{
+  Scene scene = bar(48, false);
+  scene.stress_timing = GENERATE(StressTiming::usf, StressTiming::musl);
+  scene.time.multiplier = 0.4;
+
+  const Vibration vibration = swing(scene, pi / (2 * length), 4);
+
+  CHECK(std::abs(vibration.frequency_error) < 1e-3);
+  CHECK(std::abs(vibration.energy_drift) < 1e-3);
+}
+
 namespace
 {
 

@@ -1,5 +1,9 @@
 #include "tools/scene/check_method.hpp"
 
+#include <fmt/format.h>
+
+#include <variant>
+
 namespace tamp::tools
 {
 
@@ -14,6 +18,22 @@ void check_method(const JsonReader& reader, const tasks::Scene& scene)
     reader.add_problem("transfer",
                        "apic with an interpolator whose weights have no spread where a particle is on a node",
                        "expected another transfer, such as tpic, or another interpolator");
+  }
+}
+
+void check_stress_timing(const JsonReader& reader, const tasks::Scene& scene)
+{
+  if (scene.stress_timing != tasks::StressTiming::usf || scene.transfer != tasks::Transfer::affine) return;
+  for (const tasks::SceneMaterial& material : scene.materials) {
+    const auto may_come_apart = [](const auto& model) {
+      if constexpr (requires { model.may_come_apart(); }) return model.may_come_apart();
+      return false;
+    };
+    if (!std::visit(may_come_apart, material.model)) continue;
+    reader.add_problem("stress_timing",
+                       fmt::format("\"usf\" with the transfer affine and sand that comes apart, \"{}\"", material.name),
+                       "expected usl or musl, as sand that is apart has to forget the gradient of its velocity, which "
+                       "with usf it only gets after its stress; or another transfer");
   }
 }
 

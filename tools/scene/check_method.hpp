@@ -10,4 +10,7 @@ namespace tamp::tools
 /// on, which have been read.
 void check_method(const JsonReader& reader, const tasks::Scene& scene);
 
+/// The same of when stress follows the motion, once the materials have been read.
+void check_stress_timing(const JsonReader& reader, const tasks::Scene& scene);
+
 }  // namespace tamp::tools

@@ -44,9 +44,11 @@ class SceneReader
     if (document_.problems.size() == n_before) check_method(root_, scene_);
     scene_.deformation_update = root_.choice<tasks::DeformationUpdate>("deformation_update");
     scene_.relief = root_.choice<tasks::Relief>("relief");
+    scene_.stress_timing = root_.choice<tasks::StressTiming>("stress_timing");
     read_particles_per_cell();
     read_loads();
     read_materials();
+    check_stress_timing(root_, scene_);
     read_bodies(dimension_is_good, grid_is_good);
     read_contacts();
     scene_.failed_updates_allowed = root_.whole_number("failed_updates_allowed");

@@ -243,6 +243,15 @@ const ObjectKeys& scene_keys()
                                  "from locking, by sharing changes of volume: with `\"cell_average\"` all particles of "
                                  "a material in a cell take their mean, with `\"f_bar\"` that at the "
                                  "centre of the cell; see [method.md](method.md)"),
+           choice<tasks::StressTiming>(
+               "stress_timing", scene.stress_timing,
+               {{"usl", tasks::StressTiming::usl},
+                {"usf", tasks::StressTiming::usf},
+                {"musl", tasks::StressTiming::musl}},
+               "when stress follows the motion, and which velocities of the nodes deform particles: `\"usl\"`, last, "
+               "by those that move particles; `\"usf\"`, first, by those that particles bring; `\"musl\"`, last, by "
+               "those that particles bring back to the nodes with their new velocities; see [method.md](method.md). "
+               "`\"usf\"` is not for `\"affine\"` with sand that `comes_apart`"),
            {"particles_per_cell",
             WholeNumbers{per_axis, 1, most_particles_per_axis},
             "",

@@ -517,6 +517,23 @@ TEST_CASE("sand that comes apart at no density, or perhaps, is refused")
         "--set#/materials/sand/separation_density: 0; expected a number above 0 and up to 1");
 }
 
+TEST_CASE("sand that has to forget its gradients is not updated before it has them")
+{
+  const auto problems = [](const std::vector<std::string>& assignments) {
+    const TemporaryFolder folder;
+    return problems_of(folder, TAMP_SOURCE_DIR "/inputs/punch/quick.json", assignments);
+  };
+  const std::string affine = "/transfer=affine", usf = "/stress_timing=usf", apart = "/materials/sand/comes_apart=true";
+
+  CHECK(problems({affine, usf, apart}) ==
+        "--set#/stress_timing: \"usf\" with the transfer affine and sand that comes apart, \"sand\"; expected usl or "
+        "musl, as sand that is apart has to forget the gradient of its velocity, which with usf it only gets after its "
+        "stress; or another transfer");
+  CHECK(problems({affine, usf}) == "");
+  CHECK(problems({usf, apart}) == "");
+  CHECK(problems({affine, "/stress_timing=musl", apart}) == "");
+}
+
 TEST_CASE("a name that is none of the choices is told with the choices")
 {
   CHECK(problems_with({"/materials/steel/type=hypoelastik"}) ==

@@ -1,0 +1,92 @@
+#pragma once
+
+#include <span>
+#include <stdexcept>
+#include <utility>
+#include <vector>
+
+#include "components/shapes/transfer.hpp"
+#include "tasks/labels.hpp"
+#include "tasks/method.hpp"
+#include "tasks/phases/places.hpp"
+#include "tasks/phases/walls.hpp"
+
+namespace tamp::tasks
+{
+
+/// The gradients [1/s] that moments of velocity come to with the weights of this step.
+template <int D>
+std::vector<Matrix<D>> affine_gradients(const components::Interpolation<D>& interpolation,
+                                        const components::GridBlock<D>& block,
+                                        const components::ParticlePlaces<D>& places,
+                                        std::span<const Matrix<D>> velocity_moments)
+{
+  std::vector<Matrix<D>> gradients(places.size());
+  interpolation.second_moments(block, places, gradients);
+  for (std::size_t p = 0; p < gradients.size(); ++p) {
+    gradients[p] = components::affine_gradient<D>(velocity_moments[p], gradients[p]);
+  }
+  return gradients;
+}
+
+/// Adds to the momenta of nodes what particles bring beside their velocities, where the task reads such.
+template <int D, class Data>
+void bring_gradients(const components::Interpolation<D>& interpolation, const components::GridBlock<D>& block,
+                     const Data& data, components::NodeSums<D>* sums)
+{
+  const components::ParticlePlaces<D> places = places_at_start<D>(data);
+  const auto mass = data[particle::mass.previous()];
+  if constexpr (data.has(particle::velocity_gradient<D>)) {
+    interpolation.add_gradient_momentum(block, places, mass, newest(data, particle::velocity_gradient<D>), sums);
+  }
+  if constexpr (data.has(particle::velocity_moment<D>)) {
+    interpolation.add_gradient_momentum(
+        block, places, mass,
+        affine_gradients<D>(interpolation, block, places, newest(data, particle::velocity_moment<D>)), sums);
+  }
+}
+
+/// The task with what particles of the start of the step bring to the grid beside their velocities.
+template <int D, class Task, class Body>
+runtime::TaskDeclaration with_gradients(const Method<D>& method, Task task, const Body& body)
+{
+  switch (method.surroundings) {
+    case components::Surroundings::none:
+      return std::move(task).body(body);
+    case components::Surroundings::gradient:
+      return std::move(task).reads(particle::velocity_gradient<D>.previous()).body(body);
+    case components::Surroundings::moment:
+      return std::move(task).reads(particle::velocity_moment<D>.previous()).body(body);
+  }
+  throw std::logic_error("unknown surroundings");
+}
+
+/// The same of the end of the step.
+template <int D, class Task, class Body>
+runtime::TaskDeclaration with_new_gradients(const Method<D>& method, Task task, const Body& body)
+{
+  switch (method.surroundings) {
+    case components::Surroundings::none:
+      return std::move(task).body(body);
+    case components::Surroundings::gradient:
+      return std::move(task).reads(particle::velocity_gradient<D>).body(body);
+    case components::Surroundings::moment:
+      return std::move(task).reads(particle::velocity_moment<D>).body(body);
+  }
+  throw std::logic_error("unknown surroundings");
+}
+
+/// What is scattered behind a wall comes to the grid as the image of the particles gives it.
+template <int D>
+void fold(const Wall<D>& wall, const runtime::TaskContext& at, const runtime::GridView<components::NodeSums<D>>& sums)
+{
+  if (!wall.keeps_normal_push()) return wall.image.fold(sums.data());
+  wall.image.add_image(sums.data());
+  for_each_wall_node(wall, at.layout.grid(), sums.box(), [&](const runtime::Index& i) {
+    Vector<D> gradient = sums[i].surface_gradient();
+    gradient[wall.axis] = 0;
+    sums[i].set_surface_gradient(gradient);
+  });
+}
+
+}  // namespace tamp::tasks

@@ -1,0 +1,147 @@
+#include <array>
+#include <utility>
+#include <vector>
+
+#include "components/boundary/rough_wall.hpp"
+#include "tasks/labels.hpp"
+#include "tasks/phases/bring_gradients.hpp"
+#include "tasks/phases/deform.hpp"
+#include "tasks/phases/phases.hpp"
+#include "tasks/phases/places.hpp"
+#include "tasks/phases/walls.hpp"
+
+namespace tamp::tasks
+{
+
+using components::NodeMotion;
+using components::NodeSums;
+using components::ParticleMotion;
+using runtime::GridView;
+using runtime::Index;
+using runtime::TaskContext;
+
+namespace
+{
+
+/// Particles bring the newest velocities that they have to the nodes, with the weights of the step. What they bring of
+/// forces besides, nobody asks for.
+template <int D>
+runtime::TaskDeclaration carry(const Method<D>& method)
+{
+  auto task = runtime::task("carry velocities")
+                  .over_patches_and_groups(method.deformable_materials)
+                  .sparse()
+                  .reads(particle::position<D>.previous(), particle::deformation_gradient<D>.previous(),
+                         particle::mass.previous(), particle::volume.previous(), particle::stress<D>.previous(),
+                         particle::viscous_pressure.previous())
+                  .accumulates(node::carried_sums<D>.halo(method.halo));
+  const auto body = [&method](const TaskContext& at, auto data) {
+    const auto sums = data[node::carried_sums<D>];
+    const auto block = block_of<D>(at.layout, sums);
+    const components::Interpolation<D>& interpolation = method.interpolation(at.group);
+    const components::ParticleSources<D> sources{.places = places_at_start<D>(data),
+                                                 .velocity = newest(data, particle::velocity<D>),
+                                                 .mass = data[particle::mass.previous()],
+                                                 .volume = data[particle::volume.previous()],
+                                                 .stress = data[particle::stress<D>.previous()],
+                                                 .viscous_pressure = data[particle::viscous_pressure.previous()]};
+    interpolation.particles_to_grid(block, sources, false, sums.data());
+    bring_gradients<D>(interpolation, block, data, sums.data());
+    for_each_wall(method, at, sums.box(), [&](const Wall<D>& wall) { fold(wall, at, sums); });
+  };
+  if (method.stress_timing == StressTiming::usf) {
+    return with_gradients(method, std::move(task).reads(particle::velocity<D>.previous()), body);
+  }
+  return with_new_gradients(method, std::move(task).reads(particle::velocity<D>), body);
+}
+
+/// Nothing crosses a wall, and what sticks to it stands still. Friction has worked on the velocities that particles
+/// bring.
+template <int D>
+void hold_carried(const Wall<D>& wall, const TaskContext& at, const GridView<NodeMotion<D>>& motion)
+{
+  if (wall.face == Face::symmetry) return wall.image.constrain(motion.data());
+  for_each_wall_node(wall, at.layout.grid(), motion.box(), [&](const Index& i) {
+    const Vector<D> velocity = motion[i].velocity();
+    const Vector<D> left = wall.face == Face::no_slip
+                               ? Vector<D>::Zero()
+                               : components::velocity_on_rough_wall<D>(velocity, wall.axis, wall.outside, 0);
+    motion[i].set(left, Vector<D>::Zero());
+  });
+}
+
+/// What these velocities are on the nodes.
+template <int D>
+runtime::TaskDeclaration take_carried(const Method<D>& method)
+{
+  return runtime::task("take carried velocities")
+      .over_patches_and_groups(method.deformable_materials)
+      .sparse()
+      .reads(node::carried_sums<D>.halo(method.halo))
+      .computes(node::carried_motion<D>.halo(method.halo))
+      .body([&method](const TaskContext& at, auto data) {
+        const auto sums = data[node::carried_sums<D>];
+        const auto motion = data[node::carried_motion<D>];
+        for_each(sums.box(), [&](const Index& i) {
+          motion[i] = {};
+          const double mass = sums[i].mass();
+          if (mass > 0) motion[i].set(sums[i].momentum() / mass, Vector<D>::Zero());
+        });
+        for_each_wall(method, at, motion.box(), [&](const Wall<D>& wall) { hold_carried(wall, at, motion); });
+        for_each_wall(method, at, motion.box(), [&](const Wall<D>& wall) { wall.image.mirror(motion.data()); });
+      });
+}
+
+template <int D>
+std::vector<double> inverse_masses(const Method<D>& method, const GridView<const NodeSums<D>>& sums)
+{
+  std::vector<double> inverse(sums.box().size());
+  for (std::size_t i = 0; i < inverse.size(); ++i) {
+    const double mass = sums.data()[i].mass();
+    inverse[i] = mass > method.least_node_mass ? 1 / mass : 0;
+  }
+  return inverse;
+}
+
+/// Particles deform by them.
+template <int D>
+runtime::TaskDeclaration deform_by_carried(const Method<D>& method)
+{
+  auto task = runtime::task("deform particles")
+                  .over_patches_and_groups(method.deformable_materials)
+                  .sparse()
+                  .reads(node::carried_sums<D>.halo(method.halo), node::carried_motion<D>.halo(method.halo),
+                         particle::mass.previous(), particle::position<D>.previous(),
+                         particle::deformation_gradient<D>.previous());
+  return deforming(method, std::move(task), [&method](auto whole_task) {
+    return std::move(whole_task).body([&method](const TaskContext& at, auto data) {
+      const auto nodes = data[node::carried_motion<D>];
+      const auto block = block_of<D>(at.layout, nodes);
+      const auto places = places_at_start<D>(data);
+      const std::vector<double> inverse_mass = inverse_masses(method, data[node::carried_sums<D>]);
+      clear_cells(data);
+      std::array<ParticleMotion<D>, motion_batch> buffer;
+      for (std::size_t first = 0; first < places.size(); first += motion_batch) {
+        const auto motion = std::span(buffer).first(std::min(motion_batch, places.size() - first));
+        method.interpolation(at.group).grid_to_particles(block, places.subspan(first, motion.size()), nodes.data(),
+                                                         motion);
+        deform_by_nodes<D>(method, at, data, block, nodes.data(), inverse_mass.data(), first, motion);
+      }
+    });
+  });
+}
+
+}  // namespace
+
+/// Each material by the velocities of its own particles alone: contact has worked on these, in this step or in the step
+/// before, and is not asked again.
+template <int D>
+std::vector<runtime::TaskDeclaration> deform_by_carried_velocities(const Method<D>& method)
+{
+  return {carry(method), take_carried(method), deform_by_carried(method)};
+}
+
+template std::vector<runtime::TaskDeclaration> deform_by_carried_velocities(const Method<2>&);
+template std::vector<runtime::TaskDeclaration> deform_by_carried_velocities(const Method<3>&);
+
+}  // namespace tamp::tasks
