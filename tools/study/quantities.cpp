@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "runtime/file_error.hpp"
 #include "runtime/storage/hdf5.hpp"
@@ -35,6 +36,14 @@ double value_at(const std::vector<double>& times, const std::vector<double>& val
   if (after == times.size()) return values.back();
   const double part = (time - times[after - 1]) / (times[after] - times[after - 1]);
   return values[after - 1] + part * (values[after] - values[after - 1]);
+}
+
+/// NaN where there is no row from that time on.
+double mean_from(const std::vector<double>& times, const std::vector<double>& values, double time)
+{
+  const auto first = std::lower_bound(times.begin(), times.end(), time) - times.begin();
+  const double sum = std::accumulate(values.begin() + first, values.end(), 0.0);
+  return sum / static_cast<double>(values.end() - values.begin() - first);
 }
 
 std::size_t place_of_greatest(const std::vector<double>& values)
@@ -195,6 +204,8 @@ Answer answer_of(const Study& study, const Quantity& quantity, const PointResult
       return {values.back(), {}, {}};
     case Take::value:
       return {value_at(column(study, columns, time_column), values, quantity.time), {}, {}};
+    case Take::mean:
+      return {mean_from(column(study, columns, time_column), values, quantity.time), {}, {}};
     case Take::farthest:
       return {values[place_of_farthest(values, quantity.exact.value_or(0))], {}, {}};
     case Take::kept:

@@ -154,7 +154,7 @@ class StudyReader
     if (!quantity.is_of_field()) {
       quantity.column = reader.text("column", "");
       if (quantity.column.empty()) reader.add_problem("column", "missing", "expected the name of a column");
-      if (quantity.take == Take::value) quantity.time = reader.number("at");
+      if (quantity.take == Take::value || quantity.take == Take::mean) quantity.time = reader.number("at");
       quantity.plus = names(reader, "plus");
       return;
     }

@@ -56,6 +56,7 @@ enum class Take {
   least,
   last,
   value,             ///< at a time
+  mean,              ///< of all rows from a time on
   farthest,          ///< that farthest from the exact answer
   kept,              ///< the last over the first
   time_of_greatest,  ///< from the parabola through the three rows around it
@@ -73,7 +74,7 @@ struct Quantity {
   std::string column;
   /// Columns that are added to it.
   std::vector<std::string> plus{};
-  /// Where the value is taken [s].
+  /// Where the value is taken, or the first of those whose mean is [s].
   double time = 0;
   std::string field{}, material{};
   /// Of a field of vectors: 0, 1 or 2; empty for one of numbers.

@@ -38,6 +38,8 @@ TEST_CASE("numbers are taken of a column")
   CHECK(taken(depth(Take::last)).value == 0);
   CHECK(taken(depth(Take::value, 3)).value == Approx(1));
   CHECK(taken(depth(Take::value, 9)).value == 0);
+  CHECK(taken(depth(Take::mean, 0.5)).value == Approx(5. / 3));
+  CHECK(std::isnan(taken(depth(Take::mean, 9)).value));
 }
 
 TEST_CASE("the value farthest from the exact answer may lie on either side of it")
