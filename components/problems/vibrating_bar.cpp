@@ -26,11 +26,11 @@ double elastic_wave_speed(const ProblemBody& body)
 
 BodyFunctions VibratingBar::functions(const ProblemBody& body) const
 {
-  const double v = speed, k = wave_number, omega = k * elastic_wave_speed(body);
+  const double v = speed, k = wave_number, along = drift, omega = k * elastic_wave_speed(body);
   BodyFunctions bar;
-  bar.velocity = [=](const Vector<3>& X) { return Vector<3>(v * portable::sin(k * X[0]), 0, 0); };
+  bar.velocity = [=](const Vector<3>& X) { return Vector<3>(v * portable::sin(k * X[0]) + along, 0, 0); };
   bar.exact_displacement = [=](const Vector<3>& X, double t) {
-    return Vector<3>(v / omega * portable::sin(k * X[0]) * portable::sin(omega * t), 0, 0);
+    return Vector<3>(v / omega * portable::sin(k * X[0]) * portable::sin(omega * t) + along * t, 0, 0);
   };
   return bar;
 }

@@ -28,6 +28,9 @@ TEST_CASE("a vibrating bar's solution is a wave that starts with its velocity")
   CHECK((u(0.4, step) - u(0.4, -step)) / (2 * step) == Approx(bar.velocity(X)[0]).epsilon(1e-6));
   CHECK(bar.velocity(X)[0] == Approx(0.2 * std::sin(1.2)));
   CHECK(bar.exact_displacement(X, 0).norm() == 0);
+  const BodyFunctions drifting = VibratingBar{0.2, 3, 1.5}.functions({2, 4, material});
+  CHECK(drifting.velocity(X)[0] == Approx(bar.velocity(X)[0] + 1.5));
+  CHECK(drifting.exact_displacement(X, t)[0] == Approx(bar.exact_displacement(X, t)[0] + 1.5 * t));
   CHECK_THROWS_AS(
       problem.functions(
           {2, 4, MaterialModel(DruckerPrager{.bulk_modulus = 60, .shear_modulus = 30, .friction_angle = 30})}),
