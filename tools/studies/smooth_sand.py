@@ -20,8 +20,12 @@ N_HYDROSTAT, N_UNLOADING = 700, 100
 
 
 def write(path, what, columns, rows):
-    lines = [f"# {what} of a sand that is none: smooth curves, for verification.", "# Made by tools/studies/smooth_sand.py."]
-    lines += [columns] + [",".join(f"{value:.10g}" for value in row) for row in rows]
+    lines = [
+        f"# {what} of a sand that is none: smooth curves, for verification.",
+        "# Made by tools/studies/smooth_sand.py.",
+        columns,
+    ]
+    lines += [",".join(f"{value:.10g}" for value in row) for row in rows]
     path.write_text("\n".join(lines) + "\n")
 
 
@@ -33,12 +37,13 @@ def main():
     folder = pathlib.Path(sys.argv[1] if len(sys.argv) > 1 else "inputs/materials/smooth-sand")
     folder.mkdir(parents=True, exist_ok=True)
     hydrostat = [(v, A * math.expm1(B * v)) for v in spaced(LAST_TOTAL, N_HYDROSTAT)]
-    unloading = [
-        (plastic, e, K / N * math.expm1(N * e)) for plastic in (LAST_PLASTIC / 2, LAST_PLASTIC) for e in spaced(LAST_ELASTIC, N_UNLOADING)
-    ]
+    unloading = [(e, K / N * math.expm1(N * e)) for e in spaced(LAST_ELASTIC, N_UNLOADING)]
+    curves = [(plastic, *point) for plastic in (LAST_PLASTIC / 2, LAST_PLASTIC) for point in unloading]
+    cone = [(VERTEX, 0), (1e9, M * (1e9 - VERTEX))]
     write(folder / "hydrostat.csv", "Hydrostatic loading", "total_volumetric[-],pressure[Pa]", hydrostat)
-    write(folder / "unloading.csv", "Hydrostatic unloading", "plastic_volumetric[-],elastic_volumetric[-],pressure[Pa]", unloading)
-    write(folder / "yield.csv", "Yield in triaxial compression", "pressure[Pa],sqrt_J2[Pa]", [(VERTEX, 0), (1e9, M * (1e9 - VERTEX))])
+    columns = "plastic_volumetric[-],elastic_volumetric[-],pressure[Pa]"
+    write(folder / "unloading.csv", "Hydrostatic unloading", columns, curves)
+    write(folder / "yield.csv", "Yield in triaxial compression", "pressure[Pa],sqrt_J2[Pa]", cone)
 
 
 if __name__ == "__main__":
