@@ -27,4 +27,12 @@ std::vector<Site<2>> PolarLayout::sites(double spacing) const
   return all;
 }
 
+Matrix<2> PolarLayout::axes_at(const Vector<2>& place) const
+{
+  const Vector<2> outwards = (place - centre).normalized();
+  Matrix<2> axes;
+  axes << outwards[0], -outwards[1], outwards[1], outwards[0];
+  return axes;
+}
+
 }  // namespace tamp::components

@@ -25,6 +25,8 @@ struct PolarLayout {
 
   /// From the inner ring to the outer one, anticlockwise.
   std::vector<Site<2>> sites(double spacing) const;
+  /// The rotation from x and y to outwards and around, as a sector at `place` lies, which is not the centre.
+  Matrix<2> axes_at(const Vector<2>& place) const;
 };
 
 }  // namespace tamp::components

@@ -43,6 +43,18 @@ Matrix<D> spin_of(const SceneBody& body)
   return cross_matrix(Eigen::Vector3d(body.angular_velocity.data())).template topLeftCorner<D, D>();
 }
 
+/// The deformation gradient of a particle that is not deformed. It is from the axes along which the particle is a box,
+/// which matters to cpdi alone: materials are the same in all directions, and other particles are boxes along the grid.
+template <int D>
+Matrix<D> undeformed(const Scene& scene, const SceneBody& body, const Vector<D>& X)
+{
+  if constexpr (D == 2) {
+    const bool in_sectors = body.functions.layout.has_value();
+    if (in_sectors && scene.interpolator == Interpolator::cpdi) return body.functions.layout->axes_at(X);
+  }
+  return Matrix<D>::Identity();
+}
+
 /// All nodes of the grid as one block, with layers around it that particles at open faces reach. Nothing lies there:
 /// only weights may be asked for.
 template <int D>
@@ -198,7 +210,7 @@ void BodyParticles<D>::store(const Particles& particles, int patch, int material
     state(particle::reference_position<D>)[p] = site.place;
     state(particle::velocity<D>)[p] = initial_velocity(particles, p);
     if (surroundings == Surroundings::gradient) state(particle::velocity_gradient<D>)[p] = spin_of<D>(body);
-    state(particle::deformation_gradient<D>)[p] = Matrix<D>::Identity();
+    state(particle::deformation_gradient<D>)[p] = undeformed<D>(scene_, body, site.place);
     state(particle::volume)[p] = site.volume;
     state(particle::mass)[p] = density * site.volume;
     if (body.functions.deformation_gradient) {

@@ -49,4 +49,12 @@ TEST_CASE("a ring thinner than the spacing is one ring of particles")
   CHECK(PolarLayout{{0, 0}, 0, 0.01}.sites(0.1).size() == 3);
 }
 
+TEST_CASE("a sector lies outwards and around")
+{
+  const Matrix<2> axes = PolarLayout{{0.2, -0.1}, 0, 1}.axes_at({0.2, 0.4});
+
+  CHECK((axes.col(0) - Vector<2>(0, 1)).norm() < 1e-15);
+  CHECK((axes.col(1) - Vector<2>(-1, 0)).norm() < 1e-15);
+}
+
 }  // namespace test_polar_layout
