@@ -51,7 +51,7 @@ Method<D>::Method(const Scene& given)
 {
   for (int m = 0; m < static_cast<int>(scene.materials.size()); ++m) {
     interpolations.push_back(components::Interpolation<D>::make(scene.interpolator, scene.particles_per_axis_of(m)));
-    const auto is_pressed = [m](const SceneBody& body) { return body.pressure && body.material == m; };
+    const auto is_pressed = [m](const SceneBody& body) { return body.is_pressed() && body.material == m; };
     if (std::any_of(scene.bodies.begin(), scene.bodies.end(), is_pressed)) pressed_materials.push_back(m);
     const auto is_rigid = [m](const SceneBody& body) { return body.rigid && body.material == m; };
     const auto body = std::find_if(scene.bodies.begin(), scene.bodies.end(), is_rigid);

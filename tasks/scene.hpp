@@ -118,6 +118,8 @@ struct SceneBody {
   std::optional<BodyPressure> pressure{};
   /// The functions of its problem, if it has one: they say more of its start than the above, and what acts on it.
   components::BodyFunctions functions{};
+
+  bool is_pressed() const { return pressure.has_value() || functions.pressure; }
 };
 
 /// Between two different materials; pairs that are not listed slide freely.

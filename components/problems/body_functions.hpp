@@ -24,6 +24,9 @@ struct BodyFunctions {
   Of velocity{};
   /// Per mass [m/s^2].
   OfTime body_force{};
+  /// On the surface, wherever that goes [Pa], compression positive. A node of the surface is pressed with the mean over
+  /// the matter that it reaches.
+  std::function<double(const Vector<3>& X, double t)> pressure{};
   /// What theory says [m]; errors are measured against it.
   OfTime exact_displacement{};
   /// Whether the functions hold at X; without one they do everywhere.

@@ -3,6 +3,7 @@
 #include <variant>
 
 #include "components/problems/axis_aligned.hpp"
+#include "components/problems/cavity.hpp"
 #include "components/problems/compacted_column.hpp"
 #include "components/problems/ring.hpp"
 #include "components/problems/rotating_disk.hpp"
@@ -19,6 +20,6 @@ namespace tamp::components
 {
 
 /// All the problems there are; one more is added here.
-using Problem = std::variant<AxisAligned, CompactedColumn, Ring, RotatingDisk, VibratingBar, Vortex>;
+using Problem = std::variant<AxisAligned, Cavity, CompactedColumn, Ring, RotatingDisk, VibratingBar, Vortex>;
 
 }  // namespace tamp::components

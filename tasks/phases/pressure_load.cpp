@@ -1,3 +1,5 @@
+#include <functional>
+
 #include "tasks/labels.hpp"
 #include "tasks/phases/phases.hpp"
 #include "tasks/phases/places.hpp"
@@ -20,29 +22,35 @@ class Pressures
 {
  public:
   Pressures(const Method<D>& method, int material, double time)
-      : size_(method.cell_size / method.scene.particles_per_axis_of(material)),
+      : time_(time),
+        size_(method.cell_size / method.scene.particles_per_axis_of(material)),
         depth_(method.scene.pressed_depth(material))
   {
     for (const SceneBody& body : method.scene.bodies) {
       const bool is_pressed = body.pressure.has_value();
       loads_.push_back({is_pressed ? body.pressure->curve.at(time) : 0,
-                        is_pressed ? body.pressure->template box_of<D>() : components::PressedBox<D>{}});
+                        is_pressed ? body.pressure->template box_of<D>() : components::PressedBox<D>{},
+                        body.functions.pressure});
     }
   }
 
-  /// The pressure on a particle that started at `reference` [Pa].
+  /// The pressure on a particle that started at `reference`, that of the scene and that of the problem [Pa].
   components::ByFace<D> at(std::int64_t body, const Vector<D>& reference) const
   {
     const Load& load = loads_[static_cast<std::size_t>(body)];
-    return load.pressure * load.box.part_of(reference, size_, depth_);
+    components::ByFace<D> pressure = load.pressure * load.box.part_of(reference, size_, depth_);
+    if (!load.of_problem) return pressure;
+    return pressure.array() + load.of_problem(in_space<D>(reference), time_);
   }
 
  private:
   struct Load {
     double pressure;
     components::PressedBox<D> box;
+    std::function<double(const Vector<3>&, double)> of_problem;
   };
   std::vector<Load> loads_;
+  double time_;
   double size_;
   double depth_;
 };

@@ -222,6 +222,31 @@ TEST_CASE("the error against the compacted column is of second order where it is
   CHECK(std::log2(coarse / fine) == Approx(2).margin(0.03));
 }
 
+TEST_CASE("the error against the cavity falls with the cell size where strains are small, its rims under pressure")
+{
+  constexpr double expansion = 2e-3, displacement = 0.4 * expansion;
+  const auto error_of = [&](int n_cells) {
+    Scene scene = empty_scene(2, {n_cells, n_cells, 1}, 1.6 / n_cells);
+    scene.materials.push_back({"elastic", 1000, components::Hypoelastic{8e6, 5e6}});
+    SceneBody& body = add_disk(scene, 0, 0.8, 0.8, 0.6, {0, 0, 0});
+    const components::Cavity problem{.centre = {0.8, 0.8, 0},
+                                     .inner_radius = 0.4,
+                                     .outer_radius = 0.6,
+                                     .expansion = expansion,
+                                     .shortening = 2,
+                                     .duration = 2e-3};
+    body.functions = problem.functions({2, 1000, scene.materials[0].model});
+    scene.interpolator = Interpolator::quadratic_spline;
+    scene.time.multiplier = 0.4;
+    return worst_error(scene, 2e-3).rms / displacement;
+  };
+
+  const double coarse = error_of(32), fine = error_of(64);
+
+  CHECK(coarse == Approx(0.0217).epsilon(0.02));
+  CHECK(std::log2(coarse / fine) == Approx(1.92).margin(0.03));
+}
+
 namespace
 {
 

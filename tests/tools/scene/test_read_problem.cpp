@@ -87,14 +87,14 @@ TEST_CASE("a body whose problem may lay out its particles has those of the latti
 TEST_CASE("a problem that is not known, or lacks something, is told")
 {
   CHECK(problems_of_problem(R"({"type":"axis_alined"})") ==
-        at_problem + R"(/type: "axis_alined"; expected one of axis_aligned, compacted_column, ring, rotating_disk, )"
-                     R"(vibrating_bar, vortex, did you mean "axis_aligned"?)");
+        at_problem + R"(/type: "axis_alined"; expected one of axis_aligned, cavity, compacted_column, ring, )"
+                     R"(rotating_disk, vibrating_bar, vortex, did you mean "axis_aligned"?)");
   CHECK(problems_of_problem(R"({"type":"vibrating_bar","speed":1})") ==
         at_problem + "/wave_number: missing; expected a number above 0 [rad/m]");
   CHECK(problems_of_problem(R"({"type":"vibrating_bar","speed":1,"wave_number":-1})") ==
         at_problem + "/wave_number: -1; expected a number above 0 [rad/m]");
   CHECK(problems_of_problem(R"({"type":"vibrating_bar","speed":1,"wave_number":1,"lenght":2})") ==
-        at_problem + "/lenght: unknown key; expected one of speed, type, wave_number");
+        at_problem + "/lenght: unknown key; expected one of drift, speed, type, wave_number");
   CHECK(problems_of_problem(R"({"type":"axis_aligned","amplitude":0.05,"length":1,"n_axes":1.5})") ==
         at_problem + "/n_axes: 1.5; expected a whole number from 1 to 3");
   CHECK(problems_of_problem("3") == at_problem + ": 3; expected an object");
