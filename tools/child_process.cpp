@@ -12,7 +12,11 @@
 #include <cmath>
 #include <csignal>
 #include <cstring>
+#include <fstream>
+#include <optional>
+#include <string_view>
 #include <thread>
+#include <utility>
 
 #include "tools/errors.hpp"
 #include "tools/run/signals.hpp"
@@ -63,32 +67,101 @@ double seconds(const timeval& time)
   return static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_usec);
 }
 
-}  // namespace
-
-ChildEnd run_child(const Child& child)
+pid_t start(const Child& child)
 {
   const ExecArguments arguments(child.arguments);
   const std::string errors = child.errors.string();
-  const SignalWatch watch;
   const pid_t parent = getpid();
   const pid_t pid = fork();
   if (pid < 0) throw ResourceError(std::string("cannot start a process: ") + std::strerror(errno));
   if (pid == 0) become(arguments, errors.c_str(), limit_of(child.cpu_limit), parent);
+  return pid;
+}
 
-  int status = 0;
-  rusage usage{};
-  // Looks often at first, as many children are short.
-  for (std::chrono::microseconds pause{500}; wait4(pid, &status, WNOHANG, &usage) == 0;
-       pause = std::min<std::chrono::microseconds>(2 * pause, std::chrono::milliseconds(50))) {
-    if (watch.noted() != 0) kill(pid, SIGTERM);
-    std::this_thread::sleep_for(pause);
+/// The children under way. Those that are left when it goes are asked to stop, and waited for.
+class RunningChildren
+{
+ public:
+  RunningChildren() = default;
+  RunningChildren(const RunningChildren&) = delete;
+  RunningChildren& operator=(const RunningChildren&) = delete;
+  ~RunningChildren()
+  {
+    for (const Running& one : running_) kill(one.pid, SIGTERM);
+    for (const Running& one : running_) waitpid(one.pid, nullptr, 0);
   }
-  if (watch.noted() != 0) throw Interrupted("stopped by a signal", watch.noted());
+
+  int size() const { return static_cast<int>(running_.size()); }
+
+  void add(std::size_t index, const Child& child) { running_.push_back({index, start(child)}); }
+
+  /// One that has ended, if there is one.
+  std::optional<std::pair<std::size_t, ChildEnd>> take_ended()
+  {
+    for (auto one = running_.begin(); one != running_.end(); ++one) {
+      int status = 0;
+      rusage usage{};
+      if (wait4(one->pid, &status, WNOHANG, &usage) == 0) continue;
+      ChildEnd end;
+      end.user_s = seconds(usage.ru_utime);
+      if (WIFEXITED(status)) end.exit_code = WEXITSTATUS(status);
+      if (WIFSIGNALED(status)) end.signal = WTERMSIG(status);
+      const std::size_t index = one->index;
+      running_.erase(one);
+      return std::pair{index, end};
+    }
+    return std::nullopt;
+  }
+
+ private:
+  struct Running {
+    std::size_t index;
+    pid_t pid;
+  };
+  std::vector<Running> running_;
+};
+
+}  // namespace
+
+void run_children(const std::vector<Child>& children, int n_at_once, const AtEnd& at_end)
+{
+  const SignalWatch watch;
+  RunningChildren running;
+  // Looks often at first, as many children are short.
+  constexpr std::chrono::microseconds first_pause{500}, longest_pause{50000};
+  auto pause = first_pause;
+  for (std::size_t next = 0; next < children.size() || running.size() > 0;) {
+    for (; next < children.size() && running.size() < n_at_once; ++next) running.add(next, children[next]);
+    const auto ended = running.take_ended();
+    if (watch.noted() != 0) throw Interrupted("stopped by a signal", watch.noted());
+    if (ended) {
+      at_end(ended->first, ended->second);
+      pause = first_pause;
+    } else {
+      std::this_thread::sleep_for(pause);
+      pause = std::min(2 * pause, longest_pause);
+    }
+  }
+}
+
+ChildEnd run_child(const Child& child)
+{
   ChildEnd end;
-  end.user_s = seconds(usage.ru_utime);
-  if (WIFEXITED(status)) end.exit_code = WEXITSTATUS(status);
-  if (WIFSIGNALED(status)) end.signal = WTERMSIG(status);
+  run_children({child}, 1, [&](std::size_t, const ChildEnd& its_end) { end = its_end; });
   return end;
+}
+
+std::string complaint_of(const Child& child)
+{
+  std::ifstream stream(child.errors);
+  std::string text;
+  for (std::string line; std::getline(stream, line);) {
+    constexpr std::string_view prefix = "tamp: ";
+    if (line.starts_with(prefix)) line.erase(0, prefix.size());
+    if (line.starts_with("warning: ")) continue;
+    text += (text.empty() ? "" : "; ") + line;
+  }
+  return text;
 }
 
 }  // namespace tamp::tools

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
+#include <functional>
 #include <limits>
 #include <string>
 #include <vector>
@@ -32,5 +34,15 @@ struct Child {
 /// Runs it and waits for its end. Throws ResourceError if it cannot be started, and Interrupted when a signal asks this
 /// program to stop: the child has then ended too.
 ChildEnd run_child(const Child& child);
+
+/// Tells which child ended, and how.
+using AtEnd = std::function<void(std::size_t, const ChildEnd&)>;
+
+/// Runs them in their order, so many at once, and calls `at_end` for each when it ends. Throws as run_child does, and
+/// what `at_end` throws; no child runs any longer then.
+void run_children(const std::vector<Child>& children, int n_at_once, const AtEnd& at_end);
+
+/// What the child said in its file of errors, in one line; warnings are not why it ended.
+std::string complaint_of(const Child& child);
 
 }  // namespace tamp::tools

@@ -4,10 +4,13 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <catch2/catch.hpp>
+#include <chrono>
 #include <cstdio>
 #include <fstream>
 #include <sstream>
 #include <string>
+#include <thread>
 #include <vector>
 
 namespace tamp::test
@@ -75,5 +78,16 @@ class BackgroundProgram
  private:
   pid_t id_ = -1;
 };
+
+/// Waits for something that another process does, a minute at most.
+template <class Condition>
+void wait_until(const Condition& holds)
+{
+  const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(60);
+  while (!holds()) {
+    REQUIRE(std::chrono::steady_clock::now() < end);
+    std::this_thread::sleep_for(std::chrono::milliseconds(2));
+  }
+}
 
 }  // namespace tamp::test

@@ -90,6 +90,9 @@ CLI::App* add_verify_command(CLI::App& bench)
   command->add_flag("--short", options->in_short, "the studies' short forms");
   command->add_flag("--force", options->force, "remove results of another program from the folders");
   command->add_flag("--quiet", options->quiet, "print no progress and no table");
+  command->add_option("--jobs", options->n_jobs, "how many studies run at once; by default as many as there are cores")
+      ->option_text("INT")
+      ->check(CLI::PositiveNumber);
   command->callback([options] {
     if (runtime::Communicator::world().size() > 1) {
       throw InputError({"verify", "started on several ranks", "expected one"});

@@ -22,20 +22,12 @@ namespace
 
 namespace fs = std::filesystem;
 
-/// What the program said on standard error, in one line; warnings are not why it ended.
-std::string complaint(const fs::path& errors)
+/// Why a point's run ended; the last state that it kept is not kept here.
+std::string reason_of(const Child& run)
 {
-  std::ifstream stream(errors);
-  std::string text;
-  for (std::string line; std::getline(stream, line);) {
-    constexpr std::string_view prefix = "tamp: ";
-    if (line.starts_with(prefix)) line.erase(0, prefix.size());
-    if (line.starts_with("warning: ")) continue;
-    // That state is not kept here.
-    line.erase(std::min(line.find("; the last state is kept in"), line.size()));
-    text += (text.empty() ? "" : "; ") + line;
-  }
-  return text;
+  std::string said = complaint_of(run);
+  said.erase(std::min(said.find("; the last state is kept in"), said.size()));
+  return said;
 }
 
 /// Of its own accord, or, where it did not listen, by the kernel.
@@ -164,9 +156,9 @@ class PointRunner
   {
     fs::remove_all(folder);
     fs::create_directories(folder);
-    const fs::path errors = cache_ / "errors.txt";
     const double limit = limit_of(task);
-    const ChildEnd end = run_child({command_into(study_, *task.measurement, folder), errors, limit});
+    const Child run{command_into(study_, *task.measurement, folder), cache_ / "errors.txt", limit};
+    const ChildEnd end = run_child(run);
     PointResult result{End::done, "", {}, limit, folder};
     if (end.done()) {
       const Json summary = Json::parse(std::ifstream(folder / "summary.json"), nullptr, false);
@@ -174,7 +166,7 @@ class PointRunner
       result.costs.push_back(cost_of(study_, summary, end.user_s));
     } else {
       result.costs.push_back({{"core_s", end.user_s}});
-      note_failure(end, limit, complaint(errors), result);
+      note_failure(end, limit, reason_of(run), result);
     }
     remove_what_is_not_asked_for(folder);
     return result;

@@ -74,10 +74,9 @@ void run_study(const StudyOptions& options)
   const StudyFolder own(folder, options.force);
   const StudyResults results = measure_all(study, options, own.points());
   write(results, folder);
-  const bool tell = !options.quiet && !options.only_progress;
-  if (tell) print_out("{}", to_text(results));
+  if (!options.quiet) print_out("{}", to_text(results));
   draw_page("draw_study.py", folder);
-  if (tell) print_out("  written to {}: index.html, points.csv, charts\n", folder.string());
+  if (!options.quiet) print_out("  written to {}: index.html, points.csv, charts\n", folder.string());
   complain_of_reference(results);
 }
 

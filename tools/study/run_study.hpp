@@ -14,8 +14,6 @@ struct StudyOptions {
   bool force = false;
   /// Print no progress, and not what was found.
   bool quiet = false;
-  /// Print progress alone.
-  bool only_progress = false;
 };
 
 /// Reads a study, runs what has no result yet, and fills its folder: `points.csv`, `study.json`, and the page with its

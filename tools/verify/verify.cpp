@@ -6,13 +6,15 @@
 #include <algorithm>
 #include <fstream>
 
+#include "runtime/file_error.hpp"
 #include "runtime/storage/whole_file.hpp"
 #include "tasks/simulation_error.hpp"
+#include "tools/child_process.hpp"
 #include "tools/console.hpp"
 #include "tools/errors.hpp"
 #include "tools/machine.hpp"
 #include "tools/shipped_inputs.hpp"
-#include "tools/study/run_study.hpp"
+#include "tools/usable_cores.hpp"
 #include "tools/verify/verification_table.hpp"
 #include "tools/version.hpp"
 
@@ -53,35 +55,56 @@ std::vector<fs::path> chosen_studies(const std::vector<std::string>& names)
   return chosen;
 }
 
-/// What the study found; a reference that failed is told, and keeps nothing else from being judged.
-Json run_one(const VerifyOptions& options, const fs::path& file, std::vector<std::string>& failures)
+Child study_command(const VerifyOptions& options, const fs::path& file)
 {
   const fs::path folder = options.folder / file.stem();
-  if (!options.quiet) print_err("{}\n", file.stem().string());
-  study::StudyOptions study_options{file, folder, options.in_short, options.force, options.quiet};
-  study_options.only_progress = true;
-  try {
-    study::run_study(study_options);
-  } catch (const tasks::SimulationError& error) {
-    failures.push_back(error.what());
+  Child child{{"study", file.string(), "--out", folder.string(), "--quiet"}, folder.string() + ".errors"};
+  if (options.in_short) child.arguments.push_back("--short");
+  if (options.force) child.arguments.push_back("--force");
+  return child;
+}
+
+/// A reference that failed is one of the failures, and keeps nothing else from being judged.
+void expect_study(const std::string& name, const Child& child, const ChildEnd& end, std::vector<std::string>& failures)
+{
+  const std::string said = complaint_of(child);
+  fs::remove(child.errors);
+  if (end.done()) return;
+  if (end.exit_code == static_cast<int>(ExitCode::bad_input)) throw InputError({name, said, ""});
+  if (end.exit_code != static_cast<int>(ExitCode::bad_simulation)) {
+    throw runtime::FileError(name, said.empty() ? fmt::format("the study ended with signal {}", end.signal) : said);
   }
-  Json study = Json::parse(std::ifstream(folder / "study.json"));
-  for (const std::string& failure : failures_of(study)) {
-    failures.push_back(study["name"].get<std::string>() + ": " + failure);
-  }
-  return study;
+  failures.push_back(name + ": " + said);
+}
+
+/// Processes of their own, as HDF5 works on one thread at a time. Returns what went wrong with references.
+std::vector<std::string> run_studies(const VerifyOptions& options, const std::vector<fs::path>& files)
+{
+  fs::create_directories(options.folder);
+  std::vector<Child> children;
+  for (const fs::path& file : files) children.push_back(study_command(options, file));
+  std::vector<std::string> failures;
+  const int n_at_once = options.n_jobs > 0 ? options.n_jobs : usable_cores().of_rank;
+  run_children(children, n_at_once, [&](std::size_t i, const ChildEnd& end) {
+    const std::string name = files[i].stem();
+    expect_study(name, children[i], end, failures);
+    if (!options.quiet) print_err("{}: {:.0f} s of processor time\n", name, end.user_s);
+  });
+  return failures;
 }
 
 }  // namespace
 
 void verify(const VerifyOptions& options)
 {
+  const std::vector<fs::path> files = chosen_studies(options.names);
+  std::vector<std::string> failures = run_studies(options, files);
   std::vector<Json> studies;
-  std::vector<std::string> failures;
   std::size_t n_gates = 0;
-  for (const fs::path& file : chosen_studies(options.names)) {
-    studies.push_back(run_one(options, file, failures));
-    n_gates += studies.back()["gates"].size();
+  for (const fs::path& file : files) {
+    const Json& study = studies.emplace_back(Json::parse(std::ifstream(options.folder / file.stem() / "study.json")));
+    for (const std::string& failure : failures_of(study)) failures.push_back(file.stem().string() + ": " + failure);
+    n_gates += study["gates"].size();
   }
   const std::string table = to_markdown(studies);
   const Json json{{"program", version_text()},

@@ -16,11 +16,13 @@ struct VerifyOptions {
   /// Remove what another program has found.
   bool force = false;
   bool quiet = false;
+  /// How many studies run at once; 0 for as many as there are cores.
+  int n_jobs = 0;
 };
 
-/// Runs the studies of inputs/verification one after the other, as `tamp study` does, and writes and prints a table of
-/// what came out beside what was expected. Throws InputError for a name that is no study's; FileError; Interrupted; and
-/// SimulationError, after all is written, if an expectation does not hold.
+/// Runs the studies of inputs/verification, as `tamp study` does, and writes and prints a table of what came out beside
+/// what was expected. Throws InputError for a name that is no study's; FileError; Interrupted; and SimulationError,
+/// after all is written, if an expectation does not hold.
 void verify(const VerifyOptions& options);
 
 }  // namespace tamp::tools::verify

@@ -2,7 +2,6 @@
 #include <cmath>
 #include <csignal>
 #include <nlohmann/json.hpp>
-#include <thread>
 
 #include "tests/tools/background_program.hpp"
 #include "tests/tools/program.hpp"
@@ -69,17 +68,6 @@ class FlightStudy
  private:
   TemporaryFolder folder_;
 };
-
-/// Something that another process does.
-template <class Condition>
-void wait_until(const Condition& holds)
-{
-  const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(60);
-  while (!holds()) {
-    REQUIRE(std::chrono::steady_clock::now() < end);
-    std::this_thread::sleep_for(std::chrono::milliseconds(2));
-  }
-}
 
 }  // namespace
 

@@ -1,6 +1,7 @@
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
 
+#include "tests/tools/background_program.hpp"
 #include "tests/tools/program.hpp"
 
 namespace test_verify_command
@@ -17,15 +18,15 @@ namespace
 class Studies
 {
  public:
-  Studies()
+  explicit Studies(const std::string& time = R"({ "end": 1e-3 })")
   {
     folder_.write("inputs/verification/scenes/flight.json", R"({
-      "dimension": 2, "grid": { "upper": [1, 1], "cell_size": 0.1 }, "time": { "end": 1e-3 },
+      "dimension": 2, "grid": { "upper": [1, 1], "cell_size": 0.1 },
       "materials": { "steel": { "type": "hypoelastic", "density": 8000, "bulk_modulus": 1e9, "shear_modulus": 7e8 } },
       "bodies": { "block": { "material": "steel", "velocity": [0, -100],
                              "geometry": { "type": "box", "lower": [0.4, 0.6], "upper": [0.6, 0.8] } } },
-      "output": { "history_interval": 1e-4, "fields_interval": 1e-3 }
-    })");
+      "output": { "history_interval": 1e-4, "fields_interval": 1e-3 },
+      "time": )" + time + "}");
     write_study("sound", 0.1);
     write_study("unsound", 0.2);
   }
@@ -33,6 +34,12 @@ class Studies
   Outcome verify(const std::string& arguments) const
   {
     return outcome_of("cd " + folder_.path().string() + " && " + TAMP_PROGRAM + " bench verify --out out " + arguments);
+  }
+
+  /// Where env(1) can start the verification.
+  std::string in_background(const std::string& arguments) const
+  {
+    return "-C " + folder_.path().string() + " " + TAMP_PROGRAM + " bench verify " + arguments;
   }
 
   std::string table() const { return read_text(folder_.path() / "out/verification.md"); }
@@ -77,7 +84,7 @@ TEST_CASE("a verification with an expectation that does not hold runs all studie
 {
   const Studies studies;
 
-  const Outcome outcome = studies.verify("--short --quiet");
+  const Outcome outcome = studies.verify("--short --quiet --jobs 2");
 
   CHECK(outcome.exit_code == 3);
   CHECK(outcome.out.empty());
@@ -86,6 +93,19 @@ TEST_CASE("a verification with an expectation that does not hold runs all studie
   CHECK_THAT(studies.table(), Contains("### sound") && Contains("### unsound") && Contains("**NO**") &&
                                   Contains("- does not hold: flight, depth: error 50 %"));
   CHECK(studies.results()["studies"][0]["points"].size() == 1);
+}
+
+TEST_CASE("a verification that is asked to stop ends the studies under way, and says so")
+{
+  const Studies studies(R"({ "end": 1e3 })");
+  BackgroundProgram program("/usr/bin/env", studies.in_background("--jobs 2"));
+  wait_until([&] { return program.children().size() == 2; });
+  const std::vector<pid_t> children = program.children();
+
+  program.send(SIGTERM);
+
+  CHECK(program.exit_code() == 128 + SIGTERM);
+  for (const pid_t child : children) CHECK_FALSE(is_running(child));
 }
 
 TEST_CASE("a verification of a study that there is not is refused before anything runs")
