@@ -39,6 +39,15 @@ struct ShortStudy {
     return 0;
   }
 
+  double value(const std::string& method, const std::string& quantity, const Json& refine) const
+  {
+    for (const Json& point : results["points"]) {
+      if (point["method"] == method && point["refine"] == refine) return point["values"].at(quantity);
+    }
+    FAIL("no point of " << method);
+    return 0;
+  }
+
   double order(const std::string& method) const
   {
     for (const Json& fit : results["quantities"][0]["orders"]) {
@@ -133,6 +142,28 @@ TEST_CASE("the short study of the projectile has an error budget")
   const ShortStudy study = run_short("projectile");
   CHECK(study.methods("done").contains("regression"));
   CHECK(study.results["budgets"].size() == 2);
+}
+
+TEST_CASE("in the short study of localisation sand that rubs and widens stops the punch earlier than the same without")
+{
+  const ShortStudy study = run_short("localisation");
+
+  CHECK(study.methods("done").size() == 5);  // four materials and the reference
+  for (const double cell_size : {0.05, 0.025}) {
+    CHECK(study.value("concrete sand", "depth", cell_size) <
+          0.98 * study.value("concrete sand, strength of clay", "depth", cell_size));
+  }
+}
+
+TEST_CASE("the short study of what methods cost finds about one depth with every method")
+{
+  const ShortStudy study = run_short("method_cost");
+
+  CHECK(study.methods("done").size() == 19);
+  for (const Json& point : study.results["points"]) {
+    INFO(point["method"]);
+    CHECK(point["values"]["depth"].get<double>() == Approx(study.value("gimp", "depth", nullptr)).epsilon(0.02));
+  }
 }
 
 }  // namespace test_studies
