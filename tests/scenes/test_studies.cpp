@@ -155,6 +155,15 @@ TEST_CASE("in the short study of localisation sand that rubs and widens stops th
   }
 }
 
+TEST_CASE("in the short study of rings FLIP keeps most of the energy, and PIC less than half")
+{
+  const ShortStudy study = run_short("rings");
+
+  CHECK(study.error("flip", "energy left") < 0.2);
+  CHECK(study.error("pic", "energy left") > 0.5);
+  CHECK(study.error("xpic 5", "energy left") > study.error("flip", "energy left"));
+}
+
 TEST_CASE("the short study of what methods cost finds about one depth with every method")
 {
   const ShortStudy study = run_short("method_cost");

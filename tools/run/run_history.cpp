@@ -120,6 +120,7 @@ void RunHistory::add_columns()
               {"viscous[J]", [this] { return energies_.viscous; }},
               {"contact[J]", [this] { return energies_.contact; }},
               {"filter[J]", [this] { return energies_.filter; }},
+              {"half_step[J]", [this] { return energies_.half_step; }},
               {"external[J]", [this] { return energies_.external; }},
               {"total[J]", [this] { return energies_.total; }}};
   add_vector("momentum", "N s", [this] { return report_.momentum(); });
@@ -216,9 +217,10 @@ void RunHistory::measure()
        totals.viscous,
        totals.contact,
        totals.filter,
+       simulation_.taken_at_end(),
        report_.gravity_work - initial_.gravity_work + totals.driving,
        0};
-  e.total = e.kinetic + e.elastic + e.plastic + e.viscous + e.contact + e.filter - e.external;
+  e.total = e.kinetic + e.elastic + e.plastic + e.viscous + e.contact + e.filter - e.half_step - e.external;
   const double largest =
       std::max({e.kinetic, std::abs(e.elastic), e.plastic, e.viscous, e.contact, std::abs(e.external)});
   const double energy_scale = initial_energy_ > 0 ? initial_energy_ : largest;

@@ -23,6 +23,7 @@ struct EnergyBalance {
   double viscous;
   double contact;
   double filter;
+  double half_step;
   double external;
   double total;
 };

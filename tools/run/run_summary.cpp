@@ -141,6 +141,7 @@ Json run_summary(tasks::Simulation& simulation, const RunHistory& history, const
             {"viscous", e.viscous},
             {"contact", e.contact},
             {"filter", e.filter},
+            {"half_step", e.half_step},
             {"external", e.external},
             {"total", e.total}}},
           {"forecast", to_json(outcome.forecast)},
