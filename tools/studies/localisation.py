@@ -6,7 +6,7 @@
 
 Runs inputs/punch/quick.json for 1.8 ms with a box 1 m deep, from the floor of which no wave is back by then, on cells of
 2.5, 1.25 and 0.625 cm; 5 minutes on one core. Runs that are there already are only drawn. Prints the greatest dilation of any
-particle, and draws the plastic volumetric strain of the sand near the punch. Debian's python3-h5py, python3-matplotlib."""
+particle, and draws the plastic volumetric strain of the sand near the punch. Debian's python3-h5py, python3-matplotlib and python3-pil."""
 
 import argparse
 import pathlib
@@ -16,6 +16,7 @@ import h5py
 import matplotlib
 matplotlib.use("Agg")
 from matplotlib import pyplot
+from PIL import Image
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 CELL_SIZES = [0.025, 0.0125, 0.00625]
@@ -58,6 +59,7 @@ def main():
     panels[0].set_ylabel("y [m]")
     figure.colorbar(dots, ax=panels, label="plastic volumetric strain, compression positive", shrink=0.8)
     figure.savefig(options.out, dpi=90)
+    Image.open(options.out).convert("RGB").quantize(64).save(options.out, optimize=True)
 
 
 if __name__ == "__main__":
