@@ -41,7 +41,7 @@ bool warns(const std::string& assignment, const std::string& words)
 
 TEST_CASE("a run whose energy is wrong by more than its limit ends with 3, with its state kept")
 {
-  const std::string bound = " --set /limits/energy_error=0.001";
+  const std::string bound = " --set /limits/energy_error=1e-5";
   const Run wrong = run_with("--steps 100" + bound), off = run_with("--steps 20 --set /limits/energy_error=off");
 
   CHECK(wrong.outcome.exit_code == 3);
