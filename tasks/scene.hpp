@@ -116,7 +116,8 @@ struct SceneBody {
   bool initial_stress = false;
   /// Only on a body that is not rigid.
   std::optional<BodyPressure> pressure{};
-  /// The functions of its problem, if it has one: they say more of its start than the above, and what acts on it.
+  /// The functions of its problem, if it has one: they say more of its start than the above, and what acts on it. A
+  /// disk without one may have its layout alone.
   components::BodyFunctions functions{};
 
   bool is_pressed() const { return pressure.has_value() || functions.pressure; }

@@ -40,6 +40,14 @@ class Solid
   /// Volume [m^3]; in the plane the area [m^2], the volume of one metre of thickness.
   Volume volume() const { return shape_->volume(); }
 
+  /// The shape itself if it is of this type, or null.
+  template <class Shape>
+  const Shape* get_if() const
+  {
+    const auto* held = dynamic_cast<const Held<Shape>*>(shape_.get());
+    return held == nullptr ? nullptr : &held->shape;
+  }
+
   /// Simple shapes that a question to the solid may have to ask.
   std::size_t n_shapes() const { return n_shapes_; }
 

@@ -172,13 +172,14 @@ components::MassProperties BodyParticles<D>::mass_properties(int body) const
 {
   const int material = scene_.bodies[static_cast<std::size_t>(body)].material;
   const auto lattice = lattice_of<D>(scene_, material);
-  std::vector<Eigen::Vector3d> position;
-  for (const auto& materials : particles_) {
-    const auto& own = materials[static_cast<std::size_t>(material)].position;
-    std::transform(own.begin(), own.end(), std::back_inserter(position), in_space<D>);
-  }
   const double density = scene_.materials[static_cast<std::size_t>(material)].density;
-  const std::vector<double> mass(position.size(), density * lattice.particle_volume());
+  std::vector<Eigen::Vector3d> position;
+  std::vector<double> mass;
+  for (const auto& materials : particles_) {
+    const Particles& own = materials[static_cast<std::size_t>(material)];
+    std::transform(own.position.begin(), own.position.end(), std::back_inserter(position), in_space<D>);
+    for (const components::Site<D>& site : own.site) mass.push_back(density * site.volume);
+  }
   return components::mass_properties(mass, position, lattice.cell_size / lattice.n_per_axis, D == 2);
 }
 

@@ -42,7 +42,8 @@ Scene sphere_on_incline(int dimension, const Incline& incline)
   const int ground = add_elastic(scene, 1, E, 0.2), stone = add_elastic(scene, 0.25, E, 0.2);
   add_box(scene, ground, {0, 0, 0}, {1.0 * length, depth, 12});
   if (dimension == 2) {
-    add_disk(scene, stone, x, depth + radius, radius, {0, 0, 0});
+    SceneBody& disk = add_disk(scene, stone, x, depth + radius, radius, {0, 0, 0});
+    disk.functions.layout = components::PolarLayout{{x, depth + radius}, 0, radius};
   } else {
     const components::Ball<3> ball{{x, depth + radius, 6}, radius};
     add_body(scene, stone, components::Solid<3>(ball), {0, 0, 0});
@@ -83,9 +84,13 @@ TEST_CASE("a rigid sphere with enough friction rolls down an incline")
   const int dimension = GENERATE(2, 3);
   CAPTURE(dimension);
   // The finer in cells, the closer: see docs/method.md.
-  const double radius = dimension == 2 ? 8 : 4, margin = dimension == 2 ? 0.06 : 0.2;
-  Scene scene = sphere_on_incline(dimension, {radius, 0.2, 15, dimension == 2 ? 30 : 18});
+  const double radius = dimension == 2 ? 8 : 4, margin = dimension == 2 ? 0.03 : 0.2;
+  Scene scene =
+      dimension == 2 ? sphere_on_incline(2, {radius, 0.2, 60, 30}) : sphere_on_incline(3, {radius, 0.2, 15, 18});
   scene.materials[1].own_particles_per_axis = 4;
+  // Otherwise the load that a cylinder is to the ground from one moment on makes it bounce, and slip whenever it is
+  // light.
+  if (dimension == 2) scene.local_damping = 0.1;
   scene.contacts[0].normal_of = components::ContactTable::regression;
   const double inertia = dimension == 2 ? 0.5 : 0.4, acceleration = sine / (1 + inertia), way = 6;
   const double end = std::sqrt(2 * way / acceleration);

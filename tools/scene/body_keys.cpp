@@ -109,6 +109,11 @@ const ObjectKeys& body_keys()
       "body",
       {{"material", Name{}, "", compulsory, "a name from `materials`"},
        {"geometry", Object{solid_keys}, "", compulsory, "the region it fills at the start, within the grid"},
+       choice<bool>(
+           "particles", false, {{"lattice", false}, {"rings", true}},
+           "`\"lattice\"`: at the sites of the lattice within the geometry; `\"rings\"`, of a `\"ball\"` in the "
+           "plane: on rings about its centre, as those of the problem `\"rotating_disk\"`, so that it is round "
+           "enough to roll"),
        {"velocity", Numbers{per_axis}, "m/s", {0.0}, "at the start"},
        {"angular_velocity",
         Numbers{per_rotation},

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "components/errors.hpp"
+#include "components/geometry/ball.hpp"
 #include "tasks/method.hpp"
 #include "tasks/set_up/body_sites.hpp"
 #include "tasks/set_up/settled_sand.hpp"
@@ -191,6 +192,24 @@ void check_may_go_around(const tasks::Scene& scene, bool rigid, bool has_axis, c
   }
 }
 
+/// The rings about the centre of a disk on which its particles are to lie.
+template <int D>
+std::optional<components::PolarLayout> read_rings(const components::Solid<D>& solid, bool has_problem,
+                                                  const JsonReader& reader)
+{
+  if (has_problem) {
+    reader.add_problem("particles", "rings, of a body with a problem", "expected those of the problem alone");
+    return std::nullopt;
+  }
+  if constexpr (D == 2) {
+    if (const auto* disk = solid.template get_if<components::Ball<2>>()) {
+      return components::PolarLayout{disk->centre, 0, disk->radius};
+    }
+  }
+  reader.add_problem("particles", "rings, of a body that is no disk", "expected a \"ball\" in two dimensions");
+  return std::nullopt;
+}
+
 template <int D>
 std::optional<tasks::SceneBody> read(const std::string& name, JsonReader& reader, const tasks::Scene& scene,
                                      const std::vector<std::string>& material_names, bool grid_is_good)
@@ -203,6 +222,7 @@ std::optional<tasks::SceneBody> read(const std::string& name, JsonReader& reader
   const std::vector<double> spin = may_turn ? reader.numbers("angular_velocity") : std::vector<double>{0};
   const auto axis = read_axis<D>(reader);
   const auto solid = read_solid<D>(reader, "geometry");
+  const bool on_rings = reader.choice<bool>("particles");
   const bool initial_stress = reader.flag("initial_stress");
   auto pressure = read_pressure<D>(reader);
   const std::size_t n_before = reader.document().problems.size();
@@ -228,6 +248,7 @@ std::optional<tasks::SceneBody> read(const std::string& name, JsonReader& reader
     if (!functions) return std::nullopt;
     body.functions = std::move(*functions);
   }
+  if (on_rings) body.functions.layout = read_rings<D>(*solid, problem.has_value(), reader);
   body.n_particles = tasks::sites_of<D>(scene, body).size();
   if (body.n_particles == 0) {
     reader.add_problem("geometry", "holds no particle",

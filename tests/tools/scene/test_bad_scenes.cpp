@@ -199,6 +199,18 @@ TEST_CASE("settled sand that moves or is rigid is told")
         "--set#/bodies/block/initial_stress: a rigid body, which has no stress; expected one that is not rigid");
 }
 
+TEST_CASE("rings of particles in what is no disk, or where a problem lays them out, are told")
+{
+  const std::string at = "--set#/bodies/block/particles: ", disk = R"({"type":"ball","centre":[1,1],"radius":0.7})";
+
+  CHECK(problems_with({"/bodies/block/particles=rings"}) ==
+        at + "rings, of a body that is no disk; expected a \"ball\" in two dimensions");
+  CHECK(problems_with({"/bodies/block/particles=rings", "/bodies/block/geometry=" + disk,
+                       R"(/bodies/block/problem={"type":"rotating_disk","centre":[1,1],"outer_radius":0.7,)"
+                       R"("angular_speed":1})"}) ==
+        at + "rings, of a body with a problem; expected those of the problem alone");
+}
+
 TEST_CASE("rigid bodies whose contact nothing could tell are told")
 {
   const std::string body = R"({"material":"steel","rigid":true,"geometry":{"type":"box",)";

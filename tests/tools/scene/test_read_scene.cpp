@@ -1,6 +1,7 @@
 #include <catch2/catch.hpp>
 
 #include "runtime/file_error.hpp"
+#include "tasks/set_up/body_sites.hpp"
 #include "tests/tools/scene/small_scene.hpp"
 #include "tools/scene/print_json.hpp"
 
@@ -161,6 +162,25 @@ TEST_CASE("a body of three dimensions is counted in three dimensions")
           .scene;
 
   CHECK(scene.bodies.at(0).n_particles == 16);
+}
+
+TEST_CASE("a disk whose particles lie on rings has its area, and is as round as it is told")
+{
+  const TemporaryFolder folder;
+  const auto file = folder.write("small.json", small_scene);
+
+  const auto checked = read_scene(file, {"/bodies/block/particles=rings", "/particles_per_cell=[8,8]",
+                                         R"(/bodies/block/geometry={"type":"ball","centre":[1,1],"radius":0.7})"});
+
+  double area = 0, outermost = 0;
+  for (const auto& site : tasks::particle_sites<2>(checked.scene, checked.scene.bodies.at(0))) {
+    area += site.volume;
+    outermost = std::max(outermost, (site.place - Eigen::Vector2d(1, 1)).norm());
+  }
+  CHECK(area == Approx(0.49 * 3.14159265358979323846));
+  // Six rings of 0.117, the nearest to the spacing of 0.125.
+  CHECK(outermost == Approx(0.7 * 11 / 12));
+  CHECK(checked.resolved["bodies"]["block"]["particles"] == "rings");
 }
 
 TEST_CASE("every kind of geometry is read")
