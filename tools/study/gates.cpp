@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 
 #include "tools/study/richardson.hpp"
 
@@ -40,16 +41,18 @@ class Judge
   {
   }
 
-  void judge(Gate& gate) const
+  void judge(const Expectation& expectation, Gate& gate) const
   {
-    gate.expected = expected(gate.kind, gate.limit);
+    gate.expected = expected(expectation);
     switch (gate.kind) {
       case Kind::order_at_least:
       case Kind::order_at_most:
         return judge_order(gate);
       case Kind::error_at_least:
       case Kind::error_at_most:
-        return judge_error(gate);
+        return judge_error(expectation.at, gate);
+      case Kind::limit_error_at_most:
+        return judge_limit(expectation.limit_order, gate);
       case Kind::fails:
         return judge_failure(gate);
     }
@@ -61,17 +64,21 @@ class Judge
     return found_.reference.relative ? fmt::format("{:.3g} %", error * 100) : fmt::format("{:.3g}", error);
   }
 
-  std::string expected(Kind kind, double limit) const
+  std::string expected(const Expectation& expectation) const
   {
-    switch (kind) {
+    const double limit = expectation.limit;
+    const std::string at = expectation.at ? fmt::format(" at {}", *expectation.at) : std::string();
+    switch (expectation.kind) {
       case Kind::order_at_least:
         return fmt::format("order at least {}", limit);
       case Kind::order_at_most:
         return fmt::format("order at most {}", limit);
       case Kind::error_at_least:
-        return "error at least " + as_text(limit);
+        return "error at least " + as_text(limit) + at;
       case Kind::error_at_most:
-        return "error at most " + as_text(limit);
+        return "error at most " + as_text(limit) + at;
+      case Kind::limit_error_at_most:
+        return fmt::format("error of the limit by order {} at most {}", expectation.limit_order, as_text(limit));
       case Kind::fails:
         return "fails";
     }
@@ -91,20 +98,30 @@ class Judge
     return fmt::format("{}: {}: {}", one->point.label, to_text(one->result.end), reason);
   }
 
-  void judge_order(Gate& gate) const
+  /// The first point without an error, or null.
+  const MeasuredPoint* failed_point() const
+  {
+    const auto at = std::find_if(group_.begin(), group_.end(), [&](const MeasuredPoint* one) { return !error(one); });
+    return at == group_.end() ? nullptr : *at;
+  }
+
+  std::vector<double> spacings() const
   {
     std::vector<Json> values;
-    std::vector<double> errors;
-    for (const MeasuredPoint* one : group_) {
-      if (!error(one)) {
-        gate.note = "no order: " + lack(one);
-        return;
-      }
-      values.push_back(one->point.setting(study_.refine));
-      errors.push_back(*error(one));
+    for (const MeasuredPoint* one : group_) values.push_back(one->point.setting(study_.refine));
+    return spacings_of(values);
+  }
+
+  void judge_order(Gate& gate) const
+  {
+    if (const MeasuredPoint* failed = failed_point()) {
+      gate.note = "no order: " + lack(failed);
+      return;
     }
+    std::vector<double> errors;
+    for (const MeasuredPoint* one : group_) errors.push_back(*error(one));
     constexpr std::size_t fewest = 3;
-    const double order = fitted_order(spacings_of(values), errors, std::max(fewest, errors.size()));
+    const double order = fitted_order(spacings(), errors, std::max(fewest, errors.size()));
     if (std::isnan(order)) {
       gate.note = "no order: fewer than three errors above 0";
       return;
@@ -114,13 +131,37 @@ class Judge
     gate.holds = gate.kind == Kind::order_at_least ? order >= gate.limit : order <= gate.limit;
   }
 
-  void judge_error(Gate& gate) const
+  /// On the finest grid, or where the refined setting has the value `at`.
+  void judge_error(const std::optional<double>& at, Gate& gate) const
   {
-    const MeasuredPoint* finest = group_.back();
-    gate.found = error(finest);
-    gate.note = gate.found ? "error " + as_text(*gate.found) : lack(finest);
+    const auto is_there = [&](const MeasuredPoint* one) { return one->point.setting(study_.refine) == *at; };
+    const auto one = at ? std::find_if(group_.begin(), group_.end(), is_there) : std::prev(group_.end());
+    if (one == group_.end()) {
+      gate.note = "no point there";
+      return;
+    }
+    gate.found = error(*one);
+    gate.note = gate.found ? "error " + as_text(*gate.found) : lack(*one);
     if (!gate.found) return;
     gate.holds = gate.kind == Kind::error_at_least ? *gate.found >= gate.limit : *gate.found <= gate.limit;
+  }
+
+  void judge_limit(double order, Gate& gate) const
+  {
+    if (const MeasuredPoint* failed = failed_point()) {
+      gate.note = "no limit: " + lack(failed);
+      return;
+    }
+    std::vector<double> answers;
+    for (const MeasuredPoint* one : group_) answers.push_back(found_.values.at(one->point.id));
+    const double limit = fitted_limit(spacings(), answers, order);
+    if (std::isnan(limit)) {
+      gate.note = "no limit: fewer than three grids";
+      return;
+    }
+    gate.found = std::abs(limit - found_.reference.answer.value) / found_.reference.scale;
+    gate.note = "error of the limit " + as_text(*gate.found);
+    gate.holds = *gate.found <= gate.limit;
   }
 
   void judge_failure(Gate& gate) const
@@ -171,7 +212,7 @@ std::vector<Gate> gates_of(const Study& study, const std::vector<MeasuredPoint>&
       for (const PointGroup& group : groups_of(study, points, method)) {
         Gate gate{expected.quantity, method, label_of(study, group), expected.kind, expected.limit};
         gate.why = expected.why;
-        Judge(study, found, group).judge(gate);
+        Judge(study, found, group).judge(expected, gate);
         gates.push_back(std::move(gate));
       }
     }
@@ -181,8 +222,8 @@ std::vector<Gate> gates_of(const Study& study, const std::vector<MeasuredPoint>&
 
 std::string to_text(Expectation::Kind kind)
 {
-  static constexpr std::array<const char*, 5> words{"order_at_least", "order_at_most", "error_at_least",
-                                                    "error_at_most", "fails"};
+  static constexpr std::array<const char*, 6> words{"order_at_least", "order_at_most",       "error_at_least",
+                                                    "error_at_most",  "limit_error_at_most", "fails"};
   return words.at(static_cast<std::size_t>(kind));
 }
 

@@ -254,6 +254,7 @@ class StudyReader
         for (const Method& method : study_.methods) expected.methods.push_back(method.name);
       }
       read_bar(reader, expected);
+      read_terms(reader, expected);
       expected.why = reader.text("why", "");
       reader.finish();
       study_.expectations.push_back(std::move(expected));
@@ -264,28 +265,49 @@ class StudyReader
   void read_bar(JsonReader& reader, Expectation& expected)
   {
     using Kind = Expectation::Kind;
-    const std::vector<std::pair<std::string, Kind>> kinds{{"order_at_least", Kind::order_at_least},
-                                                          {"order_at_most", Kind::order_at_most},
-                                                          {"error_at_least", Kind::error_at_least},
-                                                          {"error_at_most", Kind::error_at_most},
-                                                          {"fails", Kind::fails}};
+    const std::vector<std::pair<std::string, Kind>> kinds{
+        {"order_at_least", Kind::order_at_least},           {"order_at_most", Kind::order_at_most},
+        {"error_at_least", Kind::error_at_least},           {"error_at_most", Kind::error_at_most},
+        {"limit_error_at_most", Kind::limit_error_at_most}, {"fails", Kind::fails}};
     const auto is_there = [&](const auto& kind) { return reader.has(kind.first); };
     if (std::count_if(kinds.begin(), kinds.end(), is_there) != 1) {
       reader.add_problem("quantity", fmt::format("\"{}\", of which not one thing is to hold", expected.quantity),
-                         "expected one of order_at_least, order_at_most, error_at_least, error_at_most, fails");
+                         "expected one of order_at_least, order_at_most, error_at_least, error_at_most, "
+                         "limit_error_at_most, fails");
       return;
     }
     const auto& [key, kind] = *std::find_if(kinds.begin(), kinds.end(), is_there);
     expected.kind = kind;
     const bool is_of_order = kind == Kind::order_at_least || kind == Kind::order_at_most;
-    if (is_of_order && study_.refine.empty()) {
-      reader.add_problem(key, "an order in a study that refines nothing", "expected the key refine");
+    const bool is_of_limit = kind == Kind::limit_error_at_most;
+    if ((is_of_order || is_of_limit) && study_.refine.empty()) {
+      reader.add_problem(key, fmt::format("{} in a study that refines nothing", is_of_order ? "an order" : "a limit"),
+                         "expected the key refine");
+    }
+    if (is_of_limit && !has_exact_answer(expected.quantity)) {
+      reader.add_problem(key, "the limit of a quantity without an exact answer", "expected one with the key exact");
     }
     if (kind != Kind::fails) {
       expected.limit = reader.number(key);
     } else if (!reader.flag(key)) {
       reader.add_problem(key, "false", "expected true, or another key: what has to hold is said");
     }
+  }
+
+  /// The keys that go with some of them alone.
+  void read_terms(JsonReader& reader, Expectation& expected)
+  {
+    using Kind = Expectation::Kind;
+    const bool is_of_one = expected.kind == Kind::error_at_least || expected.kind == Kind::error_at_most;
+    if (reader.has("at") && !(is_of_one && !study_.refine.empty())) {
+      reader.add_problem("at", "given where no error of one of several grids is judged",
+                         "expected it beside error_at_least or error_at_most, in a study that refines something");
+    }
+    if (reader.has("limit_order") && expected.kind != Kind::limit_error_at_most) {
+      reader.add_problem("limit_order", "given where no limit is judged", "expected it beside limit_error_at_most");
+    }
+    expected.at = reader.optional_number("at");
+    expected.limit_order = reader.number("limit_order");
   }
 
   void read_limits()
@@ -425,6 +447,12 @@ class StudyReader
   {
     return std::any_of(study_.quantities.begin(), study_.quantities.end(),
                        [&](const Quantity& quantity) { return quantity.name == name; });
+  }
+
+  bool has_exact_answer(const std::string& name) const
+  {
+    return std::any_of(study_.quantities.begin(), study_.quantities.end(),
+                       [&](const Quantity& quantity) { return quantity.name == name && quantity.exact; });
   }
 
   Document& document_;

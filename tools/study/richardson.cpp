@@ -44,6 +44,14 @@ bool fall(std::span<const double> differences)
   return true;
 }
 
+/// The straight line through some points, by least squares: their number, and sums over them.
+struct LineFit {
+  double n = 0, x = 0, y = 0, xx = 0, xy = 0;
+
+  void add(double u, double v) { n += 1, x += u, y += v, xx += u * u, xy += u * v; }
+  double slope() const { return (n * xy - x * y) / (n * xx - x * x); }
+};
+
 }  // namespace
 
 Convergence convergence(std::span<const double> spacings, std::span<const double> differences)
@@ -66,14 +74,19 @@ Convergence convergence(std::span<const double> spacings, std::span<const double
 
 double fitted_order(std::span<const double> spacings, std::span<const double> errors, std::size_t n_least)
 {
-  double n = 0, x = 0, y = 0, xx = 0, xy = 0;
+  LineFit line;
   for (std::size_t i = 0; i < errors.size(); ++i) {
-    if (!(errors[i] > 0)) continue;
-    const double u = std::log(spacings[i]), v = std::log(errors[i]);
-    n += 1, x += u, y += v, xx += u * u, xy += u * v;
+    if (errors[i] > 0) line.add(std::log(spacings[i]), std::log(errors[i]));
   }
-  if (n < static_cast<double>(n_least)) return NAN;
-  return (n * xy - x * y) / (n * xx - x * x);
+  return line.n < static_cast<double>(n_least) ? NAN : line.slope();
+}
+
+double fitted_limit(std::span<const double> spacings, std::span<const double> answers, double order)
+{
+  constexpr double fewest = 3;
+  LineFit line;
+  for (std::size_t i = 0; i < answers.size(); ++i) line.add(std::pow(spacings[i], order), answers[i]);
+  return line.n < fewest ? NAN : (line.y - line.slope() * line.x) / line.n;
 }
 
 }  // namespace tamp::tools::study

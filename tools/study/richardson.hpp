@@ -27,4 +27,7 @@ Convergence convergence(std::span<const double> spacings, std::span<const double
 /// Slope of log(error) over log(spacing), by least squares; 0 errors are left out. NaN for fewer than `n_least`.
 double fitted_order(std::span<const double> spacings, std::span<const double> errors, std::size_t n_least = 3);
 
+/// a of the fit of answers by a + c h^order, by least squares. NaN for fewer than three, or where no two h differ.
+double fitted_limit(std::span<const double> spacings, std::span<const double> answers, double order);
+
 }  // namespace tamp::tools::study

@@ -131,9 +131,10 @@ struct Expectation {
   enum class Kind {
     order_at_least,
     order_at_most,
-    error_at_least,  ///< on the finest grid
+    error_at_least,  ///< on the finest grid, or where `at` says
     error_at_most,
-    fails  ///< becomes unstable, or its error grows to the finest grid
+    limit_error_at_most,  ///< of what the answers tend to, if errors fall with `limit_order`
+    fails                 ///< becomes unstable, or its error grows to the finest grid
   };
   Kind kind = Kind::error_at_most;
   /// An order, or an error.
@@ -142,6 +143,9 @@ struct Expectation {
   std::vector<std::string> methods;
   /// For people.
   std::string why;
+  /// The value of the refined setting whose error is judged; empty: the finest.
+  std::optional<double> at{};
+  double limit_order = 1;
 };
 
 struct Study {

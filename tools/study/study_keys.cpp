@@ -134,6 +134,11 @@ const ObjectKeys& expectation_keys()
        {"order_at_most", Number{}, "", none, of_fit},
        {"error_at_least", Number{zero_or_above}, "", none, at_finest},
        {"error_at_most", Number{zero_or_above}, "", none, at_finest},
+       {"at", Number{}, "", none,
+        "the value of the refined setting at which the error is judged; the finest if left out"},
+       {"limit_error_at_most", Number{zero_or_above}, "", none,
+        "of the limit a of a fit of answers by a + c h^p, h being the refined setting"},
+       {"limit_order", Number{above_zero}, "", {1.0}, "p, with which errors fall by theory"},
        {"fails", Flag{}, "", {false}, "becomes unstable, or has an error that grows to the finest grid"},
        {"why", Text{}, "", {}, "what says so, for people"}}};
   return keys;

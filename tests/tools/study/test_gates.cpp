@@ -17,7 +17,7 @@ namespace
 {
 
 /// What is judged of a method whose errors on cells of 4, 2 and 1 are these; NaN for a run that became unstable.
-Gate judged(Kind kind, double limit, const std::vector<double>& errors)
+Gate judged(const Expectation& expectation, const std::vector<double>& errors)
 {
   const TemporaryFolder folder;
   Study study;
@@ -26,7 +26,7 @@ Gate judged(Kind kind, double limit, const std::vector<double>& errors)
   way.exact = 10;
   study.quantities = {way};
   study.methods = {{"other", "other", false, {}, {{"/h", {8}}}, {}}, {"a", "a", false, {}, {{"/h", {4, 2, 1}}}, {}}};
-  study.expectations = {{kind, limit, "way", {"a"}, "theory"}};
+  study.expectations = {expectation};
 
   std::vector<MeasuredPoint> measured;
   for (const Point& point : points_of(study)) {
@@ -43,6 +43,16 @@ Gate judged(Kind kind, double limit, const std::vector<double>& errors)
   CHECK(gates[0].method == "a");
   CHECK(gates[0].why == "theory");
   return gates[0];
+}
+
+Expectation expecting(Kind kind, double limit)
+{
+  return {kind, limit, "way", {"a"}, "theory"};
+}
+
+Gate judged(Kind kind, double limit, const std::vector<double>& errors)
+{
+  return judged(expecting(kind, limit), errors);
 }
 
 }  // namespace
@@ -90,6 +100,34 @@ TEST_CASE("the error that is judged is that of the finest grid")
   CHECK_FALSE(judged(Kind::error_at_most, 1, {0.16, 0.08, NAN}).holds);
   CHECK(judged(Kind::error_at_most, 0.01, {0.16, 0.08, 0.02}).note == "error 2 %");
   CHECK(judged(Kind::error_at_most, 0.01, {0.16, 0.08, 0.02}).expected == "error at most 1 %");
+}
+
+TEST_CASE("the error of another grid is judged where one is named")
+{
+  Expectation expectation = expecting(Kind::error_at_most, 0.1);
+  expectation.at = 2;
+  CHECK(judged(expectation, {0.16, 0.08, 0.2}).holds);
+  CHECK(judged(expectation, {0.16, 0.08, 0.2}).expected == "error at most 10 % at 2");
+  CHECK_FALSE(judged(expectation, {0.05, 0.16, 0.05}).holds);
+  expectation.at = 3;
+  CHECK_FALSE(judged(expectation, {0.01, 0.01, 0.01}).holds);
+  CHECK(judged(expectation, {0.01, 0.01, 0.01}).note == "no point there");
+}
+
+TEST_CASE("the limit that is judged is that of a fit by the order expected, errors of either sign")
+{
+  // Answers of 10 (1 - e) with e = 0.02 + 0.01 h, and with e = h^2 / 100 - 0.01.
+  const std::vector<double> first{0.06, 0.04, 0.03}, second{0.15, 0.03, 0};
+  Expectation expectation = expecting(Kind::limit_error_at_most, 0.021);
+  CHECK(judged(expectation, first).holds);
+  CHECK(*judged(expectation, first).found == Approx(0.02));
+  CHECK(judged(expectation, first).expected == "error of the limit by order 1 at most 2.1 %");
+  expectation.limit = 0.019;
+  CHECK_FALSE(judged(expectation, first).holds);
+  expectation.limit_order = 2;
+  CHECK(*judged(expectation, second).found == Approx(0.01));
+  CHECK(judged(expectation, second).holds);
+  CHECK(judged(expectation, {0.06, NAN, 0.03}).note == "no limit: h 2: unstable: the energy is wrong");
 }
 
 TEST_CASE("a method fails that becomes unstable, or whose error grows to the finest grid")

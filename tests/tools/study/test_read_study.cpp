@@ -105,6 +105,12 @@ TEST_CASE("what is expected names quantities and methods that there are, and say
   CHECK_THAT(expecting(R"({"quantity": "depth", "fails": false})"), Contains("study.json#/expect/0/fails: false"));
   CHECK_THAT(expecting(R"({"quantity": "depth", "error_at_most": -1})"),
              Contains("study.json#/expect/0/error_at_most"));
+  CHECK_THAT(expecting(R"({"quantity": "depth", "order_at_least": 2, "at": 1})"),
+             Contains("study.json#/expect/0/at: given where no error of one of several grids is judged"));
+  CHECK_THAT(expecting(R"({"quantity": "depth", "error_at_most": 1, "limit_order": 1})"),
+             Contains("study.json#/expect/0/limit_order: given where no limit is judged"));
+  CHECK_THAT(expecting(R"({"quantity": "depth", "limit_error_at_most": 1})"),
+             Contains("study.json#/expect/0/limit_error_at_most: the limit of a quantity without an exact answer"));
   CHECK_THAT(expecting(R"({"quantity": "depth", "order": 2})"), Contains("study.json#/expect/0/order: unknown key"));
   CHECK_THAT(problems_of_study(R"({"expect": [{"quantity": "depth", "order_at_least": 2}]})"),
              Contains("study.json#/expect/0/order_at_least: an order in a study that refines nothing"));

@@ -82,4 +82,12 @@ TEST_CASE("the fitted order is the slope of the logarithms, without errors of 0"
   CHECK(std::isnan(fitted_order(spacings, std::vector{64.0, 16.0, 0.0, 0.0})));
 }
 
+TEST_CASE("the fitted limit leaves out what goes with the order")
+{
+  const std::vector<double> spacings{8, 4, 2};
+  CHECK(fitted_limit(spacings, std::vector{11.0, 7.0, 5.0}, 1) == Approx(3));
+  CHECK(fitted_limit(spacings, std::vector{-59.0, -11.0, 1.0}, 2) == Approx(5));
+  CHECK(std::isnan(fitted_limit(std::vector{8.0, 4.0}, std::vector{11.0, 7.0}, 1)));
+}
+
 }  // namespace test_richardson
