@@ -16,7 +16,7 @@ TEST_CASE("short verifications hold what they expect, and say which errors and o
   const std::string out = (folder.path() / "out").string();
 
   const Outcome outcome =
-      tamp_with("bench verify axis_aligned_2d self_weight disks rotating_frame --short --quiet --out " + out);
+      tamp_with("bench verify axis_aligned_1d self_weight disks rotating_frame --short --quiet --out " + out);
 
   INFO(outcome.err);
   CHECK(outcome.exit_code == 0);
