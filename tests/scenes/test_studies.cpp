@@ -168,7 +168,7 @@ TEST_CASE("the short study of what methods cost finds about one depth with every
 {
   const ShortStudy study = run_short("method_cost");
 
-  CHECK(study.methods("done").size() == 19);
+  CHECK(study.methods("done").size() == 22);
   for (const Json& point : study.results["points"]) {
     INFO(point["method"]);
     CHECK(point["values"]["depth"].get<double>() == Approx(study.value("gimp", "depth", nullptr)).epsilon(0.02));

@@ -73,6 +73,7 @@ TEST_CASE("what is hardly ever meant is warned of")
   const auto mega = folder.write("yield.csv", "pressure[Pa],sqrt_J2[Pa]\n-0.001,0\n100,50\n");
 
   CHECK(warns("/materials/sand/density=1e-320", "no known matter"));
+  CHECK(warns("/contact/0/normal=flatter", "/contact/0/normal: with \"flatter\" and splines"));
   CHECK(warns("/gravity=[0,-1e6]", "/gravity: "));
   CHECK(warns("/bodies/punch/velocity=[0,-20000]", "faster than the fastest wave"));
   CHECK(

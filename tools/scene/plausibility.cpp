@@ -71,6 +71,22 @@ void doubt_gravity(const tasks::Scene& scene, Warnings& warnings)
   if (gravity > doubtful) warnings.push_back(fmt::format("/gravity: {:.4g} m/s2 is that of no test", gravity));
 }
 
+/// Splines reach further beyond the ground than other particles do, with a gradient shorter than that of the side of a
+/// block beside them, which then pushes the ground ahead of it.
+void doubt_contact(const tasks::Scene& scene, Warnings& warnings)
+{
+  using components::Interpolator;
+  const bool are_splines =
+      scene.interpolator == Interpolator::quadratic_spline || scene.interpolator == Interpolator::cubic_spline;
+  for (std::size_t i = 0; are_splines && i < scene.contacts.size(); ++i) {
+    if (scene.contacts[i].normal_of != components::ContactTable::flatter) continue;
+    warnings.push_back(
+        fmt::format("/contact/{}/normal: with \"flatter\" and splines the sides of a body catch on what it "
+                    "slides over; with \"regression\", or the flatter material's name, they do not",
+                    i));
+  }
+}
+
 void doubt_mass(const tasks::Scene& scene, const tasks::SceneBody& body, Warnings& warnings)
 {
   // The volume of many solids that overlap takes too long to find.
@@ -98,6 +114,7 @@ std::vector<std::string> plausibility_warnings(const CheckedScene& checked)
     fastest_wave = std::max(fastest_wave, tasks::initial_wave_speed(scene.materials[m]));
   }
   doubt_gravity(scene, warnings);
+  doubt_contact(scene, warnings);
   for (const tasks::SceneBody& body : scene.bodies) {
     doubt_speed(body, fastest_wave, warnings);
     doubt_mass(scene, body, warnings);
