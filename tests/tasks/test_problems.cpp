@@ -45,7 +45,7 @@ WorstError worst_error(const Scene& scene, double end)
   WorstError worst;
   while (simulation->time() < end) {
     simulation->advance(end);
-    const DisplacementError& error = simulation->report().displacement_errors[0];
+    const DisplacementError error = simulation->report().displacement_errors[0];
     worst.rms = std::max(worst.rms, error.rms());
     worst.greatest = std::max(worst.greatest, error.greatest);
   }
