@@ -75,6 +75,13 @@ struct Method {
   /// The rigid body that a material is, or null.
   const RigidBody* rigid_body(int material) const;
 
+  /// Whether particles deform by other velocities than those of the nodes that their forces work on. The energy of a
+  /// step is then balanced as a whole.
+  bool deforms_by_other_velocities() const
+  {
+    return stress_timing != StressTiming::usl || (passes == components::Passes::from_end && n_passes > 0);
+  }
+
   const Scene& scene;
   std::vector<std::unique_ptr<const components::Interpolation<D>>> interpolations;
   /// Layers of nodes beyond a patch that its particles reach.

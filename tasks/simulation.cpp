@@ -99,7 +99,7 @@ class SimulationOf : public Simulation
 
   ParticleReport report() override
   {
-    executor_->run(engine_->schedule(report_graph), {n_steps_, time_, 0, 0});
+    executor_->run(engine_->schedule(report_graph), {n_steps_, time_, 0, last_step_size_, 0});
     return engine_->warehouse().result(particle_report);
   }
 
@@ -346,7 +346,7 @@ class SimulationOf : public Simulation
     const LoadTotals loads = method_.pressed_materials.empty() ? LoadTotals{} : results.result(load_totals);
     const BodyForceWork body_forces = scene_.has_body_force() ? results.result(body_force_work) : BodyForceWork{};
     totals_.filter += of_nodes.gained_by_nodes - of_nodes.gained_by_particles;
-    if (method_.stress_timing == StressTiming::usl) {
+    if (!method_.deforms_by_other_velocities()) {
       totals_.filter += of_nodes.taken_by_forces + loads.work_at_start - taken_at_end_;
       taken_at_end_ = step.taken_at_end - body_forces.at_end;
     } else {

@@ -73,7 +73,8 @@ class Simulation
   /// Sums since the start; `stable_step` is that of the last step.
   const StepTotals& totals() const { return totals_; }
   /// What stress took from the motion in the second half of the last step [J]; body forces count against it. Velocities
-  /// are half a step behind all else, so that kinetic energy still has it. 0 but with StressTiming::usl.
+  /// are half a step behind all else, so that kinetic energy still has it. 0 where particles deform by other
+  /// velocities.
   double taken_at_end() const { return taken_at_end_; }
   /// What driving and pressure loads did in the last step [J].
   double last_driving() const { return last_driving_; }

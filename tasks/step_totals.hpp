@@ -47,8 +47,8 @@ struct StepTotals {
   double taken_at_end = 0;
   /// What particles filter out of the motion of the nodes. The simulation alone sums it up: what nodes gain and
   /// particles do not, and what forces take at the start of a step from the velocities that particles bring, which are
-  /// not those of the end of the step before, more than they took then; but with StressTiming::usf and musl what forces
-  /// take from the nodes and stress does not from the particles.
+  /// not those of the end of the step before, more than they took then; but where particles deform by other velocities
+  /// what forces take from the nodes and stress does not from the particles.
   double filter = 0;
   /// Stress updates of all materials.
   components::UpdateCounts updates;
@@ -99,8 +99,8 @@ struct GridTotals {
   double taken_by_damping = 0;
   /// Kinetic energy that the nodes of deformable materials gain, and what of it their particles do [J].
   double gained_by_nodes = 0, gained_by_particles = 0;
-  /// What forces take from these nodes [J]: with StressTiming::usl at their velocities at the start of the step in the
-  /// half of the step before, minus the sum of f.v dt/2; with the others in their whole kick.
+  /// What forces take from these nodes [J]: at their velocities at the start of the step in the half of the step
+  /// before, minus the sum of f.v dt/2; where particles deform by other velocities in the whole kick.
   double taken_by_forces = 0;
 
   void combine(const GridTotals& other)

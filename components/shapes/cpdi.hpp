@@ -64,9 +64,10 @@ class Cpdi
 
   static Corners first_cell(const GridBlock<D>& block, const Vector<D>& place)
   {
-    Corners corners{place.array().floor() - 1, 0};
+    Corners corners{{}, 0};
     for (int k = 0; k < D; ++k) {
       const auto axis = static_cast<std::size_t>(k);
+      corners.first[k] = owned_cell<double>(place[k], block.n_nodes[axis]) - 1;
       assert(corners.first[k] >= 0 && corners.first[k] + (support - 1) < block.n_nodes[axis]);
       corners.place += static_cast<std::ptrdiff_t>(corners.first[k]) * block.strides[axis];
     }

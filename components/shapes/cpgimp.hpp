@@ -26,11 +26,11 @@ class Cpgimp : public ProductShape<Cpgimp<D>, D, 4>
   double greatest_stiffness_along_axis() const { return 2 / half_size_ + 1 / (1 - half_size_); }
 
   template <class Number>
-  Number along(const Number& place, const Number& stretch, double per_cell, std::array<Number, 4>& w,
-               std::array<Number, 4>& s) const
+  Number along(const Number& place, const Number& cell, const Number& stretch, double per_cell,
+               std::array<Number, 4>& w, std::array<Number, 4>& s) const
   {
     const Number l = lesser_of<Number>(half_size_ * stretch, 1.0);
-    const Number first = floor(place) - 1.0;
+    const Number first = cell - 1.0;
     for (std::size_t i = 0; i < 4; ++i) {
       const Number away = place - first - static_cast<double>(i), distance = abs(away);
       w[i] = (area_beyond(distance - l) - area_beyond(distance + l)) / (2.0 * l);

@@ -20,10 +20,9 @@ class CubicSpline : public ProductShape<CubicSpline<D>, D, 4>
   double greatest_stiffness_along_axis() const { return 3.14; }
 
   template <class Number>
-  Number along(const Number& place, const Number& /*stretch*/, double per_cell, std::array<Number, 4>& w,
-               std::array<Number, 4>& s) const
+  Number along(const Number& place, const Number& cell, const Number& /*stretch*/, double per_cell,
+               std::array<Number, 4>& w, std::array<Number, 4>& s) const
   {
-    const Number cell = floor(place);
     const Number t = place - cell, u = 1.0 - t;
     w[0] = u * u * u / 6.0;
     w[3] = t * t * t / 6.0;

@@ -28,8 +28,8 @@ class Gimp : public ProductShape<Gimp<D>, D, 3>
   double greatest_stiffness_along_axis() const { return 2 / half_size_ + 1 / (1 - half_size_); }
 
   template <class Number>
-  Number along(const Number& place, const Number& /*stretch*/, double per_cell, std::array<Number, 3>& w,
-               std::array<Number, 3>& s) const
+  Number along(const Number& place, const Number& /*cell*/, const Number& /*stretch*/, double per_cell,
+               std::array<Number, 3>& w, std::array<Number, 3>& s) const
   {
     const double l = half_size_;
     const Number node = floor(place - l);

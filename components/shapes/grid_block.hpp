@@ -3,6 +3,7 @@
 #include <array>
 #include <cstddef>
 
+#include "components/lanes.hpp"
 #include "components/tensors.hpp"
 
 namespace tamp::components
@@ -33,5 +34,13 @@ struct GridBlock {
     return cells;
   }
 };
+
+/// The cell of a particle at `place`, in cells from the first node of a block of `n_nodes` along an axis, the first and
+/// the last of which lie beyond the patch. What rounding takes for beyond it lies on its face, and in its last cell.
+template <class Number>
+Number owned_cell(const Number& place, int n_nodes)
+{
+  return greater_of<Number>(lesser_of<Number>(floor(place), n_nodes - 3.0), 1.0);
+}
 
 }  // namespace tamp::components

@@ -21,8 +21,8 @@ class Linear : public ProductShape<Linear<D>, D, 2>
   double greatest_stiffness_along_axis() const { return std::numeric_limits<double>::infinity(); }
 
   template <class Number>
-  Number along(const Number& place, const Number& /*stretch*/, double per_cell, std::array<Number, 2>& w,
-               std::array<Number, 2>& s) const
+  Number along(const Number& place, const Number& /*cell*/, const Number& /*stretch*/, double per_cell,
+               std::array<Number, 2>& w, std::array<Number, 2>& s) const
   {
     const Number node = floor(place);
     w[1] = place - node;

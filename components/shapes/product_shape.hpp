@@ -16,11 +16,12 @@ namespace tamp::components
 
 /// An interpolator whose weights are products of weights along the axes. `Shape`, which derives from this, gives those:
 ///
-///     Number along(const Number& place, const Number& stretch, double per_cell, weights, slopes) const
+///     Number along(const Number& place, const Number& cell, const Number& stretch, double per_cell, weights, slopes)
+///     const
 ///
-/// for a particle at `place`, in cells from a node; it returns that of the first node reached. Number is double, or
-/// Lanes for as many particles. `stretch` is how much longer than at first the particle is along the axis, and 1 where
-/// `Shape::deforms` is false.
+/// for a particle at `place` in `cell`, both in cells from the first node of the block; it returns that of the first
+/// node reached. Number is double, or Lanes for as many particles. `stretch` is how much longer than at first the
+/// particle is along the axis, and 1 where `Shape::deforms` is false.
 template <class Shape, int D, int Support>
 class ProductShape
 {
@@ -36,8 +37,9 @@ class ProductShape
     Stencil<D, Support> stencil;
     stencil.first = 0;
     for (std::size_t k = 0; k < D; ++k) {
-      const double node = shape().template along<double>(place[static_cast<int>(k)], 1.0, 1 / block.cell_size,
-                                                         stencil.weight[k], stencil.slope[k]);
+      const double coordinate = place[static_cast<int>(k)];
+      const double node = shape().template along<double>(coordinate, owned_cell<double>(coordinate, block.n_nodes[k]),
+                                                         1.0, 1 / block.cell_size, stencil.weight[k], stencil.slope[k]);
       assert(node >= 0 && node + (Support - 1) < block.n_nodes[k]);
       stencil.first += static_cast<std::ptrdiff_t>(node) * block.strides[k];
     }
@@ -56,8 +58,9 @@ class ProductShape
         const Lanes coordinate =
             each_lane([&](std::size_t l) { return places.position[std::min(p + l, places.size() - 1)][axis]; });
         const Lanes place = (coordinate - block.origin[axis]) * per_cell;
-        const Lanes node = shape().template along<Lanes>(place, stretches(places, p, axis), per_cell, stencil.weight[k],
-                                                         stencil.slope[k]);
+        const Lanes node =
+            shape().template along<Lanes>(place, owned_cell<Lanes>(place, block.n_nodes[k]), stretches(places, p, axis),
+                                          per_cell, stencil.weight[k], stencil.slope[k]);
         assert(!any(node < 0.0) && !any(node + (Support - 1.0) >= block.n_nodes[k]));
         first += node * static_cast<double>(block.strides[k]);
       }

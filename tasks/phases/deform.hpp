@@ -41,8 +41,11 @@ void deform(const Method<D>& method, const runtime::TaskContext& at, const Data&
   if (!inside_out) return;
   const std::size_t p = first + *inside_out;
   const Vector<D>& x = data[particle::position<D>.previous()][p];
-  throw SimulationError("a particle is turned inside out", method.materials[static_cast<std::size_t>(at.group)].name,
-                        data[particle::id.previous()][p], {x.begin(), x.end()});
+  const bool has_limit = method.deformation_update == DeformationUpdate::exponential;
+  throw SimulationError(
+      has_limit ? "a particle turns or shears by more than half a turn in one step" : "a particle is turned inside out",
+      method.materials[static_cast<std::size_t>(at.group)].name, data[particle::id.previous()][p],
+      {x.begin(), x.end()});
 }
 
 /// The cell of the patch that holds a particle of it.
@@ -79,19 +82,21 @@ void keep(const Method<D>& method, const runtime::TaskContext& at, const Data& d
 /// has room for them.
 template <int D, class Data>
 void take_gradients(const Method<D>& method, const runtime::TaskContext& at, const Data& data,
-                    const components::GridBlock<D>& block, const components::NodeMotion<D>* nodes, std::size_t first,
+                    const components::GridBlock<D>& block, const components::NodeMotion<D>* nodes,
+                    const double* inverse_mass, std::size_t first,
                     std::span<const components::ParticleMotion<D>> motion)
 {
   std::array<Matrix<D>, motion_batch> buffer;
   const auto g = std::span(buffer).first(motion.size());
   for (std::size_t i = 0; i < g.size(); ++i) g[i] = at.step.size * motion[i].velocity_gradient;
   if (method.relief == components::Relief::f_bar) {
-    std::array<Matrix<D>, motion_batch> at_centre;
+    std::array<Matrix<D>, motion_batch> at_centre = buffer;
     std::array<double, motion_batch> change;
     const auto centres = std::span(at_centre).first(g.size());
     const auto changes = std::span(change).first(g.size());
-    components::centre_gradients<D>(block, nodes, data[particle::position<D>.previous()].subspan(first, g.size()),
-                                    at.step.size, centres);
+    components::centre_gradients<D>(block, nodes, inverse_mass,
+                                    data[particle::position<D>.previous()].subspan(first, g.size()), at.step.size,
+                                    centres);
     components::volume_changes<D>(method.deformation_update, centres, changes);
     components::set_volume_changes<D>(method.deformation_update, g, changes);
   }
@@ -109,7 +114,7 @@ void deform_by_nodes(const Method<D>& method, const runtime::TaskContext& at, co
                      const double* inverse_mass, std::size_t first,
                      std::span<const components::ParticleMotion<D>> motion)
 {
-  take_gradients<D>(method, at, data, block, nodes, first, motion);
+  take_gradients<D>(method, at, data, block, nodes, inverse_mass, first, motion);
   const auto own_stiffness = data[particle::own_stiffness].subspan(first, motion.size());
   if (method.time_step_rule == StepRule::viscous) {
     const auto places = places_at_start<D>(data).subspan(first, motion.size());

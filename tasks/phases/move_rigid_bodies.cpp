@@ -2,6 +2,7 @@
 
 #include "components/loads/time_step.hpp"
 #include "tasks/labels.hpp"
+#include "tasks/particle_axes.hpp"
 #include "tasks/phases/phases.hpp"
 #include "tasks/simulation_error.hpp"
 
@@ -99,10 +100,12 @@ runtime::TaskDeclaration move_rigid_particles(const Method<D>& method, int mater
         const components::RigidMotion motion = components::motion_of(body.properties, state);
         const Matrix<D> turn = state.orientation.toRotationMatrix().template topLeftCorner<D, D>();
         const Vector<D> start = body.properties.centre.template head<D>(), centre = state.centre.template head<D>();
+        const SceneBody& of_scene = method.scene.bodies[static_cast<std::size_t>(body.body)];
+        const bool in_sectors = of_scene.functions.layout.has_value();
         for (std::size_t p = 0; p < id.size(); ++p) {
           position[p] = centre + turn * (reference[p] - start);
           velocity[p] = motion.at(in_space<D>(position[p])).template head<D>();
-          deformation[p] = turn;
+          deformation[p] = in_sectors ? turn * particle_axes<D>(method.scene, of_scene, reference[p]) : turn;
           volume[p] = old_volume[p];
           stress[p].setZero();
           viscous_pressure[p] = 0;

@@ -33,7 +33,7 @@ runtime::TaskDeclaration gathering(const Method<D>& method, Task task)
                                                  .stress = newest(data, particle::stress<D>),
                                                  .viscous_pressure = newest(data, particle::viscous_pressure)};
     interpolation.particles_to_grid(block, sources, method.needs_surface_of(at.group), sums.data());
-    bring_gradients<D>(interpolation, block, data, sums.data());
+    if (method.rigid_body(at.group) == nullptr) bring_gradients<D>(interpolation, block, data, sums.data());
     for_each_wall(method, at, sums.box(), [&](const Wall<D>& wall) { fold(wall, at, sums); });
   });
 }

@@ -24,7 +24,7 @@ template <int D>
 void add_taken(const Method<D>& method, const TaskContext& at, const GridView<const NodeSums<D>>& sums,
                const GridView<NodeMotion<D>>& motion, GridTotals& totals)
 {
-  const bool in_whole = method.stress_timing != StressTiming::usl;
+  const bool in_whole = method.deforms_by_other_velocities();
   const double half_step_before = 0.5 * at.step.previous_size, half_step = 0.5 * at.step.size;
   for_each(counted_nodes(method, at), [&](const Index& i) {
     const Vector<D> change = motion[i].velocity_change(), at_end = motion[i].velocity(), at_start = at_end - change;

@@ -86,9 +86,15 @@ void report_motion(const Method<D>& method, const TaskContext& at, const Data& d
   const auto velocity = data[particle::velocity<D>.previous()];
   ParticleReport& report = data[particle_report];
   const auto place = places_of<D>(at, data);
-  double gravity_work = 0, kinetic = 0;
-  for (std::size_t p = 0; p < mass.size(); ++p) gravity_work += mass[p] * work_function<D>(method, place(p));
+  double gravity_work = 0, at_end = 0, kinetic = 0;
+  for (std::size_t p = 0; p < mass.size(); ++p) {
+    const Vector<D> now = place(p), half_step_before = now - 0.5 * at.step.previous_size * velocity[p];
+    const double work = work_function<D>(method, now);
+    gravity_work += mass[p] * work;
+    at_end += mass[p] * (work - work_function<D>(method, half_step_before));
+  }
   report.gravity_work += gravity_work;
+  report.gravity_work_at_end += at_end;
   if (const RigidBody* rigid = method.rigid_body(at.group)) {
     report_rigid_motion(at, *rigid, data[rigid_states.previous()].of(*rigid), report);
     return;
@@ -254,6 +260,7 @@ void ParticleReport::combine(const ParticleReport& other)
 {
   kinetic += other.kinetic;
   gravity_work += other.gravity_work;
+  gravity_work_at_end += other.gravity_work_at_end;
   for (std::size_t k = 0; k < max_entries; ++k) {
     bodies[k].combine(other.bodies[k]);
     displacement_errors[k].combine(other.displacement_errors[k]);

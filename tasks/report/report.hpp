@@ -67,6 +67,8 @@ struct ParticleReport {
   /// sum m (g . x + |w x r|^2 / 2) [J]: what it has gained since the start is the work of gravity and of a steady
   /// centrifuge. One that speeds up has no such function: its work is left out, and an energy balance does not close.
   double gravity_work = 0;
+  /// What these did in the second half of the last step [J], which velocities, of half a step before, do not have yet.
+  double gravity_work_at_end = 0;
   std::array<BodySums, max_entries> bodies;
   /// Only for bodies that have an exact solution.
   std::array<DisplacementError, max_entries> displacement_errors;

@@ -1,5 +1,6 @@
 #include "tasks/set_up/fill_bodies.hpp"
 
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <iterator>
@@ -8,6 +9,7 @@
 
 #include "tasks/labels.hpp"
 #include "tasks/method.hpp"
+#include "tasks/particle_axes.hpp"
 #include "tasks/set_up/body_sites.hpp"
 #include "tasks/set_up/deformed_start.hpp"
 
@@ -36,23 +38,26 @@ Vector<D> initial_position(const components::BodyFunctions& functions, const Vec
   return functions.displacement ? Vector<D>(X + functions.displacement(in_space<D>(X)).template head<D>()) : X;
 }
 
-/// The gradient of a body's velocity as it turns [1/s].
+/// The gradient of a body's velocity where the particle of X starts [1/s]: that of its spin, or of the velocity that
+/// its functions give it.
 template <int D>
-Matrix<D> spin_of(const SceneBody& body)
+Matrix<D> velocity_gradient(const Scene& scene, const SceneBody& body, const Vector<D>& X)
 {
-  return cross_matrix(Eigen::Vector3d(body.angular_velocity.data())).template topLeftCorner<D, D>();
-}
-
-/// The deformation gradient of a particle that is not deformed. It is from the axes along which the particle is a box,
-/// which matters to cpdi alone: materials are the same in all directions, and other particles are boxes along the grid.
-template <int D>
-Matrix<D> undeformed(const Scene& scene, const SceneBody& body, const Vector<D>& X)
-{
-  if constexpr (D == 2) {
-    const bool in_sectors = body.functions.layout.has_value();
-    if (in_sectors && scene.interpolator == Interpolator::cpdi) return body.functions.layout->axes_at(X);
+  const components::BodyFunctions& functions = body.functions;
+  if (!functions.velocity) {
+    return cross_matrix(Eigen::Vector3d(body.angular_velocity.data())).template topLeftCorner<D, D>();
   }
-  return Matrix<D>::Identity();
+  // Differences over this lose as little to round-off as to curvature.
+  const double step = 1e-5 * scene.grid.cell_size;
+  Matrix<D> by_reference;
+  for (int k = 0; k < D; ++k) {
+    const Vector<3> arm = in_space<D>(Vector<D>(step * Vector<D>::Unit(k)));
+    const Vector<3> difference = functions.velocity(in_space<D>(X) + arm) - functions.velocity(in_space<D>(X) - arm);
+    by_reference.col(k) = difference.template head<D>() / (2 * step);
+  }
+  if (!functions.deformation_gradient) return by_reference;
+  const Matrix<3> F = functions.deformation_gradient(in_space<D>(X));
+  return by_reference * F.template topLeftCorner<D, D>().inverse();
 }
 
 /// All nodes of the grid as one block, with layers around it that particles at open faces reach. Nothing lies there:
@@ -210,8 +215,9 @@ void BodyParticles<D>::store(const Particles& particles, int patch, int material
     state(particle::position<D>)[p] = particles.position[p];
     state(particle::reference_position<D>)[p] = site.place;
     state(particle::velocity<D>)[p] = initial_velocity(particles, p);
-    if (surroundings == Surroundings::gradient) state(particle::velocity_gradient<D>)[p] = spin_of<D>(body);
-    state(particle::deformation_gradient<D>)[p] = undeformed<D>(scene_, body, site.place);
+    if (surroundings == Surroundings::gradient)
+      state(particle::velocity_gradient<D>)[p] = velocity_gradient<D>(scene_, body, site.place);
+    state(particle::deformation_gradient<D>)[p] = particle_axes<D>(scene_, body, site.place);
     state(particle::volume)[p] = site.volume;
     state(particle::mass)[p] = density * site.volume;
     if (body.functions.deformation_gradient) {
@@ -239,7 +245,8 @@ void BodyParticles<D>::store_velocity_moments(const Particles& particles, int pa
       whole_grid<D>(scene_.grid),
       {particles.position, warehouse.state(particle::deformation_gradient<D>, patch, material)}, moments);
   for (std::size_t p = 0; p < moments.size(); ++p) {
-    moments[p] = spin_of<D>(scene_.bodies[static_cast<std::size_t>(particles.body[p])]) * moments[p];
+    const SceneBody& body = scene_.bodies[static_cast<std::size_t>(particles.body[p])];
+    moments[p] = velocity_gradient<D>(scene_, body, particles.site[p].place) * moments[p];
   }
 }
 

@@ -105,6 +105,29 @@ TEST_CASE("what is thrown at a wall with friction leaves it again")
   CHECK(after > 0.75 * before);
 }
 
+TEST_CASE("with any transfer a wall with friction takes along it no more than Coulomb's part of its push")
+{
+  const Transfer transfer = GENERATE(Transfer::flip, Transfer::pic, Transfer::blend, Transfer::affine, Transfer::tpic,
+                                     Transfer::apic, Transfer::xpic);
+  const StressTiming timing = GENERATE(StressTiming::usl, StressTiming::musl);
+  CAPTURE(static_cast<int>(transfer), static_cast<int>(timing));
+  Scene scene = block_on_incline(0.3, 0, {5, -1, 0});
+  scene.gravity = {0, 0, 0};
+  scene.transfer = transfer;
+  scene.stress_timing = timing;
+  scene.filter_order = 4;
+  const auto simulation = Simulation::make(scene, 1);
+
+  advance_to(*simulation, 0.01);
+
+  const BodySums block = simulation->report().bodies[0];
+  const double push = block.momentum.y() + block.mass, rub = 5 * block.mass - block.momentum.x();
+  CHECK(push > 0.5 * block.mass);
+  // At the edges some of it sticks.
+  CHECK(rub < 0.3 * push);
+  CHECK(rub > 0.99 * 0.3 * push);
+}
+
 TEST_CASE("a layer on a wall without slip is sheared by its weight as the wave equation has it")
 {
   const double height = 8 * cell, width = 64 * cell, density = 1000, young = 1e6;

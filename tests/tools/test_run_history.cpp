@@ -78,6 +78,43 @@ TEST_CASE("the history of a pressed body has the force of its load, and counts i
   CHECK(history.energies().external > 0);
 }
 
+TEST_CASE("the half step that velocities lag behind has the work of gravity")
+{
+  const bool rigid = GENERATE(true, false);
+  const test::TemporaryFolder folder;
+  const double g = 10, speed = 1, dt = 1e-3;
+  const auto file = folder.write("scene.json", falling_block);
+  const auto checked = tools::read_scene(
+      file, {"/bodies/block/velocity=[0,1]", std::string("/bodies/block/rigid=") + (rigid ? "true" : "false"),
+             "/time/maximum_step=1e-3"});
+  const auto simulation = tasks::Simulation::make(checked.scene, 1);
+  tools::RunHistory history(*simulation);
+  for (int n = 0; n < 50; ++n) simulation->advance(1);
+  REQUIRE(simulation->last_step_size() == dt);
+
+  history.measure();
+
+  // Of second order in the step: the velocity changes by g dt / 2 within that half. Without its work it were g dt / v.
+  CHECK(history.energy_error() == Approx(g * g * dt * dt / (4 * speed * speed)).epsilon(1e-6));
+}
+
+TEST_CASE("the energy of a body that FMPM moves is all there once what it filters is counted")
+{
+  const test::TemporaryFolder folder;
+  const auto file = folder.write("scene.json", falling_block);
+  const auto checked =
+      tools::read_scene(file, {"/gravity=[0,0]", "/bodies/block/rigid=false", "/bodies/block/angular_velocity=[5]",
+                               "/transfer=fmpm", "/filter_order=4", "/grid/cell_size=0.0625"});
+  const auto simulation = tasks::Simulation::make(checked.scene, 1);
+  tools::RunHistory history(*simulation);
+  for (int n = 0; n < 100; ++n) simulation->advance(1);
+
+  history.measure();
+
+  CHECK(history.energies().elastic > 1e-3 * history.energies().kinetic);
+  CHECK(history.energy_error() < 1e-12);
+}
+
 TEST_CASE("an energy error is told beyond its limit, and never where the limit is off")
 {
   const auto checked = tools::read_scene(TAMP_SOURCE_DIR "/inputs/punch/quick.json");

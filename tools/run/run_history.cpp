@@ -217,7 +217,7 @@ void RunHistory::measure()
        totals.viscous,
        totals.contact,
        totals.filter,
-       simulation_.taken_at_end(),
+       simulation_.taken_at_end() - report_.gravity_work_at_end,
        report_.gravity_work - initial_.gravity_work + totals.driving,
        0};
   e.total = e.kinetic + e.elastic + e.plastic + e.viscous + e.contact + e.filter - e.half_step - e.external;

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <variant>
 
 namespace tamp::tools
@@ -35,6 +36,26 @@ void check_stress_timing(const JsonReader& reader, const tasks::Scene& scene)
                        "expected usl or musl, as sand that is apart has to forget the gradient of its velocity, which "
                        "with usf it only gets after its stress; or another transfer");
   }
+}
+
+void check_contact_of_transfer(const JsonReader& reader, const tasks::Scene& scene)
+{
+  if (scene.transfer != tasks::Transfer::fmpm || scene.filter_order < 2) return;
+  const std::string fmpm = fmt::format("fmpm of order {}", scene.filter_order);
+  for (const auto& axis : scene.faces) {
+    if (std::find(axis.begin(), axis.end(), tasks::Face::friction) == axis.end()) continue;
+    reader.add_problem("transfer", fmpm + " with a wall that rubs",
+                       "expected another transfer, as particles would gain energy where the wall stops nodes");
+    break;
+  }
+  const int n_materials = static_cast<int>(scene.materials.size());
+  const auto n_by_regression = std::count_if(scene.contacts.begin(), scene.contacts.end(), [](const auto& contact) {
+    return contact.normal_of == components::ContactTable::regression;
+  });
+  if (n_by_regression == n_materials * (n_materials - 1) / 2) return;
+  reader.add_problem("transfer", fmpm + " with materials that do not meet by regression",
+                     "expected the normal \"regression\" for every pair of materials, as particles gain energy where "
+                     "contact acts a cell away; or another transfer");
 }
 
 }  // namespace tamp::tools

@@ -13,4 +13,8 @@ void check_method(const JsonReader& reader, const tasks::Scene& scene);
 /// The same of when stress follows the motion, once the materials have been read.
 void check_stress_timing(const JsonReader& reader, const tasks::Scene& scene);
 
+/// The same of a transfer that moves nodes by other velocities than contact and walls have left them, once the contacts
+/// have been read.
+void check_contact_of_transfer(const JsonReader& reader, const tasks::Scene& scene);
+
 }  // namespace tamp::tools

@@ -50,7 +50,7 @@ class SceneReader
     read_materials();
     check_stress_timing(root_, scene_);
     read_bodies(dimension_is_good, grid_is_good);
-    read_contacts();
+    if (read_contacts()) check_contact_of_transfer(root_, scene_);
     scene_.failed_updates_allowed = root_.whole_number("failed_updates_allowed");
     read_output();
     read_limits();
@@ -305,8 +305,10 @@ class SceneReader
     return at == material_names_.end() ? -1 : static_cast<int>(at - material_names_.begin());
   }
 
-  void read_contacts()
+  /// Whether all is well with them, and with what they are between.
+  bool read_contacts()
   {
+    const std::size_t n_before = document_.problems.size();
     for (JsonReader& reader : root_.objects("contact")) {
       const std::vector<std::string> names = reader.names("materials", material_names_);
       const double friction = reader.number("friction");
@@ -327,6 +329,7 @@ class SceneReader
                                                    : material_number(normal);
       scene_.contacts.push_back({a, b, friction, normal_of});
     }
+    return document_.problems.size() == n_before && scene_.materials.size() == material_names_.size();
   }
 
   /// The word for the flatter surface or for regression, or one of the two materials.

@@ -135,11 +135,20 @@ TEMPLATE_TEST_CASE_SIG("the gradient at a cell's centre is that of a linear velo
                  Vector<D>::Zero());
   }
   const std::vector<Vector<D>> places{Vector<D>::Constant(-0.49), Vector<D>::Constant(0.1)};
-  std::vector<Matrix<D>> g(places.size());
+  std::vector<double> inverse_mass(nodes.size(), 1);
+  std::vector<Matrix<D>> g(places.size(), Matrix<D>::Zero());
 
-  centre_gradients<D>(block, nodes.data(), places, 0.1, g);
+  centre_gradients<D>(block, nodes.data(), inverse_mass.data(), places, 0.1, g);
 
   for (const Matrix<D>& step : g) CHECK((step - 0.1 * gradient).norm() < 1e-15);
+
+  // A corner of the second cell alone: what is not there has no velocity.
+  inverse_mass.back() = 0;
+  g.assign(2, Matrix<D>::Identity());
+  centre_gradients<D>(block, nodes.data(), inverse_mass.data(), places, 0.1, g);
+
+  CHECK((g[0] - 0.1 * gradient).norm() < 1e-15);
+  CHECK(g[1] == Matrix<D>::Identity());
 }
 
 }  // namespace test_volume_changes

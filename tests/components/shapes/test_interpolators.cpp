@@ -135,6 +135,31 @@ TEMPLATE_TEST_CASE_SIG("any interpolator takes linear fields to deformed particl
   }
 }
 
+TEST_CASE("a particle on the face of its patch reaches no nodes but those of the patch and one layer more")
+{
+  const Interpolator interpolator = GENERATE(from_range(all_interpolators));
+  const double h = GENERATE(0.1, 0.07, 0.3), lower = GENERATE(0.0, -0.7);
+  constexpr int n_cells = 3;
+  for (int face = 1; face < 40; ++face) {
+    const double x = lower + h * face;
+    // As the runtime tells the cell of a particle; its patch begins or ends there.
+    const int cell = static_cast<int>(std::floor((x - lower) / h));
+    for (const int first : {cell, cell - n_cells + 1}) {
+      GridBlock<2> block{{lower + h * (first - 1), 0}, h, {n_cells + 3, n_cells + 3}, {1, n_cells + 3}};
+      const auto shape = shape_of<2>(interpolator, 2, block, {x, 2.3 * h}, Matrix<2>::Identity());
+
+      double sum = 0, place = 0;
+      for (std::size_t i = 0; i < shape.size(); ++i) {
+        sum += shape[i].weight;
+        place += shape[i].weight * node_position(block, static_cast<std::ptrdiff_t>(i)).x();
+      }
+      INFO("face " << face << " at " << x << ", patch from cell " << first);
+      REQUIRE(sum == Approx(1).epsilon(1e-14));
+      REQUIRE(place == Approx(x).margin(1e-13));
+    }
+  }
+}
+
 TEMPLATE_TEST_CASE_SIG("cpGIMP averages over a box as long as the particle is stretched", "", ((int D), D), 2, 3)
 {
   const int n_per_axis = GENERATE(1, 2, 4);

@@ -199,6 +199,28 @@ TEST_CASE("settled sand that moves or is rigid is told")
         "--set#/bodies/block/initial_stress: a rigid body, which has no stress; expected one that is not rigid");
 }
 
+TEST_CASE("FMPM where contact or a wall would give particles energy is told")
+{
+  const std::string other = R"("other":{"material":"soil","geometry":{"type":"box","lower":[0,1],"upper":[1,2]}})";
+  const std::vector<std::string> two{R"(/materials/soil={"type":"hypoelastic","density":1,"bulk_modulus":1,)"
+                                     R"("shear_modulus":1})",
+                                     "/bodies/other=" + other.substr(8), "/transfer=fmpm"};
+  const auto with = [&](const std::string& more) {
+    std::vector<std::string> all = two;
+    all.push_back(more);
+    return problems_with(all);
+  };
+
+  CHECK(problems_with({"/transfer=fmpm", "/boundaries/y-/friction=0.3"}) ==
+        "--set#/transfer: fmpm of order 2 with a wall that rubs; expected another transfer, as particles would gain "
+        "energy where the wall stops nodes");
+  CHECK(problems_with({"/transfer=fmpm", "/filter_order=1", "/boundaries/y-/friction=0.3"}) == "");
+  CHECK_THAT(with("/title=two"), Catch::StartsWith("--set#/transfer: fmpm of order 2 with materials that do not meet"));
+  CHECK_THAT(with(R"(/contact=[{"materials":["steel","soil"],"friction":0}])"),
+             Catch::StartsWith("--set#/transfer: fmpm of order 2 with materials that do not meet"));
+  CHECK(with(R"(/contact=[{"materials":["steel","soil"],"friction":0,"normal":"regression"}])") == "");
+}
+
 TEST_CASE("rings of particles in what is no disk, or where a problem lays them out, are told")
 {
   const std::string at = "--set#/bodies/block/particles: ", disk = R"({"type":"ball","centre":[1,1],"radius":0.7})";
