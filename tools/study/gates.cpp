@@ -174,16 +174,16 @@ class Judge
       gate.holds = true;
       return;
     }
-    const auto before = group_.size() > 1 ? error(group_[group_.size() - 2]) : std::nullopt;
-    if (!gate.found) {
-      gate.note = lack(group_.back());
-    } else if (!before) {
-      gate.note = "error " + as_text(*gate.found);
-    } else {
-      gate.holds = *gate.found > *before;
-      gate.note = fmt::format("error {} from {} to {}", gate.holds ? "grows" : "does not grow", as_text(*before),
-                              as_text(*gate.found));
+    if (const MeasuredPoint* failed = failed_point()) {
+      gate.note = lack(failed);
+      return;
     }
+    // Less may be what is left of a method that has converged to its floor.
+    constexpr double growth = 1.5;
+    double least = *gate.found;
+    for (const MeasuredPoint* one : group_) least = std::min(least, *error(one));
+    gate.holds = *gate.found >= growth * least;
+    gate.note = fmt::format("error on the finest grid {}, at least {}", as_text(*gate.found), as_text(least));
   }
 
   const Study& study_;

@@ -134,7 +134,7 @@ struct Expectation {
     error_at_least,  ///< on the finest grid, or where `at` says
     error_at_most,
     limit_error_at_most,  ///< of what the answers tend to, if errors fall with `limit_order`
-    fails                 ///< becomes unstable, or its error grows to the finest grid
+    fails                 ///< becomes unstable, or its error grows again by half to the finest grid
   };
   Kind kind = Kind::error_at_most;
   /// An order, or an error.

@@ -130,12 +130,20 @@ TEST_CASE("the limit that is judged is that of a fit by the order expected, erro
   CHECK(judged(expectation, {0.06, NAN, 0.03}).note == "no limit: h 2: unstable: the energy is wrong");
 }
 
-TEST_CASE("a method fails that becomes unstable, or whose error grows to the finest grid")
+TEST_CASE("a method fails that becomes unstable, or whose error is half as large again on the finest grid as its least")
 {
   CHECK(judged(Kind::fails, 0, {NAN, 0.08, 0.02}).holds);
-  CHECK(judged(Kind::fails, 0, {0.16, 0.02, 0.03}).holds);
-  CHECK_FALSE(judged(Kind::fails, 0, {0.04, 0.16, 0.08}).holds);
-  CHECK(judged(Kind::fails, 0, {0.04, 0.16, 0.08}).note == "error does not grow from 16 % to 8 %");
+  CHECK(judged(Kind::fails, 0, {0.16, 0.02, 0.031}).holds);
+  CHECK_FALSE(judged(Kind::fails, 0, {0.16, 0.02, 0.029}).holds);
+  CHECK(judged(Kind::fails, 0, {0.02, 0.16, 0.08}).holds);
+  CHECK_FALSE(judged(Kind::fails, 0, {0.16, 0.08, 0.08}).holds);
+  CHECK(judged(Kind::fails, 0, {0.16, 0.08, 0.04}).note == "error on the finest grid 4 %, at least 4 %");
+}
+
+TEST_CASE("a run that failed on a grid that is not judged leaves an error its bar")
+{
+  CHECK(judged(Kind::error_at_most, 0.03, {NAN, 0.08, 0.02}).holds);
+  CHECK_FALSE(judged(Kind::limit_error_at_most, 0.03, {NAN, 0.08, 0.02}).holds);
 }
 
 TEST_CASE("a study that refines nothing has each point judged by itself")
