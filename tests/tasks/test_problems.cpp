@@ -168,8 +168,9 @@ TEST_CASE("the error against the vortex falls with the cell size, at rest and ca
   const double coarse = worst_error(vortex_scene(30, velocity), 0.5).rms;
   const double fine = worst_error(vortex_scene(60, velocity), 0.5).rms;
 
-  CHECK(coarse == Approx(0.062).epsilon(0.02));
-  CHECK(std::log2(coarse / fine) == Approx(1.45).margin(0.03));
+  // Second order, less what rims across the cells cost with 2 particles an axis.
+  CHECK(coarse < 0.065);
+  CHECK(std::log2(coarse / fine) > 1.4);
 }
 
 TEST_CASE("the error against the ring falls with the cell size where strains are small")
@@ -180,8 +181,8 @@ TEST_CASE("the error against the ring falls with the cell size where strains are
   const double fine = worst_error(ring_scene(64, amplitude), quarter_period).rms / amplitude;
 
   // Its free rims do not lie on nodes.
-  CHECK(coarse == Approx(1.54e-3).epsilon(0.02));
-  CHECK(std::log2(coarse / fine) == Approx(1.72).margin(0.03));
+  CHECK(coarse < 1.6e-3);
+  CHECK(std::log2(coarse / fine) > 1.6);
 }
 
 TEST_CASE("parallelograms along the sectors in which particles lie keep their order at hoop strains of 26 %")
@@ -218,7 +219,7 @@ TEST_CASE("the error against the compacted column is of second order where it is
 
   const double coarse = error_of(20), fine = error_of(40);
 
-  CHECK(coarse == Approx(5.29e-4).epsilon(0.02));
+  CHECK(coarse < 5.5e-4);
   CHECK(std::log2(coarse / fine) == Approx(2).margin(0.03));
 }
 
@@ -243,8 +244,8 @@ TEST_CASE("the error against the cavity falls with the cell size where strains a
 
   const double coarse = error_of(32), fine = error_of(64);
 
-  CHECK(coarse == Approx(0.0217).epsilon(0.02));
-  CHECK(std::log2(coarse / fine) == Approx(1.92).margin(0.03));
+  CHECK(coarse < 0.023);
+  CHECK(std::log2(coarse / fine) > 1.8);
 }
 
 namespace
