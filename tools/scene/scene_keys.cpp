@@ -274,7 +274,8 @@ const ObjectKeys& scene_keys()
             "",
             {scene.local_damping},
             "part of the unbalanced force of every node of the grid that works against its motion, from 0 to below 1: "
-            "for scenes that are to come to rest under their loads, such as a footing, and for no impact; what it "
+            "for scenes that are to come to rest under pressure loads or their own weight, not for bodies driven into "
+            "others or for impact; what it "
             "takes counts as `viscous[J]`"},
            {"materials", Members{material_keys}, "", compulsory,
             "an object: name → material, see below; materials are what contact is between"},
