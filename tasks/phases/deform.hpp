@@ -90,9 +90,10 @@ void take_gradients(const Method<D>& method, const runtime::TaskContext& at, con
   const auto g = std::span(buffer).first(motion.size());
   for (std::size_t i = 0; i < g.size(); ++i) g[i] = at.step.size * motion[i].velocity_gradient;
   if (method.relief == components::Relief::f_bar) {
-    std::array<Matrix<D>, motion_batch> at_centre = buffer;
+    std::array<Matrix<D>, motion_batch> at_centre;
     std::array<double, motion_batch> change;
     const auto centres = std::span(at_centre).first(g.size());
+    std::ranges::copy(g, centres.begin());
     const auto changes = std::span(change).first(g.size());
     components::centre_gradients<D>(block, nodes, inverse_mass,
                                     data[particle::position<D>.previous()].subspan(first, g.size()), at.step.size,
