@@ -50,4 +50,16 @@ void set_region(const P& problem, BodyFunctions& functions)
   functions.layout = PolarLayout{problem.centre.template head<2>(), problem.inner_radius, problem.outer_radius};
 }
 
+/// A ring that starts undeformed and goes as `motion` has it, by the body force that this needs.
+template <class P, class Motion>
+BodyFunctions functions_of(const P& problem, const Motion& motion)
+{
+  BodyFunctions functions;
+  functions.velocity = [motion](const Vector<3>& X) { return motion.initial_velocity(X); };
+  functions.body_force = [motion](const Vector<3>& X, double t) { return motion.body_force(X, t); };
+  functions.exact_displacement = [motion](const Vector<3>& X, double t) { return motion.displacement(X, t); };
+  set_region(problem, functions);
+  return functions;
+}
+
 }  // namespace tamp::components

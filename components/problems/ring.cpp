@@ -106,12 +106,7 @@ BodyFunctions Ring::functions(const ProblemBody& body) const
   // Without a Poisson's ratio E is 2 G.
   const double omega = std::numbers::pi / (inner_radius + outer_radius) * std::sqrt(2 * shear_modulus / body.density);
   const RingMotion motion{*this, profile_of(*this), body.density, shear_modulus, omega};
-  BodyFunctions functions;
-  functions.velocity = [motion](const Vector<3>& X) { return motion.initial_velocity(X); };
-  functions.body_force = [motion](const Vector<3>& X, double t) { return motion.body_force(X, t); };
-  functions.exact_displacement = [motion](const Vector<3>& X, double t) { return motion.displacement(X, t); };
-  set_region(*this, functions);
-  return functions;
+  return functions_of(*this, motion);
 }
 
 }  // namespace tamp::components

@@ -65,12 +65,7 @@ BodyFunctions Vortex::functions(const ProblemBody& body) const
   const auto* solid = std::get_if<NeoHookeanLog>(&body.material);
   if (solid == nullptr) throw BadValue("another material", "one of type neo_hookean_log, for which it is made");
   const VortexMotion motion{*this, solid->shear_modulus / body.density, 2 * std::numbers::pi / period};
-  BodyFunctions functions;
-  functions.velocity = [motion](const Vector<3>& X) { return motion.initial_velocity(X); };
-  functions.body_force = [motion](const Vector<3>& X, double t) { return motion.body_force(X, t); };
-  functions.exact_displacement = [motion](const Vector<3>& X, double t) { return motion.displacement(X, t); };
-  set_region(*this, functions);
-  return functions;
+  return functions_of(*this, motion);
 }
 
 }  // namespace tamp::components
