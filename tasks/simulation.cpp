@@ -78,8 +78,8 @@ class SimulationOf : public Simulation
     profiler_.emplace(engine_->schedule(step_graph), engine_->bound(step_graph), n_threads(), n_traced_steps);
     forecast_bytes_ = communicator_.sum(engine_->warehouse().forecast_bytes());
     lost_.emplace(engine_->layout().size());
-    totals_.stable_step = initial_stable_step(particles);
-    totals_.elastic = particles.stored_energy();
+    stable_step_ = initial_stable_step(particles);
+    energies_.elastic = particles.stored_energy();
   }
 
   void advance(double end) override
@@ -153,9 +153,10 @@ class SimulationOf : public Simulation
     time_ = found.header.time;
     runtime::ByteReader own(found.host);
     own.read(last_step_size_);
-    own.read(totals_);
+    own.read(stable_step_);
+    own.read(energies_);
+    own.read(updates_);
     own.read(grid_totals_);
-    own.read(taken_at_end_);
     own.read(contact_);
     own.read(contact_since_);
     own.read(loads_);
@@ -202,9 +203,10 @@ class SimulationOf : public Simulation
   {
     runtime::ByteWriter own;
     own.add(last_step_size_);
-    own.add(totals_);
+    own.add(stable_step_);
+    own.add(energies_);
+    own.add(updates_);
     own.add(grid_totals_);
-    own.add(taken_at_end_);
     own.add(contact_);
     own.add(contact_since_);
     own.add(loads_);
@@ -228,7 +230,7 @@ class SimulationOf : public Simulation
 
   bool accepts(const StepTotals& step) const
   {
-    const std::size_t failures = totals_.updates.failures + step.updates.failures;
+    const std::size_t failures = updates_.failures + step.updates.failures;
     return failures <= static_cast<std::size_t>(scene_.failed_updates_allowed);
   }
 
@@ -244,7 +246,7 @@ class SimulationOf : public Simulation
 
   double next_step_size(double end) const
   {
-    const double size = std::min(scene_.time.multiplier * totals_.stable_step, scene_.time.maximum_step);
+    const double size = std::min(scene_.time.multiplier * stable_step_, scene_.time.maximum_step);
     if (!(size >= scene_.time.minimum_step)) {
       throw SimulationError(
           fmt::format("the time step {:.3g} s is below the minimum of {:.3g} s", size, scene_.time.minimum_step), "",
@@ -309,7 +311,7 @@ class SimulationOf : public Simulation
   {
     const StepTotals& step = engine_->warehouse().result(step_totals);
     if (accepts(step)) return;
-    const std::size_t failures = totals_.updates.failures + step.updates.failures;
+    const std::size_t failures = updates_.failures + step.updates.failures;
     const FailedUpdate& failed = step.failed;
     const SceneMaterial& material = scene_.materials[static_cast<std::size_t>(failed.material)];
     throw SimulationError(fmt::format("{}; {} stress updates have failed, {} are allowed",
@@ -319,41 +321,19 @@ class SimulationOf : public Simulation
 
   void take_totals()
   {
-    const StepTotals& step = engine_->warehouse().result(step_totals);
-    totals_.stable_step = std::numeric_limits<double>::infinity();
-    totals_.combine(step);
-    asked_ = engine_->warehouse().result(host_requests).bits;
-    const GridTotals& of_nodes = engine_->warehouse().result(tasks::grid_totals);
-    grid_totals_.combine(of_nodes);
-    totals_.contact += of_nodes.taken_by_walls;
-    totals_.viscous += of_nodes.taken_by_damping;
-    if (scene_.has_body_force()) totals_.driving += engine_->warehouse().result(body_force_work).value;
-    add_filtered(step, of_nodes);
-    contact_.combine(engine_->warehouse().result(contact_impulses));
-    last_driving_ = step.driving;
-    if (method_.pressed_materials.empty()) return;
-    const LoadTotals& loads = engine_->warehouse().result(load_totals);
-    loads_.combine(loads);
-    totals_.driving += loads.work;
-    last_driving_ += loads.work;
-  }
-
-  /// What particles filtered out of the motion of the nodes in the step. Body forces work on particles as stress does;
-  /// pressure loads work on nodes, of which nothing is filtered out.
-  void add_filtered(const StepTotals& step, const GridTotals& of_nodes)
-  {
     auto& results = engine_->warehouse();
-    const LoadTotals loads = method_.pressed_materials.empty() ? LoadTotals{} : results.result(load_totals);
+    const StepTotals& step = results.result(step_totals);
+    const GridTotals& nodes = results.result(tasks::grid_totals);
+    const bool is_pressed = !method_.pressed_materials.empty();
+    const LoadTotals loads = is_pressed ? results.result(load_totals) : LoadTotals{};
     const BodyForceWork body_forces = scene_.has_body_force() ? results.result(body_force_work) : BodyForceWork{};
-    totals_.filter += of_nodes.gained_by_nodes - of_nodes.gained_by_particles;
-    if (!method_.deforms_by_other_velocities()) {
-      totals_.filter += of_nodes.taken_by_forces + loads.work_at_start - taken_at_end_;
-      taken_at_end_ = step.taken_at_end - body_forces.at_end;
-    } else {
-      // Stress works at other velocities than those of the nodes that its forces work on.
-      totals_.filter += of_nodes.taken_by_forces + loads.work + body_forces.value;
-      totals_.filter -= step.elastic + step.plastic + step.viscous;
-    }
+    stable_step_ = step.stable_step;
+    energies_.add(step, nodes, body_forces, loads, method_.deforms_by_other_velocities());
+    updates_.add(step.updates);
+    grid_totals_.combine(nodes);
+    contact_.combine(results.result(contact_impulses));
+    loads_.combine(loads);
+    asked_ = results.result(host_requests).bits;
   }
 
   /// Looks at what the patches have cost since the last look, and deals them anew if that pays.

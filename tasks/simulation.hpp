@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <limits>
 #include <memory>
 #include <string>
 #include <vector>
@@ -13,6 +14,7 @@
 #include "runtime/ranks/communicator.hpp"
 #include "runtime/storage/checkpoints/checkpoint.hpp"
 #include "runtime/storage/fields/field_copy.hpp"
+#include "tasks/energy_ledger.hpp"
 #include "tasks/report/lost_particles.hpp"
 #include "tasks/report/report.hpp"
 #include "tasks/rigid_body.hpp"
@@ -70,14 +72,11 @@ class Simulation
   double last_step_size() const { return last_step_size_; }
   int n_threads() const { return executor_->n_threads(); }
   const runtime::Communicator& communicator() const { return communicator_; }
-  /// Sums since the start; `stable_step` is that of the last step.
-  const StepTotals& totals() const { return totals_; }
-  /// What stress took from the motion in the second half of the last step [J]; body forces count against it. Velocities
-  /// are half a step behind all else, so that kinetic energy still has it. 0 where particles deform by other
-  /// velocities.
-  double taken_at_end() const { return taken_at_end_; }
-  /// What driving and pressure loads did in the last step [J].
-  double last_driving() const { return last_driving_; }
+  /// The longest next step that is stable, before the multiplier [s].
+  double stable_step() const { return stable_step_; }
+  const EnergyLedger& energies() const { return energies_; }
+  /// Stress updates of all materials since the start.
+  const components::UpdateCounts& updates() const { return updates_; }
   /// Sums over the nodes since the start.
   const GridTotals& grid_totals() const { return grid_totals_; }
 
@@ -149,11 +148,10 @@ class Simulation
   long n_steps_ = 0;
   double time_ = 0;
   double last_step_size_ = 0;
-  StepTotals totals_;
+  double stable_step_ = std::numeric_limits<double>::infinity();
+  EnergyLedger energies_;
+  components::UpdateCounts updates_;
   GridTotals grid_totals_;
-  /// What forces on particles took in the second half of the last step [J].
-  double taken_at_end_ = 0;
-  double last_driving_ = 0;
   /// Since the forces of contact were last taken.
   ContactImpulses contact_;
   double contact_since_ = 0;

@@ -37,19 +37,13 @@ struct StepTotals {
   /// Work stored, and work turned to heat, in this step [J].
   double elastic = 0;
   double plastic = 0;
-  double viscous = 0;  ///< by artificial viscosity and local damping
+  double viscous = 0;  ///< by artificial viscosity
   double contact = 0;
-  /// Work of what drives bodies, in this step [J]. The simulation adds that of body forces and of pressure loads to its
-  /// sum.
+  /// Work of what drives bodies, in this step [J].
   double driving = 0;
   /// What stress takes from the motion at the end of this step in its second half, as particles tell: half of the sum
   /// of V sigma:strain, with viscous pressure [J].
   double taken_at_end = 0;
-  /// What particles filter out of the motion of the nodes. The simulation alone sums it up: what nodes gain and
-  /// particles do not, and what forces take at the start of a step from the velocities that particles bring, which are
-  /// not those of the end of the step before, more than they took then; but where particles deform by other velocities
-  /// what forces take from the nodes and stress does not from the particles.
-  double filter = 0;
   /// Stress updates of all materials.
   components::UpdateCounts updates;
   /// The failed update with the lowest id in the first step that had any.
@@ -69,7 +63,6 @@ struct StepTotals {
     contact += other.contact;
     driving += other.driving;
     taken_at_end += other.taken_at_end;
-    filter += other.filter;
     updates.add(other.updates);
     if (other.failed.particle >= 0) note(other.failed);
   }

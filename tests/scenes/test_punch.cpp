@@ -62,8 +62,8 @@ TEST_CASE("the quick punch runs on in state form, where the SVR sand needs the s
 
   for (int n = 0; n < 300; ++n) simulation->advance(1);
 
-  CHECK(simulation->totals().updates.limited_substeps > 0);
-  CHECK(simulation->totals().updates.failures == 0);
+  CHECK(simulation->updates().limited_substeps > 0);
+  CHECK(simulation->updates().failures == 0);
 }
 
 TEST_CASE("a digest tells two states apart", "[scenes]")

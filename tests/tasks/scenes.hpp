@@ -150,10 +150,10 @@ inline double total_mass(const ParticleReport& report)
   return mass;
 }
 
-/// What the totals say all work went to [J].
-inline double worked(const StepTotals& totals)
+/// What all work went to [J].
+inline double worked(const EnergyLedger& energies)
 {
-  return totals.elastic + totals.plastic + totals.viscous + totals.contact;
+  return energies.elastic + energies.plastic + energies.viscous + energies.contact;
 }
 
 }  // namespace tamp::test

@@ -45,7 +45,7 @@ Rebound rebound(int n_cells, int normal_of)
   const double momentum = std::sqrt(0.5) * 0.2 * simulation->report().bodies[0].mass;
   Rebound seen;
   while (simulation->time() < 3) {
-    const double elastic_before = simulation->totals().elastic;
+    const double elastic_before = simulation->energies().elastic;
     simulation->advance(3);
     const ParticleReport now = simulation->report();
     REQUIRE(now.momentum().norm() < 1e-12 * momentum);
@@ -53,11 +53,11 @@ Rebound rebound(int n_cells, int normal_of)
     REQUIRE((now.bodies[0].position + now.bodies[1].position - now.bodies[0].mass * Eigen::Vector3d(1, 1, 0)).norm() <
             1e-10 * now.bodies[0].mass);
     seen.kinetic = now.kinetic / energy;
-    seen.elastic = simulation->totals().elastic / energy;
+    seen.elastic = simulation->energies().elastic / energy;
     seen.least_kinetic = std::min(seen.least_kinetic, seen.kinetic);
     // Velocities, and so kinetic energy, are of the middle of the step.
     const double all =
-        now.kinetic + worked(simulation->totals()) - 0.5 * (simulation->totals().elastic - elastic_before);
+        now.kinetic + worked(simulation->energies()) - 0.5 * (simulation->energies().elastic - elastic_before);
     seen.imbalance = std::max(seen.imbalance, std::abs(all / energy - 1));
   }
   CHECK(simulation->report().bodies[0].momentum[0] < -0.8 * 0.1 * simulation->report().bodies[0].mass);

@@ -69,8 +69,8 @@ TEST_CASE("bodies that collide in free space keep their mass and momentum")
   // They did meet: the second has taken more than half of the momentum along x.
   const ParticleReport after = simulation->report();
   CHECK(after.bodies[1].momentum[0] > 0.5 * before.momentum()[0]);
-  CHECK(simulation->totals().contact > 0);
-  CHECK(simulation->totals().viscous > 0);
+  CHECK(simulation->energies().contact > 0);
+  CHECK(simulation->energies().viscous > 0);
   const std::array<double, 3>& impulse = simulation->grid_totals().impulse;
   for (const double value : impulse) CHECK(std::abs(value) < 1e-12 * before.momentum().norm());
 }
@@ -120,7 +120,7 @@ TEST_CASE("a run is the same, bit by bit, on any number of threads")
   const auto digest = [](int n_threads) {
     const auto simulation = Simulation::make(punch(), n_threads);
     for (int i = 0; i < 60; ++i) simulation->advance(1e30);
-    return simulation->digest() + " " + std::to_string(simulation->totals().plastic);
+    return simulation->digest() + " " + std::to_string(simulation->energies().plastic);
   };
 
   const std::string one = digest(1);

@@ -123,10 +123,10 @@ TEST_CASE("the work of driving a body goes into what it presses")
 
   advance_to(*simulation, 4);
 
-  const StepTotals& totals = simulation->totals();
+  const EnergyLedger& energies = simulation->energies();
   const double kinetic = simulation->report().kinetic;
-  CHECK(totals.driving > 100);
-  CHECK(worked(totals) + kinetic == Approx(totals.driving).epsilon(1e-3));
+  CHECK(energies.driving > 100);
+  CHECK(worked(energies) + kinetic == Approx(energies.driving).epsilon(1e-3));
 }
 
 TEST_CASE("half a driven body on a mirror feels half the force of the whole")
@@ -174,7 +174,7 @@ TEST_CASE("a driven body ends with the same bits on any ranks and threads", "[ra
                                              runtime::Communicator::world());
     advance_to(*simulation, 0.6);
     CHECK(simulation->digest() == alone->digest());
-    CHECK(simulation->totals().driving == alone->totals().driving);
+    CHECK(simulation->energies().driving == alone->energies().driving);
     CHECK(simulation->take_contact_forces()[1].torque.z() != 0);
   }
 }

@@ -78,7 +78,7 @@ TEST_CASE("bars that collide press on each other as their impedances say, and th
   // Viscosity holds the middle of the front back by less than a cell.
   CHECK(front(particles_of_material(particles, 1), velocity / 2) == Approx(1 + way_right).margin(h));
   const double energy = left.density * h * speed * speed;
-  CHECK(simulation->report().kinetic + worked(simulation->totals()) == Approx(energy).epsilon(0.005));
+  CHECK(simulation->report().kinetic + worked(simulation->energies()) == Approx(energy).epsilon(0.005));
 }
 
 }  // namespace test_elastic_impact

@@ -142,7 +142,6 @@ TEST_CASE("what particles filter out of a FLIP step is the energy of the nodes' 
   const auto before = particles_of(*simulation);
   const double size_before = simulation->last_step_size();
   const GridTotals nodes_before = simulation->grid_totals();
-  const StepTotals totals_before = simulation->totals();
 
   simulation->advance(1e30);
 
@@ -151,7 +150,7 @@ TEST_CASE("what particles filter out of a FLIP step is the energy of the nodes' 
   const double nodes_gain = nodes.gained_by_nodes - nodes_before.gained_by_nodes,
                particles_gain = nodes.gained_by_particles - nodes_before.gained_by_particles,
                taken_at_start = nodes.taken_by_forces - nodes_before.taken_by_forces,
-               taken_at_end = simulation->totals().taken_at_end - totals_before.taken_at_end;
+               taken_at_end = simulation->energies().half_step;
   CHECK(plain.filtered_at_nodes > 1.2 * plain.filtered_at_particles);
   CHECK(nodes_gain - particles_gain == Approx(plain.filtered_at_nodes - plain.filtered_at_particles).epsilon(1e-8));
   CHECK(taken_at_start == Approx(plain.taken_at_start).epsilon(1e-8));
@@ -163,10 +162,10 @@ namespace
 {
 
 /// All energy with what was filtered out, but what outside worked, as of the middle of the last step, where velocities
-/// are: `before` are the totals before that step.
-double balance(Simulation& simulation, const StepTotals& before)
+/// are: `before` are the energies before that step.
+double balance(Simulation& simulation, const EnergyLedger& before)
 {
-  const StepTotals& now = simulation.totals();
+  const EnergyLedger& now = simulation.energies();
   const double ahead =
       0.5 * (now.elastic + now.plastic + now.viscous - before.elastic - before.plastic - before.viscous);
   const ParticleReport report = simulation.report();
@@ -183,15 +182,15 @@ Closing closing(Scene scene, double end)
 {
   scene.time.multiplier = 0.1;
   const auto simulation = Simulation::make(scene, 2);
-  const double at_start = simulation->report().kinetic + simulation->totals().elastic;
+  const double at_start = simulation->report().kinetic + simulation->energies().elastic;
   Closing seen{};
   while (simulation->time() < end) {
-    const StepTotals before = simulation->totals();
+    const EnergyLedger before = simulation->energies();
     simulation->advance(end);
     seen.error = std::max(seen.error, std::abs(balance(*simulation, before) - at_start));
   }
   REQUIRE(simulation->lost().count == 0);
-  seen.filtered = simulation->totals().filter;
+  seen.filtered = simulation->energies().filter;
   return seen;
 }
 
@@ -289,7 +288,7 @@ TEST_CASE("what is filtered out is the same, bit by bit, on any ranks and thread
   Scene scene = punch(2);
   const auto filtered = [](Simulation& simulation) {
     for (int n = 0; n < 40; ++n) simulation.advance(1e30);
-    return simulation.totals().filter;
+    return simulation.energies().filter;
   };
   const auto alone = Simulation::make(scene, 1);
   const double expected = filtered(*alone);

@@ -34,14 +34,14 @@ SimulationError failure_of(Simulation& simulation, int most_steps)
     const std::string digest = simulation.digest();
     const long n_steps = simulation.n_steps();
     const std::size_t n_particles = simulation.n_particles(0);
-    const double time = simulation.time(), elastic = simulation.totals().elastic;
+    const double time = simulation.time(), elastic = simulation.energies().elastic;
     try {
       simulation.advance(1e30);
     } catch (const SimulationError& error) {
       CHECK(simulation.digest() == digest);
       CHECK(simulation.n_steps() == n_steps);
       CHECK(simulation.time() == time);
-      CHECK(simulation.totals().elastic == elastic);
+      CHECK(simulation.energies().elastic == elastic);
       CHECK(simulation.n_particles(0) == n_particles);
       return error;
     }
@@ -93,7 +93,7 @@ TEST_CASE("a velocity that is not a number ends the run before it spreads")
 TEST_CASE("a step below the scene's least one ends the run")
 {
   Scene scene = block();
-  const double bound = Simulation::make(scene, 1)->totals().stable_step;
+  const double bound = Simulation::make(scene, 1)->stable_step();
   scene.time.minimum_step = scene.time.multiplier * bound * 1.001;
   const auto simulation = Simulation::make(scene, 1);
 
@@ -106,7 +106,7 @@ TEST_CASE("a step below the scene's least one ends the run")
 TEST_CASE("the last step of a run may be as short as it must to end in time")
 {
   Scene scene = block();
-  const double step = scene.time.multiplier * Simulation::make(scene, 1)->totals().stable_step;
+  const double step = scene.time.multiplier * Simulation::make(scene, 1)->stable_step();
   scene.time.minimum_step = 0.9 * step;
   const auto simulation = Simulation::make(scene, 1);
 
@@ -189,7 +189,7 @@ TEST_CASE("updates that may fail are counted, and their particles marked")
 
   simulation->advance(1e30);
 
-  const std::size_t failures = simulation->totals().updates.failures;
+  const std::size_t failures = simulation->updates().failures;
   CHECK(failures > 0);
   const auto blocks = simulation->particle_columns();
   const auto& columns = blocks[0].columns;

@@ -42,7 +42,8 @@ struct Ending {
 Ending ending(Simulation& simulation)
 {
   const LostParticles lost = simulation.lost();
-  return {simulation.digest(), simulation.totals().plastic, simulation.totals().contact, lost.count, lost.momentum[0]};
+  return {simulation.digest(), simulation.energies().plastic, simulation.energies().contact, lost.count,
+          lost.momentum[0]};
 }
 
 Ending alone(const Scene& scene, double end)
@@ -156,7 +157,7 @@ TEST_CASE("a body under pressure ends with the same bits on any ranks and thread
   advance_to(*simulation, 0.1);
 
   CHECK(ending(*simulation) == ending(*single));
-  CHECK(simulation->totals().driving == single->totals().driving);
+  CHECK(simulation->energies().driving == single->energies().driving);
   CHECK(pushed(*simulation) == pushed(*single));
 }
 
@@ -187,11 +188,11 @@ TEST_CASE("a block that starts deformed and is driven by body forces ends with t
   add_box(scene, 0, {0, 0, 0}, {1, 1, 1}).functions = problem.functions({dimension, 1, scene.materials[0].model});
   const auto outcome = [](Simulation& simulation) {
     const DisplacementError error = simulation.report().displacement_errors[0];
-    return std::tuple(simulation.digest(), simulation.totals().driving, error.rms(), error.greatest);
+    return std::tuple(simulation.digest(), simulation.energies().driving, error.rms(), error.greatest);
   };
   const auto single = Simulation::make(scene, 1);
   advance_to(*single, 0.003);
-  REQUIRE(std::abs(single->totals().driving) > 0);
+  REQUIRE(std::abs(single->energies().driving) > 0);
 
   const auto simulation = on_all_ranks(scene, n_threads);
   advance_to(*simulation, 0.003);

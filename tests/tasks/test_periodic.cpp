@@ -130,7 +130,7 @@ TEST_CASE("bodies collide across the ends of a periodic domain as they do in the
   }
   // The face at 3 m is in their midst.
   CHECK(moved > 3.5);
-  CHECK(along->totals().contact > 100);
+  CHECK(along->energies().contact > 100);
   CHECK(apart < 1e-9);
   CHECK(velocities_apart < 1e-7);
   CHECK(stresses_apart < 1e-7 * 1e6);
@@ -138,7 +138,7 @@ TEST_CASE("bodies collide across the ends of a periodic domain as they do in the
   CHECK((body.position - other.position).norm() < 1e-9 * other.position.norm());
   CHECK(body.spin()[2] == Approx(other.spin()[2]).margin(1e-7));
   CHECK(body.tilt(2) == Approx(other.tilt(2)).margin(1e-9));
-  CHECK(around->totals().contact == Approx(along->totals().contact).epsilon(1e-6));
+  CHECK(around->energies().contact == Approx(along->energies().contact).epsilon(1e-6));
 }
 
 TEST_CASE("a body falls around a periodic domain, and its energy and momentum are accounted for")

@@ -66,8 +66,8 @@ TEST_CASE("a slab between smooth walls does what plane strain does")
     for (std::size_t k = 0; k < 6; ++k) REQUIRE(std::abs(a.stress[k] - b.stress[k]) < 1e-10 * highest_stress);
   }
   const double depth = 0.05 * n_layers;
-  CHECK(slab->totals().contact == Approx(depth * plane->totals().contact).epsilon(1e-9));
-  CHECK(slab->totals().elastic == Approx(depth * plane->totals().elastic).epsilon(1e-9));
+  CHECK(slab->energies().contact == Approx(depth * plane->energies().contact).epsilon(1e-9));
+  CHECK(slab->energies().elastic == Approx(depth * plane->energies().elastic).epsilon(1e-9));
   CHECK(slab->grid_totals().impulse[1] == Approx(depth * plane->grid_totals().impulse[1]).epsilon(1e-9));
   CHECK(std::abs(slab->grid_totals().impulse[2]) < 1e-10 * slab->grid_totals().impulse[1]);
 }

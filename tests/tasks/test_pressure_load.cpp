@@ -149,7 +149,7 @@ TEST_CASE("the work of a load is p A u")
   advance_to(*simulation, 0.5 * period_of_column());
 
   const double strain_above = pressure / uniaxial_modulus(E, nu) * (1 - at_start);
-  CHECK(simulation->totals().driving == Approx(pressure * 0.4 * (at_start - top() + strain_above)).epsilon(0.01));
+  CHECK(simulation->energies().driving == Approx(pressure * 0.4 * (at_start - top() + strain_above)).epsilon(0.01));
 }
 
 TEST_CASE("the work of a load that grows is what the body stores, moves with and loses")
@@ -160,11 +160,11 @@ TEST_CASE("the work of a load that grows is what the body stores, moves with and
 
   advance_to(*simulation, 2 * period_of_column());
 
-  const double work = simulation->totals().driving;
+  const double work = simulation->energies().driving;
   const double strain = pressure / uniaxial_modulus(E, nu);
   // A load that grows over just a period leaves no swing, so that half of p A u is stored and nothing else is left.
   if (scene.local_damping == 0) CHECK(work == Approx(0.5 * pressure * 0.4 * strain).epsilon(0.02));
-  CHECK(simulation->report().kinetic + worked(simulation->totals()) == Approx(work).epsilon(0.01));
+  CHECK(simulation->report().kinetic + worked(simulation->energies()) == Approx(work).epsilon(0.01));
 }
 
 TEST_CASE("a flat side is pressed with p times its length, and the part of it in a box with that of the part")
@@ -218,8 +218,8 @@ TEST_CASE("a block pressed on one side by a load that comes and goes has the mom
   CHECK(std::abs(momentum.x()) < 1e-9 * given);
   CHECK(simulation->grid_totals().impulse[1] == Approx(momentum.y()).epsilon(1e-9));
   CHECK(simulation->take_load_forces().at(0).y() * 0.08 == Approx(momentum.y()).epsilon(1e-9));
-  const double work = simulation->totals().driving;
-  CHECK(simulation->report().kinetic + worked(simulation->totals()) == Approx(work).epsilon(0.01));
+  const double work = simulation->energies().driving;
+  CHECK(simulation->report().kinetic + worked(simulation->energies()) == Approx(work).epsilon(0.01));
 }
 
 namespace

@@ -254,7 +254,7 @@ namespace
 /// The kinetic energy, with what materials have stored of it and at the start.
 double energy_of(Simulation& simulation)
 {
-  return simulation.report().kinetic + simulation.totals().elastic;
+  return simulation.report().kinetic + simulation.energies().elastic;
 }
 
 /// The greatest distance between particles of the same ids.
@@ -305,8 +305,8 @@ TEST_CASE("a constant body force is gravity, to round-off: in motion, work and m
 
   CHECK(farthest_apart(start, particles_of(*one)) > 0.1);
   CHECK(farthest_apart(particles_of(*other), particles_of(*one)) < 1e-12);
-  CHECK(other->totals().driving == Approx(one->report().gravity_work - work_function).epsilon(1e-12));
-  CHECK(one->totals().driving == 0);
+  CHECK(other->energies().driving == Approx(one->report().gravity_work - work_function).epsilon(1e-12));
+  CHECK(one->energies().driving == 0);
   for (std::size_t k = 0; k < 2; ++k) {
     CHECK(other->grid_totals().impulse[k] == Approx(one->grid_totals().impulse[k]).epsilon(1e-12).margin(1e-9));
   }
@@ -348,7 +348,7 @@ TEST_CASE("half of a block that a body force draws out symmetrically, at a wall,
   }
   CHECK(fastest > 0.5);
   CHECK(farthest < 1e-12);
-  CHECK(2 * of_half->totals().driving == Approx(of_whole->totals().driving).epsilon(1e-11));
+  CHECK(2 * of_half->energies().driving == Approx(of_whole->energies().driving).epsilon(1e-11));
 }
 
 TEST_CASE("the work of a body force is what a block that it drives gains in motion and in store")
@@ -359,7 +359,7 @@ TEST_CASE("the work of a body force is what a block that it drives gains in moti
   const double start = energy_of(*simulation);
 
   advance_to(*simulation, 0.6 * half_period);
-  const double energy_before = energy_of(*simulation), work = simulation->totals().driving,
+  const double energy_before = energy_of(*simulation), work = simulation->energies().driving,
                kinetic_before = simulation->report().kinetic;
   simulation->advance(1e30);
 
@@ -404,7 +404,7 @@ TEST_CASE("a bar that starts strained has the mass, the stress and the energy of
     stored += h / 2000 *
               (0.5 * K * (0.5 * (l * l - 1) - std::log(l)) + 0.5 * G * (std::pow(l, -2.0 / 3.0) * (l * l + 2) - 3));
   }
-  CHECK(simulation->totals().elastic == Approx(stored).epsilon(1e-4));
+  CHECK(simulation->energies().elastic == Approx(stored).epsilon(1e-4));
   CHECK(total_mass(simulation->report()) == Approx(h));
   for (const Particle& p : particles_of(*simulation)) {
     const double l = p.volume_ratio;

@@ -52,27 +52,27 @@ TEST_CASE("sand that is thrown apart keeps its momentum and accounts for its ene
   scene.transfer = GENERATE(Transfer::flip, Transfer::affine);
   const auto simulation = Simulation::make(scene, 2);
   const ParticleReport before = simulation->report();
-  const double stable_step = simulation->totals().stable_step;
+  const double stable_step = simulation->stable_step();
 
   advance_to(*simulation, 0.01);
 
   const ParticleReport after = simulation->report();
-  const double given = simulation->totals().driving + before.kinetic;
+  const double given = simulation->energies().driving + before.kinetic;
   CHECK((after.momentum() - before.momentum()).norm() < 1e-12 * before.momentum().norm());
-  CHECK(after.kinetic + worked(simulation->totals()) == Approx(given).epsilon(0.02));
+  CHECK(after.kinetic + worked(simulation->energies()) == Approx(given).epsilon(0.02));
   CHECK(simulation->lost().count == 0);
   const std::vector<double> apart = numbers_of(*simulation, "apart"), q = numbers_of(*simulation, "q"),
                             p = numbers_of(*simulation, "p");
   const auto n_apart = static_cast<std::size_t>(sum(apart));
   CHECK(n_apart > apart.size() / 2);
-  CHECK(simulation->totals().updates.separations >= n_apart);
+  CHECK(simulation->updates().separations >= n_apart);
   for (std::size_t i = 0; i < apart.size(); ++i) {
     if (apart[i] == 0) continue;
     REQUIRE(p[i] == 0);
     REQUIRE(q[i] == 0);
   }
   // Nearly nothing is stiff any more.
-  CHECK(simulation->totals().stable_step > 1.5 * stable_step);
+  CHECK(simulation->stable_step() > 1.5 * stable_step);
 }
 
 TEST_CASE("sand that is thrown apart gains no energy by gradients that come from nodes alone")
@@ -90,9 +90,9 @@ TEST_CASE("sand that is thrown apart gains no energy by gradients that come from
   const double moment = (scene.interpolator == Interpolator::gimp ? 3.0 / 16 : 0.25) * 0.05 * 0.05;
   const double within = total_mass(before) * 100 * 100 * moment;
   const ParticleReport after = simulation->report();
-  CAPTURE(before.kinetic, within, after.kinetic, worked(simulation->totals()));
+  CAPTURE(before.kinetic, within, after.kinetic, worked(simulation->energies()));
   CHECK((after.momentum() - before.momentum()).norm() < 1e-12 * before.momentum().norm());
-  CHECK(after.kinetic + worked(simulation->totals()) < before.kinetic + within);
+  CHECK(after.kinetic + worked(simulation->energies()) < before.kinetic + within);
   CHECK(sum(numbers_of(*simulation, "apart")) > 0);
 }
 
@@ -106,9 +106,9 @@ TEST_CASE("sand that has come apart joins where it is pushed together, on any th
   for (Simulation* one : {simulation.get(), other.get()}) advance_to(*one, 0.05);
 
   const double n_apart = sum(numbers_of(*simulation, "apart"));
-  CHECK(static_cast<double>(simulation->totals().updates.separations) > n_apart);
-  CHECK(simulation->report().kinetic + worked(simulation->totals()) == Approx(given).epsilon(0.2));
-  CHECK(simulation->totals().updates.failures == 0);
+  CHECK(static_cast<double>(simulation->updates().separations) > n_apart);
+  CHECK(simulation->report().kinetic + worked(simulation->energies()) == Approx(given).epsilon(0.2));
+  CHECK(simulation->updates().failures == 0);
   CHECK(simulation->digest() == other->digest());
 }
 

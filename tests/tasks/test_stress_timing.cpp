@@ -83,7 +83,7 @@ Scene meeting_disks(bool is_rigid)
 
 double all_energy(Simulation& simulation)
 {
-  const StepTotals& now = simulation.totals();
+  const EnergyLedger& now = simulation.energies();
   return simulation.report().kinetic + now.elastic + now.plastic + now.viscous + now.contact + now.filter - now.driving;
 }
 
@@ -101,9 +101,9 @@ TEST_CASE("where stress works at velocities of its own, the difference is filter
   advance_to(*simulation, 0.05);
 
   REQUIRE(simulation->lost().count == 0);
-  const StepTotals& totals = simulation->totals();
-  CHECK(std::abs(totals.driving) > 1e-3 * at_start);
-  CHECK(totals.contact > 1e-3 * at_start);
+  const EnergyLedger& energies = simulation->energies();
+  CHECK(std::abs(energies.driving) > 1e-3 * at_start);
+  CHECK(energies.contact > 1e-3 * at_start);
   CHECK(all_energy(*simulation) == Approx(at_start).epsilon(1e-12));
 }
 
@@ -127,7 +127,7 @@ TEST_CASE("whenever stress follows, disks meet with the same bits on any ranks a
   advance_to(*simulation, 0.04);
 
   CHECK(simulation->digest() == alone->digest());
-  CHECK(simulation->totals().filter == alone->totals().filter);
+  CHECK(simulation->energies().filter == alone->energies().filter);
 }
 
 }  // namespace test_stress_timing

@@ -72,7 +72,7 @@ Vibration swing(Scene scene, double k, int n_periods)
   double energy_first = 0, energy_last = 0;
   int n_first = 0, n_last = 0;
   while (simulation->time() < end) {
-    const double elastic_before = simulation->totals().elastic;
+    const double elastic_before = simulation->energies().elastic;
     simulation->advance(end);
     // Velocities are of the middle of the step.
     const double time = simulation->time() - 0.5 * simulation->last_step_size();
@@ -85,7 +85,7 @@ Vibration swing(Scene scene, double k, int n_periods)
     }
     amplitude_before = amplitude;
     time_before = time;
-    const double energy = simulation->report().kinetic + 0.5 * (elastic_before + simulation->totals().elastic);
+    const double energy = simulation->report().kinetic + 0.5 * (elastic_before + simulation->energies().elastic);
     if (time < period) energy_first += energy, ++n_first;
     if (time > end - period) energy_last += energy, ++n_last;
   }

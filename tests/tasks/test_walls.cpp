@@ -70,7 +70,7 @@ TEST_CASE("on a wall with friction a block slides as Coulomb's law has it")
   const double expected = 0.5 * g * (std::sin(angle) - friction * std::cos(angle)) * 0.4 * 0.4;
   CHECK(way(*simulation) == Approx(expected).epsilon(0.01));
   const double push = 2000 * 0.04 * g * std::cos(angle);
-  CHECK(simulation->totals().contact == Approx(friction * push * way(*simulation)).epsilon(0.02));
+  CHECK(simulation->energies().contact == Approx(friction * push * way(*simulation)).epsilon(0.02));
 }
 
 TEST_CASE("on a wall with enough friction a block stays")
@@ -100,7 +100,7 @@ TEST_CASE("what is thrown at a wall with friction leaves it again")
   CHECK(block.momentum.y() > 0.7 * block.mass);
   CHECK(block.momentum.y() == Approx(leaving).epsilon(1e-5));
   CHECK(simulation->grid_totals().impulse[1] == Approx(block.momentum.y() + block.mass).epsilon(1e-10));
-  const double after = simulation->report().kinetic + worked(simulation->totals());
+  const double after = simulation->report().kinetic + worked(simulation->energies());
   CHECK(after < before);
   CHECK(after > 0.75 * before);
 }
@@ -183,7 +183,7 @@ TEST_CASE("soil that collapses on a rough floor ends with the same bits on any r
                                              runtime::Communicator::world());
     advance_to(*simulation, 0.05);
     CHECK(simulation->digest() == alone->digest());
-    CHECK(simulation->totals().contact == alone->totals().contact);
+    CHECK(simulation->energies().contact == alone->energies().contact);
   }
 }
 

@@ -52,7 +52,7 @@ LeastWork least_work(const tasks::Simulation& simulation, const components::Upda
   for (const tasks::SceneBody& body : scene.bodies) {
     if (body.rigid) moved_by_grid -= static_cast<double>(body.n_particles);
   }
-  const components::UpdateCounts& now = simulation.totals().updates;
+  const components::UpdateCounts& now = simulation.updates();
   const auto per_step = [&](std::size_t after, std::size_t at_start) {
     return static_cast<double>(after - at_start) / static_cast<double>(n_steps);
   };

@@ -25,7 +25,7 @@ class StepsClock
  public:
   explicit StepsClock(const tasks::Simulation& simulation)
       : simulation_(simulation),
-        updates_(simulation.totals().updates),
+        updates_(simulation.updates()),
         first_step_(simulation.n_steps()),
         start_(processor_seconds()),
         wall_start_(WallClock::now())
@@ -74,7 +74,7 @@ WindowStart kept_start(tasks::Simulation& simulation, const Window& window, cons
   std::vector<std::string> refused;
   auto found = runtime::newest_checkpoint(own, refused);
   if (!found) throw std::logic_error("a checkpoint that was just written is not there");
-  return {window, *std::move(found), simulation.totals().updates};
+  return {window, *std::move(found), simulation.updates()};
 }
 
 }  // namespace

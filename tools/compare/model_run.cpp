@@ -111,7 +111,7 @@ ModelResult ModelRun::result()
   result_.steps = simulation_->n_steps();
   result_.time = simulation_->time();
   result_.median_step_wall = median(step_walls_);
-  result_.modulus_evaluations = simulation_->totals().updates.modulus_evaluations;
+  result_.modulus_evaluations = simulation_->updates().modulus_evaluations;
   if (!modulus_ns_.empty()) result_.modulus_ns = median(modulus_ns_);
   result_.ledger_peak_bytes = simulation_->ledger().total().peak();
   result_.digest = simulation_->digest();

@@ -325,7 +325,7 @@ class Runner
 
   void complete()
   {
-    const components::UpdateCounts& updates = simulation_->totals().updates;
+    const components::UpdateCounts& updates = simulation_->updates();
     if (updates.failures > 0) warn(fmt::format("{} stress updates have failed", updates.failures));
     const bool warned = common_warnings() > 0;
     finish(warned ? "completed with warnings" : "completed", "");

@@ -80,7 +80,7 @@ RunHistory::RunHistory(tasks::Simulation& simulation)
     : simulation_(simulation),
       tracked_(moving_bodies(simulation.scene())),
       initial_(simulation.report()),
-      initial_energy_(initial_.kinetic + simulation.totals().elastic),
+      initial_energy_(initial_.kinetic + simulation.energies().elastic),
       report_(initial_)
 {
   add_columns();
@@ -209,16 +209,16 @@ void RunHistory::measure()
   report_ = simulation_.report();
   near_noses_ = simulation_.near_noses();
   lost_ = simulation_.lost();
-  const tasks::StepTotals& totals = simulation_.totals();
+  const tasks::EnergyLedger& since_start = simulation_.energies();
   EnergyBalance& e = energies_;
   e = {report_.kinetic,
-       totals.elastic,
-       totals.plastic,
-       totals.viscous,
-       totals.contact,
-       totals.filter,
-       simulation_.taken_at_end() - report_.gravity_work_at_end,
-       report_.gravity_work - initial_.gravity_work + totals.driving,
+       since_start.elastic,
+       since_start.plastic,
+       since_start.viscous,
+       since_start.contact,
+       since_start.filter,
+       since_start.half_step - report_.gravity_work_at_end,
+       report_.gravity_work - initial_.gravity_work + since_start.driving,
        0};
   e.total = e.kinetic + e.elastic + e.plastic + e.viscous + e.contact + e.filter - e.half_step - e.external;
   const double largest =
@@ -262,7 +262,8 @@ double RunHistory::negligible_energy() const
   const double slow = part_of_wave_speed * fastest;
   // Velocities are those of half a step before.
   const double late = greatest_acceleration(scene) * simulation_.last_step_size();
-  return 0.5 * mass * slow * slow + late * std::sqrt(2 * mass * report_.kinetic) + std::abs(simulation_.last_driving());
+  return 0.5 * mass * slow * slow + late * std::sqrt(2 * mass * report_.kinetic) +
+         std::abs(simulation_.energies().last_driving);
 }
 
 double RunHistory::depth(std::size_t body) const

@@ -111,7 +111,7 @@ Json run_summary(tasks::Simulation& simulation, const RunHistory& history, const
   const OverRanks rss = over_ranks(simulation, peak_rss_bytes());
   const OverRanks ledger = over_ranks(simulation, static_cast<std::size_t>(simulation.ledger().total().peak()));
   const EnergyBalance& e = history.energies();
-  const components::UpdateCounts& updates = simulation.totals().updates;
+  const components::UpdateCounts& updates = simulation.updates();
   const double n_total = counts["total"].get<double>();
   return {{"status", outcome.status},
           {"reason", outcome.reason},

@@ -1,0 +1,36 @@
+#pragma once
+
+#include "tasks/step_totals.hpp"
+
+namespace tamp::tasks
+{
+
+/// Where the energy of a simulation has gone since its start, and what has come from outside [J]. What is in motion is
+/// no part of it. With that the sum stays the same, but for the error of the steps:
+///     kinetic + elastic + plastic + viscous + contact + filter - half_step - driving - work of gravity.
+struct EnergyLedger {
+  double elastic = 0;
+  double plastic = 0;
+  double viscous = 0;  ///< by artificial viscosity and local damping
+  double contact = 0;  ///< by friction and impact between bodies and at walls
+  /// What particles have filtered out of the motion of the nodes: of what the nodes gain, that which the particles do
+  /// not; and of what forces take, that which they take at other velocities than those that they are counted at.
+  double filter = 0;
+  /// Work of driven bodies, body forces and pressure loads.
+  double driving = 0;
+  /// What of `driving` is by driven bodies and pressure loads in the last step.
+  double last_driving = 0;
+  /// What stress took from the motion in the second half of the last step; body forces count against it. Velocities are
+  /// half a step behind all else, so that kinetic energy still has it. 0 where particles deform by other velocities.
+  double half_step = 0;
+
+  /// Adds a step. Totals of what a scene does not have are those of nothing. `deforms_by_other_velocities`: see Method.
+  void add(const StepTotals& step, const GridTotals& nodes, const BodyForceWork& body_forces, const LoadTotals& loads,
+           bool deforms_by_other_velocities);
+
+ private:
+  void add_filtered(const StepTotals& step, const GridTotals& nodes, const BodyForceWork& body_forces,
+                    const LoadTotals& loads, bool deforms_by_other_velocities);
+};
+
+}  // namespace tamp::tasks
