@@ -61,14 +61,18 @@ inline const runtime::ParticleLabel<SymmetricTensor<D>, "strain increment"> stra
 /// cells do.
 template <int D>
 inline const runtime::ParticleLabel<Matrix<D>, "step gradient"> step_gradient;
+/// What nodes feel of its stress [Pa]: the mean is that of its cell. Only where particles deform as their cells do.
+template <int D>
+inline const runtime::ParticleLabel<SymmetricTensor<D>, "shared stress"> shared_stress;
 
 }  // namespace particle
 
 namespace cell
 {
 
-/// Only where particles deform as their cells do.
-inline const runtime::CellLabel<components::CellVolume, "cell volume"> volume;
+/// Only where particles deform as their cells do: det f - 1, and components::mean_stress [Pa].
+inline const runtime::CellLabel<components::CellMean, "volume change of cells"> volume_change;
+inline const runtime::CellLabel<components::CellMean, "mean stress of cells"> mean_stress;
 
 }  // namespace cell
 

@@ -82,6 +82,9 @@ struct Method {
     return stress_timing != StressTiming::usl || (passes == components::Passes::from_end && n_passes > 0);
   }
 
+  /// Whether the particles of a cell share the changes of its volume and the stress that works against them.
+  bool deforms_as_cells() const { return relief == Relief::cell_average && !deformable_materials.empty(); }
+
   const Scene& scene;
   std::vector<std::unique_ptr<const components::Interpolation<D>>> interpolations;
   /// Layers of nodes beyond a patch that its particles reach.

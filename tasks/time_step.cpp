@@ -43,7 +43,7 @@ void add_stress(const Method<D>& method, std::vector<runtime::TaskDeclaration>& 
   if (method.stress_timing != StressTiming::usl) {
     for (runtime::TaskDeclaration& phase : deform_by_carried_velocities(method)) step.push_back(std::move(phase));
   }
-  if (method.relief == Relief::cell_average) step.push_back(deform_as_cells(method));
+  if (method.deforms_as_cells()) step.push_back(deform_as_cells(method));
   for (const int material : method.deformable_materials) step.push_back(update_stress(method, material));
 }
 
@@ -56,6 +56,9 @@ std::vector<runtime::TaskDeclaration> time_step(const Method<D>& method,
   std::vector<runtime::TaskDeclaration> step;
   step.push_back(hear_hosts());
   if (method.stress_timing == StressTiming::usf) add_stress(method, step);
+  if (method.deforms_as_cells()) {
+    for (runtime::TaskDeclaration& phase : share_stress(method)) step.push_back(std::move(phase));
+  }
   for (runtime::TaskDeclaration& phase : particles_to_grid(method)) step.push_back(std::move(phase));
   if (!method.pressed_materials.empty()) {
     for (runtime::TaskDeclaration& phase : press(method)) step.push_back(std::move(phase));

@@ -1,21 +1,39 @@
 #pragma once
 
+#include "components/tensors.hpp"
+
 namespace tamp::components
 {
 
-/// The particles of one material in a cell: what they fill, and how that changes in a step. All of them then change by
-/// the mean, J_cell = sum V_p det f_p / sum V_p, which leaves the volume of the cell's matter what it is.
-struct CellVolume {
-  double volume = 0;         ///< sum V_p [m^D]
-  double volume_change = 0;  ///< sum V_p (det f_p - 1) [m^D]
+/// The particles of one material in a cell: what they fill, and the mean over that of what they share.
+struct CellMean {
+  double volume = 0;  ///< sum V_p [m^D]
+  double sum = 0;     ///< sum V_p a_p
 
-  void add(double of_particle, double change)
+  void add(double of_particle, double value)
   {
     volume += of_particle;
-    volume_change += of_particle * change;
+    sum += of_particle * value;
   }
-  /// J_cell - 1, of a cell with a particle.
-  double mean_change() const { return volume_change / volume; }
+  /// sum V_p a_p / sum V_p, of a cell with a particle.
+  double mean() const { return sum / volume; }
 };
+
+/// What the change of a particle's volume works against [Pa], tension positive: the mean of the normal stresses along
+/// the axes of the grid, less the viscous pressure.
+template <int D>
+double mean_stress(const SymmetricTensor<D>& stress, double viscous_pressure)
+{
+  return stress.template head<D>().mean() - viscous_pressure;
+}
+
+/// The stress with another mean.
+template <int D>
+SymmetricTensor<D> with_mean_stress(SymmetricTensor<D> stress, double viscous_pressure, double mean)
+{
+  const double change = mean - mean_stress<D>(stress, viscous_pressure);
+  stress.template head<D>().array() += change;
+  return stress;
+}
 
 }  // namespace tamp::components

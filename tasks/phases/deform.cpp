@@ -14,11 +14,11 @@ runtime::TaskDeclaration deform_as_cells(const Method<D>& method)
   return runtime::task("deform as cells")
       .over_patches_and_groups(method.deformable_materials)
       .sparse()
-      .reads(cell::volume, particle::step_gradient<D>, particle::id.previous(), particle::position<D>.previous(),
+      .reads(cell::volume_change, particle::step_gradient<D>, particle::id.previous(), particle::position<D>.previous(),
              particle::deformation_gradient<D>.previous(), particle::volume.previous(), particle::stress<D>.previous())
       .computes(particle::deformation_gradient<D>, particle::volume, particle::stress<D>, particle::strain_increment<D>)
       .body([&method](const TaskContext& at, auto data) {
-        const auto cells = data[cell::volume];
+        const auto cells = data[cell::volume_change];
         const auto position = data[particle::position<D>.previous()];
         const auto own = data[particle::step_gradient<D>];
         std::array<Matrix<D>, motion_batch> gradients;
@@ -29,7 +29,7 @@ runtime::TaskDeclaration deform_as_cells(const Method<D>& method)
           const auto change = std::span(changes).first(size);
           std::copy_n(own.begin() + static_cast<std::ptrdiff_t>(first), size, g.begin());
           for (std::size_t i = 0; i < size; ++i) {
-            change[i] = cells[cell_of<D>(at, position[first + i])].mean_change();
+            change[i] = cells[cell_of<D>(at, position[first + i])].mean();
           }
           components::set_volume_changes<D>(method.deformation_update, g, change);
           deform<D>(method, at, data, first, g);

@@ -48,19 +48,6 @@ void deform(const Method<D>& method, const runtime::TaskContext& at, const Data&
       {x.begin(), x.end()});
 }
 
-/// The cell of the patch that holds a particle of it.
-template <int D>
-runtime::Index cell_of(const runtime::TaskContext& at, const Vector<D>& x)
-{
-  const runtime::Grid& grid = at.layout.grid();
-  runtime::Index cell = at.patch.cells.lower;
-  for (std::size_t k = 0; k < D; ++k) {
-    const double place = std::floor((x[static_cast<int>(k)] - grid.lower[k]) / grid.cell_size);
-    cell[k] = std::clamp(static_cast<int>(place), at.patch.cells.lower[k], at.patch.cells.upper[k] - 1);
-  }
-  return cell;
-}
-
 /// Keeps the gradients of a batch until those of the whole patch are known, and adds its changes of volume to its
 /// cells.
 template <int D, class Data>
@@ -69,7 +56,7 @@ void keep(const Method<D>& method, const runtime::TaskContext& at, const Data& d
 {
   const auto position = data[particle::position<D>.previous()];
   const auto volume = data[particle::volume.previous()];
-  const auto cells = data[cell::volume];
+  const auto cells = data[cell::volume_change];
   std::array<double, motion_batch> change;
   components::volume_changes<D>(method.deformation_update, g, std::span(change).first(g.size()));
   for (std::size_t i = 0; i < g.size(); ++i) {
@@ -130,8 +117,8 @@ void deform_by_nodes(const Method<D>& method, const runtime::TaskContext& at, co
 template <class Data>
 void clear_cells(const Data& data)
 {
-  if constexpr (data.has(cell::volume)) {
-    for_each(data[cell::volume].box(), [&](const runtime::Index& i) { data[cell::volume][i] = {}; });
+  if constexpr (data.has(cell::volume_change)) {
+    for_each(data[cell::volume_change].box(), [&](const runtime::Index& i) { data[cell::volume_change][i] = {}; });
   }
 }
 
@@ -142,8 +129,8 @@ runtime::TaskDeclaration deforming(const Method<D>& method, Task task, const Fin
   auto reading = std::move(task)
                      .reads(particle::id.previous(), particle::volume.previous(), particle::stress<D>.previous())
                      .computes(particle::own_stiffness);
-  if (method.relief == Relief::cell_average) {
-    return finish(std::move(reading).computes(particle::step_gradient<D>, cell::volume));
+  if (method.deforms_as_cells()) {
+    return finish(std::move(reading).computes(particle::step_gradient<D>, cell::volume_change));
   }
   return finish(std::move(reading).computes(particle::deformation_gradient<D>, particle::volume, particle::stress<D>,
                                             particle::strain_increment<D>));

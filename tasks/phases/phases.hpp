@@ -9,6 +9,10 @@
 namespace tamp::tasks
 {
 
+/// Particles share the mean stress of their cell, by which they will push on nodes.
+template <int D>
+std::vector<runtime::TaskDeclaration> share_stress(const Method<D>& method);
+
 /// Particles give their mass, momentum and forces to the grid.
 template <int D>
 std::vector<runtime::TaskDeclaration> particles_to_grid(const Method<D>& method);

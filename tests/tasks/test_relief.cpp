@@ -194,6 +194,32 @@ TEST_CASE("with relief all particles of a cell share its change of volume, and m
   CHECK((after - before).norm() < 1e-13 * before.norm());
 }
 
+TEST_CASE("sharing the stress of a cell with its change of volume keeps energy, f_bar does not")
+{
+  const int dimension = GENERATE(2, 3);
+  Scene scene = stretching_block(dimension, 0.5);
+  scene.limits.energy_error = std::numeric_limits<double>::infinity();
+  const auto greatest_error = [&](Relief relief, double multiplier) {
+    scene.relief = relief;
+    scene.time.multiplier = multiplier;
+    const auto simulation = Simulation::make(scene, 1);
+    const double given = simulation->report().kinetic;
+    double error = 0;
+    while (simulation->time() < 0.1) {
+      simulation->advance(0.1);
+      const EnergyLedger& e = simulation->energies();
+      error = std::max(error, std::abs(simulation->report().kinetic + worked(e) + e.filter - e.half_step - given));
+    }
+    return error / given;
+  };
+  const double plain = greatest_error(Relief::none, 0.2), shared = greatest_error(Relief::cell_average, 0.2),
+               finer = greatest_error(Relief::cell_average, 0.1), f_bar = greatest_error(Relief::f_bar, 0.2);
+  CAPTURE(dimension, plain, shared, finer, f_bar);
+  CHECK(shared < 1.2 * plain);
+  CHECK(finer < 0.55 * shared);
+  CHECK(f_bar > 100 * shared);
+}
+
 TEST_CASE("a colliding rubber ends with the same bits on any ranks and threads, however it is deformed", "[ranks]")
 {
   Scene scene = empty_scene(2, {18, 12, 1}, 0.1);

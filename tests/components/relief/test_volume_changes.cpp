@@ -104,12 +104,41 @@ TEST_CASE("a particle that is turned inside out stays so whatever its cell does"
 
 TEST_CASE("the mean change of a cell keeps the volume of its matter")
 {
-  CellVolume cell;
+  CellMean cell;
   cell.add(2, 0.10);
   cell.add(1, -0.05);
 
-  CHECK(cell.mean_change() == Approx(0.05));
-  CHECK(cell.volume * (1 + cell.mean_change()) == Approx(2 * 1.10 + 1 * 0.95));
+  CHECK(cell.mean() == Approx(0.05));
+  CHECK(cell.volume * (1 + cell.mean()) == Approx(2 * 1.10 + 1 * 0.95));
+}
+
+TEMPLATE_TEST_CASE_SIG("the mean stress that a cell shares does the work of the particles' own on the shared change",
+                       "", ((int D), D), 2, 3)
+{
+  const std::array<double, 2> volume{2, 1}, viscous_pressure{30, 0};
+  std::array<SymmetricTensor<D>, 2> stress;
+  stress[0].setLinSpaced(-400, 100);
+  stress[1].setLinSpaced(50, -250);
+  std::array<Matrix<D>, 2> g;
+  g[0].setConstant(1e-9);
+  g[1] = -3e-9 * Matrix<D>::Identity();
+  CellMean change, mean;
+  for (std::size_t p = 0; p < 2; ++p) {
+    change.add(volume[p], g[p].trace());
+    mean.add(volume[p], mean_stress<D>(stress[p], viscous_pressure[p]));
+  }
+
+  double by_nodes = 0, by_particles = 0;
+  for (std::size_t p = 0; p < 2; ++p) {
+    const SymmetricTensor<D> shared = with_mean_stress<D>(stress[p], viscous_pressure[p], mean.mean());
+    const Matrix<D> viscous = viscous_pressure[p] * Matrix<D>::Identity();
+    const Matrix<D> taken = g[p] + (change.mean() - g[p].trace()) / D * Matrix<D>::Identity();
+    by_nodes += volume[p] * (plane_part<D>(shared) - viscous).cwiseProduct(g[p]).sum();
+    by_particles += volume[p] * (plane_part<D>(stress[p]) - viscous).cwiseProduct(taken).sum();
+    CHECK(mean_stress<D>(shared, viscous_pressure[p]) == Approx(mean.mean()));
+    CHECK((deviator(shared) - deviator(stress[p])).tail(stress[p].size() - 3).norm() == 0);
+  }
+  CHECK(by_nodes == Approx(by_particles).epsilon(1e-12));
 }
 
 TEMPLATE_TEST_CASE_SIG("the gradient at a cell's centre is that of a linear velocity and of no alternating one", "",
