@@ -104,6 +104,31 @@ TEST_CASE("a rigid body that spins flies on undeformed through cells and patches
   CHECK(body.tilt(dimension) > 0.1);
 }
 
+TEST_CASE("the particles of a rigid disk on rings stay sectors of it, whatever the interpolator")
+{
+  Scene scene = empty_scene(2, {12, 12, 1}, 0.1);
+  scene.interpolator = GENERATE(Interpolator::cpdi, Interpolator::gimp);
+  scene.time.maximum_step = 1e-3;
+  SceneBody& disk = add_disk(scene, add_elastic(scene, 3000, 1e9, 0.3), 0.6, 0.6, 0.3, {0, 0, 0});
+  disk.rigid = true;
+  disk.functions.layout = components::PolarLayout{{0.6, 0.6}, 0, 0.3};
+  const auto density_of_nodes = [](Simulation& simulation) {
+    const auto nodes = simulation.node_columns();
+    const auto values = std::get<std::span<const double>>(nodes.columns.front().values);
+    REQUIRE(nodes.columns.front().name == "density");
+    return std::vector<double>(values.begin(), values.end());
+  };
+  const auto simulation = Simulation::make(scene, 1);
+  simulation->advance(1);
+  const std::vector<double> first = density_of_nodes(*simulation);
+  REQUIRE(*std::max_element(first.begin(), first.end()) > 2900);
+
+  simulation->advance(1);
+
+  const std::vector<double> second = density_of_nodes(*simulation);
+  for (std::size_t i = 0; i < first.size(); ++i) CHECK(second[i] == Approx(first[i]).epsilon(1e-12).margin(1e-9));
+}
+
 TEST_CASE("the energy reported of a rigid body is that of the solid it fills, its particles' own turning counted")
 {
   const int dimension = GENERATE(2, 3);
