@@ -49,7 +49,7 @@ class PiecewiseLinear
  private:
   /// An inner point. (Of a curve with one segment: its first point.)
   template <class Number>
-  struct alignas(4 * sizeof(double)) KinkOf {
+  struct alignas(Number) alignas(4 * sizeof(double)) KinkOf {
     Number x, y, left_slope, right_slope;
   };
   using Kink = KinkOf<double>;
