@@ -102,8 +102,19 @@ inline double select(bool condition, double yes, double no)
 }
 inline Lanes select(const Lanes::mask_type& condition, const Lanes& yes, Lanes no)
 {
+#if defined(__clang__) && defined(__AVX512F__)
+  // The library's own takes all lanes or none there (libstdc++ 12, simd_x86.h, _S_blend_avx512).
+  return each_lane([&](std::size_t l) { return condition[l] ? yes[l] : no[l]; });
+#else
   where(condition, no) = yes;
   return no;
+#endif
+}
+
+/// Adds where the condition holds.
+inline void add_where(const Lanes::mask_type& condition, const Lanes& value, Lanes& sum)
+{
+  sum = select(condition, sum + value, sum);
 }
 
 inline bool any(bool condition)

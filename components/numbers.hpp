@@ -48,7 +48,7 @@ constexpr std::size_t count_numbers()
 template <class Values>
 [[gnu::always_inline]] inline void assign_where(const Mask<Lanes>& which, const Values& from, Values& to)
 {
-  for_each_number([&](const Lanes& a, Lanes& b) { where(which, b) = a; }, from, to);
+  for_each_number([&](const Lanes& a, Lanes& b) { b = select(which, a, b); }, from, to);
 }
 
 }  // namespace tamp

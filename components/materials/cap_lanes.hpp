@@ -83,9 +83,9 @@ class CapLanes
     const YieldSurface& yield = step_.yield();
     cap_return::VertexReturnOf<Lanes> back = cap_return::return_to_vertex(yield, whole, trial, tension);
     Some at_vertex = tension && back.value <= 0.0;
-    where(tension, outcome.n_evaluations) += asks_along_path() ? back.n_evaluations : Lanes(0.0);
+    add_where(tension, asks_along_path() ? back.n_evaluations : Lanes(0.0), outcome.n_evaluations);
     if (!asks_along_path()) {
-      where(at_vertex, outcome.n_evaluations) += 1.0;
+      add_where(at_vertex, 1.0, outcome.n_evaluations);
       const Path middle = path(deviatoric, Lanes(0.0), Lanes(0.5 * back.end.d));
       back = cap_return::return_to_vertex(yield, middle, middle(Lanes(0.0)), at_vertex);
       at_vertex = at_vertex && back.value <= 0.0;
@@ -115,7 +115,7 @@ class CapLanes
     const ReturnPointOf<Lanes> point = cap_return::surface_point(back.end, 0);
     assign_where(flowing, step_.after_flow(old, strain, size, start, along, left, point), outcome.end);
     outcome.left = flowing && !back.found;
-    where(flowing, outcome.n_evaluations) += asks_along_path() ? back.n_evaluations : Lanes(1.0);
+    add_where(flowing, asks_along_path() ? back.n_evaluations : Lanes(1.0), outcome.n_evaluations);
   }
 
   struct Return {
@@ -135,7 +135,7 @@ class CapLanes
     BeforeOf<Path, Lanes> before{trial, 0.0};
     if (!any(active)) return;
     Point at = path(d);
-    where(active, back.n_evaluations) += 1.0;
+    add_where(active, 1.0, back.n_evaluations);
     for (int i = 0; i < max_newton; ++i) {
       const auto g = yield.strength(at.pressure);
       const auto [shear_d, trial_d] = before.slopes(at, d);
@@ -153,7 +153,7 @@ class CapLanes
       active = active && !settled && !back.found;
       if (!any(active)) return;
       if constexpr (!has_constant_moduli<Path>) at = path(d);
-      where(active, back.n_evaluations) += 1.0;
+      add_where(active, 1.0, back.n_evaluations);
     }
   }
   void take(const Some& ends, const cap_return::ResidualOf<Lanes>& end, const Lanes& slope, Return& back) const
@@ -174,7 +174,7 @@ class CapLanes
     BeforeOf<Path, Lanes> before{trial, 0.0};
     if (!any(active)) return;
     Point at = path(d);
-    where(active && d != 0.0, back.n_evaluations) += 1.0;
+    add_where(active && d != 0.0, 1.0, back.n_evaluations);
     Some settled{false};
     Lanes shear_d = 0.0, trial_d = 0.0;
     StepOnCap<Lanes> step{};
@@ -192,7 +192,7 @@ class CapLanes
       d = select(active, next_d, d);
       t = select(active, next_t, t);
       at = path(d);
-      where(active, back.n_evaluations) += 1.0;
+      add_where(active, 1.0, back.n_evaluations);
     }
     const ResidualOf<Lanes> end = stepped(yield, at, d, step.d, shear_d, trial_d);
     const Some valid =

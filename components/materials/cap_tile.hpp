@@ -77,7 +77,7 @@ class CapTile
   {
     const auto tried = lanes_.substep(old_.at(pack), strain_.at(pack), part);
     tried_.set(pack, tried.end);
-    where(first_lanes(pack.n) && !tried.left, n_evaluations_) += tried.n_evaluations;
+    add_where(first_lanes(pack.n) && !tried.left, tried.n_evaluations, n_evaluations_);
     if (none_of(tried.left)) return tried.end.error;
     for (std::size_t l = 0; l < pack.n; ++l) left_.add_if(tried.left[l], pack.of[l]);
     return select(tried.left, Lanes(std::numeric_limits<double>::infinity()), tried.end.error);

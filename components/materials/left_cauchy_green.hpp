@@ -41,9 +41,9 @@ PrincipalExtremes<Number> principal_extremes(const Eigen::Matrix<Number, 6, 1>& 
   const Number middle = trace(b) / 3, radius = sqrt(double_dot(s, s) / 6);
   const Number cosine = 0.5 * plane_part<3, Number>(s).determinant() / (radius * radius * radius);
   // In this order a cosine that is not a number counts as -1: without a radius any will do.
-  const Number angle = portable::acos(lesser_of<Number>(greater_of<Number>(-1.0, cosine), 1.0)) / 3;
-  return {middle + 2 * radius * portable::cos(angle + 2 * std::numbers::pi / 3),
-          middle + 2 * radius * portable::cos(angle)};
+  const Number lode_angle = portable::acos(lesser_of<Number>(greater_of<Number>(-1.0, cosine), 1.0)) / 3;
+  return {middle + 2 * radius * portable::cos(lode_angle + 2 * std::numbers::pi / 3),
+          middle + 2 * radius * portable::cos(lode_angle)};
 }
 
 }  // namespace tamp::components

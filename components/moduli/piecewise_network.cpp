@@ -182,7 +182,9 @@ DenseNetwork::Gradient PiecewiseNetwork::with_gradient(double first, double seco
   if (std::isnan(piece.plane.constant)) return network_.with_gradient(first, second);
 
   // What follows the neurons that are above zero follows the place as they do.
-  const auto rectified = [&](const Plane& sum) { return sum.at(x, y) > 0 ? sum : Plane{0, 0, 0}; };
+  const auto rectified = [&at_x = x, &at_y = y](const Plane& sum) {
+    return sum.at(at_x, at_y) > 0 ? sum : Plane{0, 0, 0};
+  };
   const auto plus = [](const Plane& p, double weight, const Plane& z) {
     return Plane{p.constant + weight * z.constant, p.by_first + weight * z.by_first,
                  p.by_second + weight * z.by_second};

@@ -20,7 +20,8 @@ namespace tamp::runtime
 ///
 /// The answer is a span of particles, a GridView of nodes or cells, one of these for each group, or the value of a
 /// reduction or a global; const where it is only read. A label that the task did not declare does not compile. What
-/// only some tasks declare is used under `if constexpr (data.has(label))`.
+/// only some tasks declare is used under `if constexpr (data.has(label))`; where `data` is a reference, under
+/// `Data::has(label)`.
 template <class... Arguments>
 class TaskData
 {

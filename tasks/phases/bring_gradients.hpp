@@ -36,10 +36,10 @@ void bring_gradients(const components::Interpolation<D>& interpolation, const co
 {
   const components::ParticlePlaces<D> places = places_at_start<D>(data);
   const auto mass = data[particle::mass.previous()];
-  if constexpr (data.has(particle::velocity_gradient<D>)) {
+  if constexpr (Data::has(particle::velocity_gradient<D>)) {
     interpolation.add_gradient_momentum(block, places, mass, newest(data, particle::velocity_gradient<D>), sums);
   }
-  if constexpr (data.has(particle::velocity_moment<D>)) {
+  if constexpr (Data::has(particle::velocity_moment<D>)) {
     interpolation.add_gradient_momentum(
         block, places, mass,
         affine_gradients<D>(interpolation, block, places, newest(data, particle::velocity_moment<D>)), sums);

@@ -95,7 +95,7 @@ runtime::TaskDeclaration take_carried(const Method<D>& method)
 template <int D>
 std::vector<double> inverse_masses(const Method<D>& method, const GridView<const NodeSums<D>>& sums)
 {
-  std::vector<double> inverse(sums.box().size());
+  std::vector<double> inverse(static_cast<std::size_t>(sums.box().size()));
   for (std::size_t i = 0; i < inverse.size(); ++i) {
     const double mass = sums.data()[i].mass();
     inverse[i] = mass > method.least_node_mass ? 1 / mass : 0;

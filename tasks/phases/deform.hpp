@@ -88,7 +88,7 @@ void take_gradients(const Method<D>& method, const runtime::TaskContext& at, con
     components::volume_changes<D>(method.deformation_update, centres, changes);
     components::set_volume_changes<D>(method.deformation_update, g, changes);
   }
-  if constexpr (data.has(particle::step_gradient<D>)) {
+  if constexpr (Data::has(particle::step_gradient<D>)) {
     keep<D>(method, at, data, first, g);
   } else {
     deform<D>(method, at, data, first, g);
@@ -117,7 +117,7 @@ void deform_by_nodes(const Method<D>& method, const runtime::TaskContext& at, co
 template <class Data>
 void clear_cells(const Data& data)
 {
-  if constexpr (data.has(cell::volume_change)) {
+  if constexpr (Data::has(cell::volume_change)) {
     for_each(data[cell::volume_change].box(), [&](const runtime::Index& i) { data[cell::volume_change][i] = {}; });
   }
 }

@@ -44,7 +44,7 @@ void move(const Method<D>& method, double dt, const Data& data, std::size_t firs
   const auto position = data[particle::position<D>];
   for (std::size_t i = 0; i < motion.size(); ++i) {
     position[first + i] = old_position[first + i] + dt * motion[i].velocity;
-    if constexpr (data.has(particle::velocity_gradient<D>)) {
+    if constexpr (Data::has(particle::velocity_gradient<D>)) {
       data[particle::velocity_gradient<D>][first + i] = motion[i].velocity_gradient;
     }
   }
@@ -57,7 +57,8 @@ template <int D, class Data>
 void add_filtered_momentum(const Data& data, std::size_t first, Motions<D> motion)
 {
   const auto mass = data[particle::mass.previous()];
-  const auto before = data[particle::velocity<D>.previous()], after = data[particle::velocity<D>];
+  const auto before = data[particle::velocity<D>.previous()];
+  const auto after = data[particle::velocity<D>];
   auto& sum = data[grid_totals].impulse;
   for (std::size_t i = 0; i < motion.size(); ++i) {
     const std::size_t p = first + i;

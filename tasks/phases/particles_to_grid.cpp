@@ -20,7 +20,7 @@ namespace
 template <int D, class Data>
 std::span<const SymmetricTensor<D>> stress_on_nodes(const Data& data)
 {
-  if constexpr (data.has(particle::shared_stress<D>)) {
+  if constexpr (Data::has(particle::shared_stress<D>)) {
     return data[particle::shared_stress<D>];
   } else {
     return newest(data, particle::stress<D>);

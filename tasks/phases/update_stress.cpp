@@ -172,7 +172,7 @@ FailedUpdate failed_update(const Model& model, int material, std::size_t p, comp
 template <int D, class Data>
 void forget_gradients(const Data& data, std::size_t first, std::span<const double> bulk_modulus)
 {
-  if constexpr (data.has(particle::velocity_gradient<D>)) {
+  if constexpr (Data::has(particle::velocity_gradient<D>)) {
     const auto gradient = data[particle::velocity_gradient<D>].subspan(first, bulk_modulus.size());
     for (std::size_t k = 0; k < gradient.size(); ++k) {
       if (bulk_modulus[k] == 0) gradient[k].setZero();

@@ -15,7 +15,7 @@ namespace tamp::tools::study
 namespace
 {
 
-using Kind = Expectation::Kind;
+using Bar = Expectation::Kind;
 using PointGroup = std::vector<const MeasuredPoint*>;
 
 /// Points of a method that are judged together: those that were refined, from coarse to fine, or each by itself.
@@ -45,15 +45,15 @@ class Judge
   {
     gate.expected = expected(expectation);
     switch (gate.kind) {
-      case Kind::order_at_least:
-      case Kind::order_at_most:
+      case Bar::order_at_least:
+      case Bar::order_at_most:
         return judge_order(gate);
-      case Kind::error_at_least:
-      case Kind::error_at_most:
+      case Bar::error_at_least:
+      case Bar::error_at_most:
         return judge_error(expectation.at, gate);
-      case Kind::limit_error_at_most:
+      case Bar::limit_error_at_most:
         return judge_limit(expectation.limit_order, gate);
-      case Kind::fails:
+      case Bar::fails:
         return judge_failure(gate);
     }
   }
@@ -69,17 +69,17 @@ class Judge
     const double limit = expectation.limit;
     const std::string at = expectation.at ? fmt::format(" at {}", *expectation.at) : std::string();
     switch (expectation.kind) {
-      case Kind::order_at_least:
+      case Bar::order_at_least:
         return fmt::format("order at least {}", limit);
-      case Kind::order_at_most:
+      case Bar::order_at_most:
         return fmt::format("order at most {}", limit);
-      case Kind::error_at_least:
+      case Bar::error_at_least:
         return "error at least " + as_text(limit) + at;
-      case Kind::error_at_most:
+      case Bar::error_at_most:
         return "error at most " + as_text(limit) + at;
-      case Kind::limit_error_at_most:
+      case Bar::limit_error_at_most:
         return fmt::format("error of the limit by order {} at most {}", expectation.limit_order, as_text(limit));
-      case Kind::fails:
+      case Bar::fails:
         return "fails";
     }
     return "";
@@ -128,7 +128,7 @@ class Judge
     }
     gate.found = order;
     gate.note = fmt::format("order {:.2f}", order);
-    gate.holds = gate.kind == Kind::order_at_least ? order >= gate.limit : order <= gate.limit;
+    gate.holds = gate.kind == Bar::order_at_least ? order >= gate.limit : order <= gate.limit;
   }
 
   /// On the finest grid, or where the refined setting has the value `at`.
@@ -143,7 +143,7 @@ class Judge
     gate.found = error(*one);
     gate.note = gate.found ? "error " + as_text(*gate.found) : lack(*one);
     if (!gate.found) return;
-    gate.holds = gate.kind == Kind::error_at_least ? *gate.found >= gate.limit : *gate.found <= gate.limit;
+    gate.holds = gate.kind == Bar::error_at_least ? *gate.found >= gate.limit : *gate.found <= gate.limit;
   }
 
   void judge_limit(double order, Gate& gate) const

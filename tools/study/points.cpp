@@ -104,12 +104,13 @@ class PointList
 
 Settings merged(Settings settings, const Settings& others)
 {
-  for (const auto& [pointer, value] : others) {
-    const auto same = std::find_if(settings.begin(), settings.end(), [&](const auto& s) { return s.first == pointer; });
+  for (const auto& other : others) {
+    const auto same =
+        std::find_if(settings.begin(), settings.end(), [&](const auto& s) { return s.first == other.first; });
     if (same != settings.end()) {
-      same->second = value;
+      same->second = other.second;
     } else {
-      settings.emplace_back(pointer, value);
+      settings.push_back(other);
     }
   }
   return settings;

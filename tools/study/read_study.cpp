@@ -78,8 +78,8 @@ class StudyReader
       root_.add_problem("measure", "not one thing to measure", "expected one of run, drive, modulus");
       return;
     }
-    const auto& [key, kind] = *std::find_if(kinds.begin(), kinds.end(), is_there);
-    study_.measure.kind = kind;
+    const auto& [key, kind_of_key] = *std::find_if(kinds.begin(), kinds.end(), is_there);
+    const Kind kind = study_.measure.kind = kind_of_key;
     study_.measure.file = from_here(reader.existing_file(key));
     if (kind == Kind::drive) study_.measure.along = from_here(reader.existing_file("path"));
     if (kind == Kind::drive) study_.measure.increment = reader.number("increment");

@@ -68,7 +68,9 @@ Points spread(int which)
 
 TEST_CASE("a tabulated curve finds the segment a plain search finds, however unevenly the points lie")
 {
-  const auto [x, y] = spread(GENERATE(0, 1, 2));
+  const auto points = spread(GENERATE(0, 1, 2));
+  const auto& x = points.x;
+  const auto& y = points.y;
   const PiecewiseLinear curve(x, y);
   const auto check = [&](double at) {
     std::size_t segment = 0;

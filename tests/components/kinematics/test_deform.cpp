@@ -106,7 +106,7 @@ TEMPLATE_TEST_CASE_SIG("the first particle that is turned inside out is named, w
                        3)
 {
   Particles<D> particles(19);
-  for (const std::size_t last : {18, 12, 5, 0}) {
+  for (const std::size_t last : {18UL, 12UL, 5UL, 0UL}) {
     particles.turn_inside_out(last);
     CHECK(Deformed<D>(particles, 0, 19).inside_out == last);
   }

@@ -37,7 +37,7 @@ struct States {
 /// register of lanes.
 States states()
 {
-  constexpr double infinity = std::numeric_limits<double>::infinity(), none = std::nan("");
+  constexpr double infinity = std::numeric_limits<double>::infinity(), none = std::numeric_limits<double>::quiet_NaN();
   std::vector<double> strains{0.0, -0.0, 1e-300, -1e-300, 0.1, 0.3, -1e-3, 5.0, -5.0, 700.0, -700.0, infinity, none};
   std::mt19937 random(11);
   std::uniform_real_distribution<double> elastic(-0.05, 0.2), plastic(-0.1, 0.5), pressure(-1e6, 6e8);
