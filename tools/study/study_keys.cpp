@@ -139,7 +139,11 @@ const ObjectKeys& expectation_keys()
        {"limit_error_at_most", Number{zero_or_above}, "", none,
         "of the limit a of a fit of answers by a + c h^p, h being the refined setting"},
        {"limit_order", Number{above_zero}, "", {1.0}, "p, with which errors fall by theory"},
-       {"fails", Flag{}, "", {false}, "becomes unstable, or has an error that is half as large again on the finest grid as on some other"},
+       {"fails",
+        Flag{},
+        "",
+        {false},
+        "becomes unstable, or has an error that is half as large again on the finest grid as on some other"},
        {"why", Text{}, "", {}, "what says so, for people"}}};
   return keys;
 }
