@@ -13,8 +13,8 @@ struct EnergyLedger {
   double plastic = 0;
   double viscous = 0;  ///< by artificial viscosity and local damping
   double contact = 0;  ///< by friction and impact between bodies and at walls
-  /// What particles have filtered out of the motion of the nodes: of what the nodes gain, that which the particles do
-  /// not; and of what forces take, that which they take at other velocities than those that they are counted at.
+  /// What particles have filtered out of the motion of the nodes: what nodes gain and their particles do not, and what
+  /// forces take at velocities other than those at which their work is counted.
   double filter = 0;
   /// Work of driven bodies, body forces and pressure loads.
   double driving = 0;

@@ -68,19 +68,18 @@ template <int D>
 runtime::TaskDeclaration gather_new_stress(const Method<D>& method)
 {
   auto task = runtime::task("particles to grid").over_patches_and_groups(method.deformable_materials).sparse();
-  const bool shares = method.deforms_as_cells();
   if (method.stress_timing != StressTiming::usf) {
     return gathering(method, std::move(task).reads(particle::volume.previous(), particle::viscous_pressure.previous(),
                                                    particle::shared_stress<D>));
   }
   auto updated = std::move(task).reads(particle::volume, particle::viscous_pressure);
-  return shares ? gathering(method, std::move(updated).reads(particle::shared_stress<D>))
-                : gathering(method, std::move(updated).reads(particle::stress<D>));
+  return method.deforms_as_cells() ? gathering(method, std::move(updated).reads(particle::shared_stress<D>))
+                                   : gathering(method, std::move(updated).reads(particle::stress<D>));
 }
 
 }  // namespace
 
-/// That of rigid bodies is not new.
+/// The stress of rigid bodies is never new.
 template <int D>
 std::vector<runtime::TaskDeclaration> particles_to_grid(const Method<D>& method)
 {
