@@ -118,7 +118,7 @@ def mutate_bytes(content, chance):
 def published(folder):
     """The sand's curves once more, in the layout of published tables."""
     names = {"plastic_volumetric[-]": "PlasticStrainVol", "total_volumetric[-]": "TotalStrainVol",
-             "pressure[Pa]": "Pressure", "sqrt_J2[Pa]": "SqrtJ2"}
+             "pressure[Pa]": "Pressure", "q[Pa]": "SqrtJ2"}
     for name in ["yield", "crush_curve", "hydrostat"]:
         lines = [line for line in (folder / f"{name}.csv").read_text().splitlines() if line and line[0] != "#"]
         columns = list(zip(*(line.split(",") for line in lines)))
@@ -198,7 +198,7 @@ class Mutations:
         if name in ["hydrostat.json", "crush_curve.json"]:
             scene["materials"]["sand"][name.removesuffix(".json")] = there
         elif name == "yield.json":
-            scene["materials"]["sand"]["yield"] = {"file": there}
+            scene["materials"]["sand"]["yield"] = {"file": there, "measure": "q"}
         (folder / "punch/scene.json").write_text(json.dumps(scene))
         arguments = [folder / "punch/scene.json", "--steps", N_STEPS, "--out", folder / "out"]
         verdict = judged(f"data {name}", *run([*self.run_command, *arguments], folder))

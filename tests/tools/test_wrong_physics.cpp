@@ -81,7 +81,16 @@ TEST_CASE("what is hardly ever meant is warned of")
             "/materials/extra: no body is of this material"));
   CHECK(warns("/materials/sand/yield/file=" + mega.string(), "look like MPa"));
   CHECK(warns("'/bodies/punch/geometry={\"type\":\"ball\",\"centre\":[0.5,0.6],\"radius\":0.0401}'", "of its mass"));
-  CHECK_FALSE(warns("/title=as-it-is", ""));
+  const std::string as_tested = "/materials/sand/density=1624 --set /materials/sand/strain_measure=engineering";
+  CHECK_FALSE(warns(as_tested, ""));
+}
+
+TEST_CASE("a sand that is taken for another one than was tested is warned of by the check, and not by the run")
+{
+  CHECK(warns("/materials/sand/density=1700", "/materials/sand/strain_measure: strains that were measured as"));
+  CHECK_FALSE(warns("/materials/sand/density=1700", "of the samples that were tested"));
+  CHECK(warns("/materials/sand/density=1710", "/materials/sand/density: 1710 kg/m3 is +5 % off the 1624 kg/m3"));
+  CHECK(run_with("--steps 1").summary["status"] == "completed");
 }
 
 TEST_CASE("a run with warnings says so at its end, and with --strict ends with 3")

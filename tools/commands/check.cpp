@@ -61,6 +61,7 @@ void check(const CheckArguments& options)
   }
   for (const std::string& line : compiled_moduli(checked)) print_err("  {}\n", line);
   for (const std::string& line : plausibility_warnings(checked)) print_err("tamp: warning: {}\n", line);
+  for (const std::string& line : material_warnings(checked)) print_err("tamp: warning: {}\n", line);
   Forecast forecast = tools::forecast(scene);
   expect_room(checked, forecast);
   add_copies(forecast);

@@ -59,7 +59,9 @@ def main():
 
     strength = vaango_table(raw / "vaango" / "DrySand_YieldData.json", "Pressure", "SqrtJ2")
     title = "Yield in triaxial compression; the first row is the tension vertex."
-    write("yield.csv", title, "pressure[Pa],sqrt_J2[Pa]", tests.thinned(strength))
+    # Measured is a "deviatoric yield stress", which is q; the published code reads the same numbers as sqrt(J2).
+    write("yield.csv", title, "pressure[Pa],q[Pa]", tests.thinned(strength))
+    write("yield_sqrt_J2.csv", title, "pressure[Pa],sqrt_J2[Pa]", tests.thinned(strength))
 
 
 if __name__ == "__main__":

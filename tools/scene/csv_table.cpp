@@ -49,10 +49,10 @@ std::optional<double> finite_number(std::string_view text)
 class TableReader
 {
  public:
-  TableReader(const std::filesystem::path& file, const std::vector<std::string>& columns) : wanted_(columns)
+  TableReader(const std::filesystem::path& file, const std::vector<std::vector<std::string>>& headings)
+      : headings_(headings)
   {
     table_.file = file;
-    table_.columns.resize(columns.size());
   }
 
   void read(std::string_view line)
@@ -67,15 +67,15 @@ class TableReader
     }
   }
 
-  Table finished()
+  std::pair<Table, std::size_t> finished()
   {
     if (place_in_line_.empty()) {
-      add("no line with the names of the columns", fmt::format("expected {}", fmt::join(wanted_, ",")));
+      add("no line with the names of the columns", expected_headings());
     } else if (problems_.empty() && table_.n_rows() == 0) {
       add("a table without rows", "expected numbers");
     }
     if (!problems_.empty()) throw InputError(std::move(problems_));
-    return std::move(table_);
+    return {std::move(table_), heading_};
   }
 
  private:
@@ -88,36 +88,50 @@ class TableReader
 
   std::string place() const { return fmt::format("{}:{}", table_.file.string(), line_); }
 
+  std::string expected_headings() const
+  {
+    std::vector<std::string> all;
+    for (const std::vector<std::string>& heading : headings_) all.push_back(fmt::format("{}", fmt::join(heading, ",")));
+    return fmt::format("expected {}", fmt::join(all, " or "));
+  }
+
   void read_header(const std::vector<std::string_view>& names)
   {
-    for (const std::string& name : wanted_) {
+    const auto are_named = [&](const std::vector<std::string>& heading) {
+      return std::is_permutation(heading.begin(), heading.end(), names.begin(), names.end());
+    };
+    const auto found = std::find_if(headings_.begin(), headings_.end(), are_named);
+    if (found == headings_.end()) {
+      add(fmt::format("columns {}", fmt::join(names, ",")), expected_headings());
+      throw InputError(std::move(problems_));
+    }
+    heading_ = static_cast<std::size_t>(found - headings_.begin());
+    for (const std::string& name : *found) {
       const auto at = std::find(names.begin(), names.end(), name);
       place_in_line_.push_back(static_cast<std::size_t>(at - names.begin()));
     }
-    const bool all_found =
-        std::all_of(place_in_line_.begin(), place_in_line_.end(), [&](std::size_t i) { return i < names.size(); });
-    if (!all_found || names.size() != wanted_.size()) {
-      add(fmt::format("columns {}", fmt::join(names, ",")), fmt::format("expected {}", fmt::join(wanted_, ",")));
-      throw InputError(std::move(problems_));
-    }
+    table_.columns.resize(names.size());
   }
 
   void read_row(const std::vector<std::string_view>& parts)
   {
-    if (parts.size() != wanted_.size()) {
-      add(fmt::format("{} values", parts.size()), fmt::format("expected {}", wanted_.size()));
+    const std::vector<std::string>& wanted = headings_[heading_];
+    if (parts.size() != wanted.size()) {
+      add(fmt::format("{} values", parts.size()), fmt::format("expected {}", wanted.size()));
       return;
     }
-    for (std::size_t i = 0; i < wanted_.size(); ++i) {
+    for (std::size_t i = 0; i < wanted.size(); ++i) {
       const std::string_view text = parts[place_in_line_[i]];
       const std::optional<double> value = finite_number(text);
-      if (!value) add(fmt::format("\"{}\" for {}", text, wanted_[i]), "expected a finite number");
+      if (!value) add(fmt::format("\"{}\" for {}", text, wanted[i]), "expected a finite number");
       table_.columns[i].push_back(value.value_or(0));
     }
     table_.place_of_row.push_back(place());
   }
 
-  const std::vector<std::string>& wanted_;
+  /// Any one of them is wanted.
+  const std::vector<std::vector<std::string>>& headings_;
+  std::size_t heading_ = 0;
   Table table_;
   /// Where in a line each wanted column stands; empty before the header.
   std::vector<std::size_t> place_in_line_;
@@ -155,12 +169,18 @@ std::vector<std::pair<std::string, double>> greatest_of_columns(const std::files
   return all;
 }
 
-Table read_csv_table(const std::filesystem::path& file, const std::vector<std::string>& columns)
+std::pair<Table, std::size_t> read_csv_table(const std::filesystem::path& file,
+                                             const std::vector<std::vector<std::string>>& headings)
 {
   std::istringstream stream(read_input_file(file));
-  TableReader reader(file, columns);
+  TableReader reader(file, headings);
   for (std::string line; std::getline(stream, line);) reader.read(line);
   return reader.finished();
+}
+
+Table read_csv_table(const std::filesystem::path& file, const std::vector<std::string>& columns)
+{
+  return read_csv_table(file, std::vector<std::vector<std::string>>{columns}).first;
 }
 
 }  // namespace tamp::tools

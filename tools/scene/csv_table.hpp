@@ -16,6 +16,10 @@ namespace tamp::tools
 /// unreadable or infinite numbers, NaN, and a table without rows; FileError for a file that cannot be read.
 Table read_csv_table(const std::filesystem::path& file, const std::vector<std::string>& columns);
 
+/// As above, with the columns of one of several headings; also the number of that heading.
+std::pair<Table, std::size_t> read_csv_table(const std::filesystem::path& file,
+                                             const std::vector<std::vector<std::string>>& headings);
+
 /// Each column of such a file by its name, whatever its columns are, with NaN for what is no number.
 std::vector<std::pair<std::string, std::vector<double>>> numbers_by_column(const std::filesystem::path& file);
 

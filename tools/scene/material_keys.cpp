@@ -3,6 +3,7 @@
 #include "components/materials/material_model.hpp"
 #include "tools/scene/keys.hpp"
 #include "tools/scene/strain_measure.hpp"
+#include "tools/scene/yield_table.hpp"
 
 namespace tamp::tools
 {
@@ -41,9 +42,16 @@ const ObjectKeys& modulus_keys()
 
 const ObjectKeys& yield_keys()
 {
+  Key measure =
+      choice<YieldMeasure>("measure", YieldMeasure::q, {{"q", YieldMeasure::q}, {"sqrt_J2", YieldMeasure::sqrt_J2}},
+                           "what a published JSON's column `SqrtJ2` holds, as its name is no proof: `\"q\"`, "
+                           "sqrt(3 J2), or `\"sqrt_J2\"`; a table of our own says it in its heading");
+  measure.default_value = {nullptr, "that of the heading; compulsory for a published JSON"};
   static const ObjectKeys keys{
       "",
-      {{"file", File{}, "", compulsory, "table `pressure[Pa]`, `sqrt_J2[Pa]`; its first row is the tension vertex"},
+      {{"file", File{}, "", compulsory,
+        "table `pressure[Pa]` and either `q[Pa]` = sqrt(3 J2) or `sqrt_J2[Pa]`; its first row is the tension vertex"},
+       std::move(measure),
        {"cap_ellipticity", Number{within_one}, "", compulsory,
         "where the cap starts, between the tension vertex (0) and the crush pressure (1)"}}};
   return keys;
@@ -69,6 +77,12 @@ std::vector<Key> keys_of<components::TabularCap>()
 {
   using components::ElasticUpdate, components::TabularCapParameters;
   constexpr int most_substeps = 1'000'000;
+  const std::vector<std::pair<std::string, StrainMeasure>> strains{{"logarithmic", StrainMeasure::logarithmic},
+                                                                   {"engineering", StrainMeasure::engineering}};
+  Key tested_strain = choice<StrainMeasure>(
+      "tested_strain", StrainMeasure::logarithmic, strains,
+      "which strains the tests measured; `tamp check` warns where `strain_measure` reads them as others");
+  tested_strain.default_value = none;
   return {{"poisson_ratio", Number{{.lower = -1, .upper = 0.5, .holds_lower = false, .holds_upper = false}}, "",
            compulsory, "gives the shear modulus from the bulk modulus"},
           choice<ElasticUpdate>("elastic_update", ElasticUpdate::state,
@@ -77,10 +91,12 @@ std::vector<Key> keys_of<components::TabularCap>()
                                 "pressure's rate is the bulk modulus times the elastic strain rate, as published"),
           {"modulus", Object{modulus_keys}, "", compulsory, ""},
           choice<StrainMeasure>(
-              "strain_measure", StrainMeasure::logarithmic,
-              {{"logarithmic", StrainMeasure::logarithmic}, {"engineering", StrainMeasure::engineering}},
+              "strain_measure", StrainMeasure::logarithmic, strains,
               "how the measured volumetric strains are read: `\"logarithmic\"` takes the numbers as -ln(V/V0), as the "
               "published tables do; `\"engineering\"` as 1 - V/V0"),
+          std::move(tested_strain),
+          {"tested_density", Number{above_zero}, "kg/m^3", none,
+           "of the samples that were tested; `tamp check` warns of a scene whose density differs by more than 5 %"},
           {"hydrostat",
            File{},
            "",

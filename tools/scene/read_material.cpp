@@ -8,6 +8,7 @@
 #include "tools/scene/read_modulus.hpp"
 #include "tools/scene/strain_measure.hpp"
 #include "tools/scene/table.hpp"
+#include "tools/scene/yield_table.hpp"
 
 namespace tamp::tools
 {
@@ -41,13 +42,19 @@ std::optional<components::YieldSurface> read_yield(JsonReader& material)
 {
   JsonReader reader = material.object("yield");
   const std::size_t before = reader.document().problems.size();
-  const double ellipticity = reader.number("cap_ellipticity");
-  const bool ellipticity_is_good = reader.document().problems.size() == before && reader.has("cap_ellipticity");
-  auto yield = from_table(reader, "file", {"pressure[Pa]", "sqrt_J2[Pa]"}, [&](Table& t) {
-    return components::YieldSurface(t.columns[0], t.columns[1], ellipticity_is_good ? ellipticity : 0.5);
-  });
+  std::optional<YieldMeasure> measure;
+  if (reader.has("measure")) measure = reader.choice<YieldMeasure>("measure");
+  const std::filesystem::path file = reader.existing_file("file");
+  if (reader.document().problems.size() > before || file.empty()) return std::nullopt;
+  double ellipticity = reader.number("cap_ellipticity");
+  constexpr double any_ellipticity = 0.5;
+  if (reader.document().problems.size() > before) ellipticity = any_ellipticity;
   reader.finish();
-  return yield;
+  return noting_problems(reader.document(), [&] {
+    Table table = read_yield_table(file, measure, reader.place("measure"));
+    return made_from(table,
+                     [&](Table& t) { return components::YieldSurface(t.columns[0], t.columns[1], ellipticity); });
+  });
 }
 
 /// X(plastic strain), and the table it came from where it did.
@@ -88,6 +95,13 @@ std::optional<CrushCurve> read_crush_curve(JsonReader& reader, components::Elast
   }
 }
 
+/// What is said of the tests themselves is for material_warnings (plausibility.hpp) alone.
+void check_tests(JsonReader& reader)
+{
+  reader.optional_number("tested_density");
+  if (reader.has("tested_strain")) reader.choice<StrainMeasure>("tested_strain");
+}
+
 std::optional<tasks::MaterialModel> read_tabular_cap(JsonReader& reader)
 {
   std::vector<Problem>& problems = reader.document().problems;
@@ -99,6 +113,7 @@ std::optional<tasks::MaterialModel> read_tabular_cap(JsonReader& reader)
   const bool comes_apart = reader.flag("comes_apart");
   const double separation_density = reader.number("separation_density");
   const auto measure = reader.choice<StrainMeasure>("strain_measure");
+  check_tests(reader);
   const auto modulus = read_modulus(reader, measure);
   const auto yield = read_yield(reader);
   const auto crush = read_crush_curve(reader, update, measure, modulus);

@@ -50,9 +50,10 @@ inline const tamp::components::UnloadingTable& unloading()
   return table;
 }
 
+/// As the published code reads it: the numbers as sqrt(J2).
 inline tamp::components::YieldSurface yield_surface()
 {
-  const Columns rows = columns("yield.csv");
+  const Columns rows = columns("yield_sqrt_J2.csv");
   return {rows[0], rows[1], 0.7};
 }
 

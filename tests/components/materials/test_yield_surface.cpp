@@ -13,7 +13,7 @@ using tamp::components::YieldSurface;
 
 TEST_CASE("the yield envelope is concave and lies on or above every measured point")
 {
-  const auto rows = concrete_sand::columns("yield.csv");
+  const auto rows = concrete_sand::columns("yield_sqrt_J2.csv");
   const YieldSurface surface = concrete_sand::yield_surface();
 
   for (std::size_t i = 0; i < rows[0].size(); ++i) {

@@ -219,6 +219,7 @@ TEST_CASE("published tables stand in for every table of a material")
   sand["crush_curve"] = "tables/crush.json";
   sand["hydrostat"] = "tables/hydrostat.json";
   sand["yield"]["file"] = "tables/yield.json";
+  sand["yield"]["measure"] = "sqrt_J2";
   const auto file = folder.write("sand.json", sand.dump());
 
   const tasks::SceneMaterial material = tools::read_material_file(file);
