@@ -93,6 +93,13 @@ double in_range(const TabularCap& sand, const CapState& state, const Invariants&
       sand.parameters().modulus);
 }
 
+/// What the last update ended with; where there has been none yet, that of the state which the particle starts with.
+double tangent_bulk_modulus(const TabularCap& sand, const CapState& state, const Invariants& stress)
+{
+  const bool is_fresh = state.bulk_modulus == 0 && state.separation_volume == 0;
+  return is_fresh ? sand.bulk_modulus(state, stress.pressure) : state.bulk_modulus;
+}
+
 double outside(const TabularCap& sand, const CapState& state, const Invariants& stress)
 {
   const YieldSurface& surface = sand.parameters().yield;
@@ -101,11 +108,12 @@ double outside(const TabularCap& sand, const CapState& state, const Invariants& 
   return std::max({stress.sqrt_j2() - surface.limit(p, crush), p - crush, vertex - p, 0.0}) / (crush - vertex);
 }
 
-constexpr std::array<StateColumn<TabularCap>, 7> cap_columns{{
+constexpr std::array<StateColumn<TabularCap>, 8> cap_columns{{
     {"elastic_volumetric", "-", [](const auto&, const CapState& s, const auto&) { return s.elastic_volumetric; }},
     {"plastic_volumetric", "-", [](const auto&, const CapState& s, const auto&) { return s.plastic_volumetric; }},
     {"cap", "Pa",
      [](const auto& sand, const CapState& s, const auto&) { return sand.crush_pressure(s.plastic_volumetric); }},
+    {"K", "Pa", tangent_bulk_modulus, Shown::in_field_files},
     {"failed_updates", "",
      [](const auto&, const CapState& s, const auto&) { return static_cast<double>(s.n_failures); },
      Shown::in_field_files},
@@ -121,7 +129,7 @@ constexpr double largest_increment = 0.2;
 
 }  // namespace
 
-std::span<const StateColumn<TabularCap>, 7> TabularCap::columns()
+std::span<const StateColumn<TabularCap>, 8> TabularCap::columns()
 {
   return cap_columns;
 }

@@ -60,10 +60,10 @@ class TabularCap
   using State = CapState;
   static constexpr std::string_view type = "tabular_cap";
   static constexpr char state_name[] = "cap state";
-  /// Strains, the crush pressure X "cap", failed updates, whether it has come apart; of a single point also whether the
-  /// elastic model was asked within its range, and how far the stress is outside of the yield surface, over the length
-  /// of that, crush pressure less tension vertex.
-  static std::span<const StateColumn<TabularCap>, 7> columns();
+  /// Strains, the crush pressure X "cap", the tangent bulk modulus "K", failed updates, whether it has come apart; of a
+  /// single point also whether the elastic model was asked within its range, and how far the stress is outside of the
+  /// yield surface, over the length of that, crush pressure less tension vertex.
+  static std::span<const StateColumn<TabularCap>, 8> columns();
   static std::span<const StateExtreme, 3> extremes();
 
   /// Throws BadValue for a Poisson's ratio outside (-1, 0.5), or a crush curve that falls or starts at or below zero.

@@ -75,6 +75,22 @@ TEST_CASE("sand that is thrown apart keeps its momentum and accounts for its ene
   CHECK(simulation->stable_step() > 1.5 * stable_step);
 }
 
+TEST_CASE("the field K is the modulus that sand starts with, then that of its strain, and 0 where it has come apart")
+{
+  const Scene scene = spinning_sand(2);
+  const auto simulation = Simulation::make(scene, 2);
+  const double initial = std::get<components::TabularCap>(scene.materials[0].model).initial_moduli().bulk_modulus;
+
+  const std::vector<double> before = numbers_of(*simulation, "K");
+  advance_to(*simulation, 0.01);
+  const std::vector<double> after = numbers_of(*simulation, "K"), apart = numbers_of(*simulation, "apart");
+
+  for (const double modulus : before) REQUIRE(modulus == initial);
+  CHECK(sum(apart) > 0);
+  for (std::size_t i = 0; i < after.size(); ++i) REQUIRE((after[i] == 0) == (apart[i] == 1));
+  CHECK(*std::max_element(after.begin(), after.end()) > initial);
+}
+
 TEST_CASE("sand that is thrown apart gains no energy by gradients that come from nodes alone")
 {
   Scene scene = spinning_sand(2);
