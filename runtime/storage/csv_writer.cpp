@@ -93,18 +93,30 @@ CsvWriter::CsvWriter(const std::filesystem::path& file, const std::vector<std::s
 CsvWriter CsvWriter::continued(const std::filesystem::path& file, const std::vector<std::string>& columns,
                                std::int64_t last_step, const CsvExtent& expected)
 {
+  return continued(file, columns, last_step, &expected);
+}
+
+CsvWriter CsvWriter::continued(const std::filesystem::path& file, const std::vector<std::string>& columns,
+                               std::int64_t last_step)
+{
+  return continued(file, columns, last_step, nullptr);
+}
+
+CsvWriter CsvWriter::continued(const std::filesystem::path& file, const std::vector<std::string>& columns,
+                               std::int64_t last_step, const CsvExtent* expected)
+{
   const bool missing = !std::filesystem::exists(file);
   std::string kept = line_of(columns);
   CsvExtent extent{0, hash_of(kept)};
   if (!missing) add_rows_of(file, columns.size(), last_step, kept, extent);
 
   std::string notice;
-  if (missing) {
+  if (expected != nullptr && missing) {
     notice = fmt::format("{}: is missing, with the {} rows until step {}; it was begun anew", file.string(),
-                         expected.n_rows, last_step);
-  } else if (extent != expected) {
+                         expected->n_rows, last_step);
+  } else if (expected != nullptr && extent != *expected) {
     notice = fmt::format("{}: is damaged: of {} rows until step {}, {} can be read and were kept; as it was it is {}",
-                         file.string(), expected.n_rows, last_step, extent.n_rows, set_aside(file).string());
+                         file.string(), expected->n_rows, last_step, extent.n_rows, set_aside(file).string());
   }
   write_whole_file(file, kept);
   CsvWriter table(file, columns.size(), "ab");

@@ -32,6 +32,9 @@ class CsvWriter
   /// was is set aside as FILE.damaged, and `notice` says so. Throws FileError.
   static CsvWriter continued(const std::filesystem::path& file, const std::vector<std::string>& columns,
                              std::int64_t last_step, const CsvExtent& expected);
+  /// The same of a table whose extent nobody has kept: what can be read of it stays, and nothing is told.
+  static CsvWriter continued(const std::filesystem::path& file, const std::vector<std::string>& columns,
+                             std::int64_t last_step);
 
   /// As many values as there are columns. Throws FileError, for a full disk too.
   void write_row(std::span<const double> values);
@@ -48,6 +51,8 @@ class CsvWriter
   };
 
   CsvWriter(const std::filesystem::path& file, std::size_t n_columns, const char* mode);
+  static CsvWriter continued(const std::filesystem::path& file, const std::vector<std::string>& columns,
+                             std::int64_t last_step, const CsvExtent* expected);
   void write_line(const std::string& line);
 
   std::filesystem::path file_;

@@ -50,6 +50,7 @@ TEST_CASE("replacing a run removes what runs write and nothing else")
   const TemporaryFolder folder;
   use(folder.path(), begin);
   folder.write("history.csv", "step\n");
+  folder.write("machine.csv", "step\n");
   folder.write("checkpoints/step_00000100.h5", "");
   folder.write("checkpoints/mymodel.pt", "mine");
   folder.write("notes.txt", "mine");
@@ -57,6 +58,7 @@ TEST_CASE("replacing a run removes what runs write and nothing else")
   use(folder.path(), replace);
 
   CHECK_FALSE(fs::exists(folder.path() / "history.csv"));
+  CHECK_FALSE(fs::exists(folder.path() / "machine.csv"));
   CHECK_FALSE(fs::exists(folder.path() / "checkpoints/step_00000100.h5"));
   CHECK(test::read_text(folder.path() / "checkpoints/mymodel.pt") == "mine");
   CHECK(test::read_text(folder.path() / "notes.txt") == "mine");

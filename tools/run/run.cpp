@@ -18,6 +18,7 @@
 #include "tools/console.hpp"
 #include "tools/machine_room.hpp"
 #include "tools/run/forecast.hpp"
+#include "tools/run/machine_history.hpp"
 #include "tools/run/output_times.hpp"
 #include "tools/run/progress.hpp"
 #include "tools/run/run_folder.hpp"
@@ -100,6 +101,7 @@ class Runner
       : checked_(checked),
         options_(options),
         forecast_(forecast),
+        machine_history_(options.communicator),
         folder_(own_folder()),
         executor_(executor_of(options)),
         signals_(*executor_),
@@ -118,6 +120,7 @@ class Runner
     } else {
       output_.begin();
       history_.begin(options.folder);
+      machine_history_.begin(options.folder);
     }
     on_first_rank([&] { runtime::write_whole_file(options_.folder / "scene.json", checked_.resolved.dump(2) + "\n"); });
   }
@@ -162,7 +165,9 @@ class Runner
     const Clock::time_point begin = Clock::now();
     ask_for_what_is_wanted();
     simulation_->advance(end_);
-    step_seconds_.push_back(static_cast<float>(seconds_since(begin)));
+    const double seconds = seconds_since(begin);
+    step_seconds_.push_back(static_cast<float>(seconds));
+    machine_history_.add_step(seconds);
     if ((simulation_->asked() & end_as_output_has_failed) != 0) output_.finish();
     write_due();
     keep_state();
@@ -193,6 +198,7 @@ class Runner
     written_ = due_;
     restarted_at_ = simulation_->n_steps();
     warn(history_.go_on(options_.folder, due_.history, due_.rows));
+    machine_history_.go_on(options_.folder, due_.history);
     warn(output_.go_on(due_.fields, due_.n_fields));
     due_.rows = history_.extent();
     due_.n_fields = output_.n_fields_at_start();
@@ -265,6 +271,7 @@ class Runner
     const Clock::time_point begin = Clock::now();
     expect_own_folder();
     history_.write_row();
+    machine_history_.write_row(simulation_->n_steps(), simulation_->time());
     written_.history = simulation_->n_steps();
     history_seconds_ += seconds_since(begin);
   }
@@ -373,6 +380,7 @@ class Runner
   const RunOptions& options_;
   const Forecast& forecast_;
   Clock::time_point start_ = Clock::now();
+  MachineHistory machine_history_;
   std::unique_ptr<RunFolder> folder_;
   std::shared_ptr<runtime::Executor> executor_;
   SignalWatch signals_;

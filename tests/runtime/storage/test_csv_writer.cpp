@@ -104,6 +104,22 @@ TEST_CASE("a table that is missing is begun anew where one is to go on, and told
   CHECK(read_text(file) == "step,time[s]\n");
 }
 
+TEST_CASE("a table that nobody has counted goes on with what can be read of it, and without a word")
+{
+  const TemporaryFolder folder;
+  const fs::path file = folder.path / "machine.csv";
+  const auto [text, kept] =
+      GENERATE(std::pair{"step,time[s]\n0,0\n10,0.x\n20,0.2\n30,0.3\n", "step,time[s]\n0,0\n20,0.2\n"},
+               std::pair{"", "step,time[s]\n"});
+  write_text(file, text);
+
+  const CsvWriter table = CsvWriter::continued(file, step_and_time, 20);
+
+  CHECK(table.notice().empty());
+  CHECK(read_text(file) == kept);
+  CHECK_FALSE(fs::exists(folder.path / "machine.csv.damaged"));
+}
+
 TEST_CASE("of a damaged table the rows that can be read are kept, the file is set aside, and both are told of")
 {
   struct Damage {

@@ -1,0 +1,88 @@
+#include "tools/run/machine_history.hpp"
+
+#include <array>
+#include <ctime>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "runtime/ranks/on_all_ranks.hpp"
+#include "tools/machine_room.hpp"
+#include "tools/scene/csv_table.hpp"
+
+namespace tamp::tools
+{
+
+namespace
+{
+
+const std::vector<std::string>& machine_columns()
+{
+  static const std::vector<std::string> names{"step",         "time[s]",          "wall[s]",
+                                              "processor[s]", "wall_per_step[s]", "rss[B]"};
+  return names;
+}
+
+/// Of all threads of this process [s].
+double process_seconds()
+{
+  timespec now{};
+  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
+  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
+}
+
+/// What a rank has taken of its machine: processor time [s], and memory that it holds [bytes].
+struct Taken {
+  double processor = 0;
+  double resident = 0;
+};
+
+}  // namespace
+
+MachineHistory::MachineHistory(runtime::Communicator communicator)
+    : communicator_(std::move(communicator)), processor_at_start_(process_seconds())
+{
+}
+
+void MachineHistory::begin(const std::filesystem::path& folder)
+{
+  runtime::on_first_rank(communicator_, [&] { csv_.emplace(folder / "machine.csv", machine_columns()); });
+}
+
+void MachineHistory::go_on(const std::filesystem::path& folder, long kept_until)
+{
+  runtime::on_first_rank(communicator_, [&] {
+    const std::filesystem::path file = folder / "machine.csv";
+    csv_ = runtime::CsvWriter::continued(file, machine_columns(), kept_until);
+    for (const auto& [name, values] : numbers_by_column(file)) {
+      if (name == "wall[s]" && !values.empty()) wall_before_ = values.back();
+      if (name == "processor[s]" && !values.empty()) processor_before_ = values.back();
+    }
+  });
+}
+
+void MachineHistory::add_step(double seconds)
+{
+  step_seconds_ += seconds;
+  ++n_steps_;
+}
+
+void MachineHistory::write_row(long step, double time)
+{
+  Taken all;
+  for (const Taken& rank :
+       communicator_.gather_value(Taken{process_seconds() - processor_at_start_, resident_bytes()})) {
+    all.processor += rank.processor;
+    all.resident += rank.resident;
+  }
+  const double wall = std::chrono::duration<double>(Clock::now() - start_).count();
+  const double wall_per_step = n_steps_ > 0 ? step_seconds_ / static_cast<double>(n_steps_) : 0;
+  runtime::on_first_rank(communicator_, [&] {
+    csv_->write_row(std::array{static_cast<double>(step), time, wall_before_ + wall, processor_before_ + all.processor,
+                               wall_per_step, all.resident});
+  });
+  step_seconds_ = 0;
+  n_steps_ = 0;
+}
+
+}  // namespace tamp::tools
