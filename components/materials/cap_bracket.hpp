@@ -124,7 +124,8 @@ class Bracketed
       const Residual& best = std::abs(a.value) < std::abs(b.value) ? a : b;
       const double width = std::abs(a.d - b.d);
       if (std::abs(best.value) <= flow_tolerance * std::abs(best.d) + 0.1 * strain_tolerance * best.normal.sine ||
-          (width <= strain_tolerance + 4e-16 * std::abs(b.d) && std::abs(a.normal.sine - b.normal.sine) <= 1e-9)) {
+          (width <= strain_tolerance + 4e-16 * std::abs(b.d) &&
+           (std::abs(a.normal.sine - b.normal.sine) <= 1e-9 || are_one_place(a.at, b.at)))) {
         return surface_point(best, n_evaluations_);
       }
       if (n_evaluations_ >= max_evaluations) return failed(best);
@@ -149,6 +150,15 @@ class Bracketed
       const double least = 0.5 * strain_tolerance / std::max(std::abs(a.d - b.d), strain_tolerance);
       t = std::clamp(t, std::min(least, 0.5), 1 - std::min(least, 0.5));
     }
+  }
+
+  /// But for round-off of pressure and crush pressure. By the apex the sine goes as the root of their difference: there
+  /// it may differ when they do not, and no bracket gets closer.
+  static bool are_one_place(const PathPoint& a, const PathPoint& b)
+  {
+    constexpr double round_off = 2e-15;
+    return std::abs(a.pressure - b.pressure) <= round_off * a.crush_pressure &&
+           std::abs(a.crush_pressure - b.crush_pressure) <= round_off * a.crush_pressure;
   }
 
   /// Inverse quadratic interpolation where it is trustworthy (Chandrupatla's criterion), the middle otherwise.

@@ -378,6 +378,30 @@ TEST_CASE("substeps that max_substeps keeps from being accurate are counted, and
   CHECK(sample.counts.limited_substeps > 0);
 }
 
+TEST_CASE("sand at the end of its cap is sheared within any tolerance, in substeps however small")
+{
+  TabularCapParameters parameters = state_sand().parameters();
+  parameters.tolerance = 1e-6;
+  const TabularCap rough(parameters);
+  parameters.tolerance = 1e-8;
+  parameters.max_substeps = 100000;
+  const TabularCap fine(parameters);
+  for (const double hydrostatic : {0.02, 0.03, 0.04, 0.06, 0.08}) {
+    Sample<3> start;
+    start.strain(fine, compaction(3 * hydrostatic), 60);
+    for (const double lateral : {-0.2, 0.1, 0.2, 0.3}) {
+      const SymmetricTensor<3> axial = tensor(-1e-3, lateral * 1e-3, lateral * 1e-3);
+      Sample<3> sample = start, roughly = start;
+
+      CAPTURE(hydrostatic, lateral);
+      REQUIRE_FALSE(sample.update(fine, axial));
+      REQUIRE_FALSE(roughly.update(rough, axial));
+
+      CHECK((sample.stress - roughly.stress).norm() < 1e-5 * sample.stress.norm());
+    }
+  }
+}
+
 TEST_CASE("a closed elastic loop gives the stress back")
 {
   Sample<3> sample;
