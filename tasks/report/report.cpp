@@ -29,7 +29,9 @@ void report_rigid_motion(const TaskContext& at, const RigidBody& body, const com
                          ParticleReport& report)
 {
   if (at.patch.id != 0) return;
-  report.kinetic += components::kinetic_energy(body.properties, state);
+  const double kinetic = components::kinetic_energy(body.properties, state);
+  report.kinetic += kinetic;
+  report.sum_of_momenta += std::sqrt(2 * body.properties.mass * kinetic);
   report.bodies[static_cast<std::size_t>(body.body)] = sums_of(body.properties, state);
 }
 
@@ -86,7 +88,7 @@ void report_motion(const Method<D>& method, const TaskContext& at, const Data& d
   const auto velocity = data[particle::velocity<D>.previous()];
   ParticleReport& report = data[particle_report];
   const auto place = places_of<D>(at, data);
-  double gravity_work = 0, at_end = 0, kinetic = 0;
+  double gravity_work = 0, at_end = 0, kinetic = 0, sum_of_momenta = 0;
   for (std::size_t p = 0; p < mass.size(); ++p) {
     const Vector<D> now = place(p), half_step_before = now - 0.5 * at.step.previous_size * velocity[p];
     const double work = work_function<D>(method, now);
@@ -101,9 +103,11 @@ void report_motion(const Method<D>& method, const TaskContext& at, const Data& d
   }
   for (std::size_t p = 0; p < mass.size(); ++p) {
     kinetic += 0.5 * mass[p] * velocity[p].squaredNorm();
+    sum_of_momenta += mass[p] * velocity[p].norm();
     report.bodies[static_cast<std::size_t>(body[p])].template add<D>(mass[p], place(p), reference[p], velocity[p]);
   }
   report.kinetic += kinetic;
+  report.sum_of_momenta += sum_of_momenta;
 }
 
 /// Adds `n` particles of a patch, of which number i is `at(i)`, to the peaks of their material.
@@ -259,6 +263,7 @@ double DisplacementError::rms() const
 void ParticleReport::combine(const ParticleReport& other)
 {
   kinetic += other.kinetic;
+  sum_of_momenta += other.sum_of_momenta;
   gravity_work += other.gravity_work;
   gravity_work_at_end += other.gravity_work_at_end;
   for (std::size_t k = 0; k < max_entries; ++k) {

@@ -64,6 +64,9 @@ struct ParticleReport {
   static constexpr std::size_t max_entries = runtime::PerGroup<int>::max_groups;
 
   double kinetic = 0;
+  /// sum m |v| [N s], which cancels nowhere; of a rigid body what it would be if all of it moved at the root of its
+  /// mean square speed, which is no less.
+  double sum_of_momenta = 0;
   /// sum m (g . x + |w x r|^2 / 2) [J]: what it has gained since the start is the work of gravity and of a steady
   /// centrifuge. One that speeds up has no such function: its work is left out, and an energy balance does not close.
   double gravity_work = 0;

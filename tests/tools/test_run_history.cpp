@@ -78,6 +78,61 @@ TEST_CASE("the history of a pressed body has the force of its load, and counts i
   CHECK(history.energies().external > 0);
 }
 
+TEST_CASE("the error of momentum is one of the motion, also where momenta cancel")
+{
+  const test::TemporaryFolder folder;
+  const auto file = folder.write("scene.json", falling_block);
+  const auto checked =
+      tools::read_scene(file, {"/gravity=[0,0]", "/bodies/block/rigid=false", "/bodies/block/angular_velocity=[5]"});
+  const auto simulation = tasks::Simulation::make(checked.scene, 1);
+  tools::RunHistory history(*simulation);
+  for (int n = 0; n < 50; ++n) simulation->advance(1);
+
+  history.measure();
+
+  CHECK(history.report().momentum().norm() < 1e-9);
+  CHECK(history.momentum_error() < 1e-13);
+}
+
+TEST_CASE("the error of momentum is one of the largest motion so far, also when a body stands still again")
+{
+  const test::TemporaryFolder folder;
+  const auto file = folder.write("scene.json", falling_block);
+  const auto checked = tools::read_scene(file, {"/bodies/block/velocity=[0,1]", "/time/maximum_step=1e-3"});
+  const auto simulation = tasks::Simulation::make(checked.scene, 1);
+  tools::RunHistory history(*simulation);
+  const double at_start = history.report().sum_of_momenta;
+  while (simulation->time() < 0.1005) simulation->advance(0.1005);
+
+  history.measure();
+
+  CHECK(at_start == Approx(2000));
+  CHECK(history.report().sum_of_momenta < 0.02 * at_start);
+  CHECK(history.largest().momenta >= at_start);
+  CHECK(history.momentum_error() < 1e-13);
+}
+
+TEST_CASE("sand at rest has no error of momentum but round-off of its weight")
+{
+  const test::TemporaryFolder folder;
+  const auto file = folder.write("scene.json", R"({
+    "dimension": 2, "grid": { "upper": [1, 2], "cell_size": 0.25 }, "boundaries": { "y+": "open" },
+    "time": { "end": 1 }, "gravity": [0, -10],
+    "materials": { "sand": { "file": ")" TAMP_SOURCE_DIR R"(/inputs/materials/concrete-sand/table.json" } },
+    "bodies": { "bed": { "material": "sand", "initial_stress": true,
+                         "geometry": { "type": "box", "lower": [0, 0], "upper": [1, 1] } } }
+  })");
+  const auto checked = tools::read_scene(file, {});
+  const auto simulation = tasks::Simulation::make(checked.scene, 1);
+  tools::RunHistory history(*simulation);
+  for (int n = 0; n < 100; ++n) simulation->advance(1);
+
+  history.measure();
+
+  CHECK(history.report().sum_of_momenta < 1e-9 * history.largest().momenta);
+  CHECK(history.momentum_error() < 1e-12);
+}
+
 TEST_CASE("the half step that velocities lag behind has the work of gravity")
 {
   const bool rigid = GENERATE(true, false);

@@ -90,8 +90,7 @@ struct Outputs {
   long fields = -1;
   runtime::CsvExtent rows;
   std::size_t n_fields = 0;
-  /// See RunHistory::given_from_outside [J].
-  double given_from_outside = 0;
+  LargestSoFar largest;
 };
 
 class Runner
@@ -202,7 +201,7 @@ class Runner
     warn(output_.go_on(due_.fields, due_.n_fields));
     due_.rows = history_.extent();
     due_.n_fields = output_.n_fields_at_start();
-    history_.set_given_from_outside(due_.given_from_outside);
+    history_.set_largest(due_.largest);
     history_times_.skip_to(simulation_->time());
     field_times_.skip_to(simulation_->time());
     checkpoint_clock_.skip_to(simulation_->time());
@@ -250,7 +249,7 @@ class Runner
       write_history();
       due_.history = simulation_->n_steps();
       due_.rows = history_.extent();
-      due_.given_from_outside = history_.given_from_outside();
+      due_.largest = history_.largest();
       expect_energy();
     }
     if (field_times_.due(simulation_->time())) {

@@ -83,6 +83,7 @@ RunHistory::RunHistory(tasks::Simulation& simulation)
       initial_energy_(initial_.kinetic + simulation.energies().elastic),
       report_(initial_)
 {
+  largest_.momenta = initial_.sum_of_momenta;
   add_columns();
 }
 
@@ -225,15 +226,12 @@ void RunHistory::measure()
       std::max({e.kinetic, std::abs(e.elastic), e.plastic, e.viscous, e.contact, std::abs(e.external)});
   const double energy_scale = initial_energy_ > 0 ? initial_energy_ : largest;
   energy_error_ = energy_scale > 0 ? std::abs(e.total - initial_energy_) / energy_scale : 0;
-  given_from_outside_ = std::max(given_from_outside_, std::abs(e.external));
+  largest_.given_from_outside = std::max(largest_.given_from_outside, std::abs(e.external));
 
-  double momentum_scale = 0;
-  for (std::size_t b = 0; b < simulation_.scene().bodies.size(); ++b) {
-    momentum_scale += std::max(initial_.bodies[b].momentum.norm(), report_.bodies[b].momentum.norm());
-  }
+  largest_.momenta = std::max(largest_.momenta, report_.sum_of_momenta + weight_of_a_step());
   const Eigen::Vector3d given(simulation_.grid_totals().impulse.data());
   const Eigen::Vector3d change = report_.momentum() + lost_.momentum - initial_.momentum();
-  momentum_error_ = momentum_scale > 0 ? (change - given).norm() / momentum_scale : 0;
+  momentum_error_ = largest_.momenta > 0 ? (change - given).norm() / largest_.momenta : 0;
 }
 
 std::string RunHistory::energy_problem(double limit) const
@@ -241,7 +239,7 @@ std::string RunHistory::energy_problem(double limit) const
   const auto& frame = simulation_.scene().centrifuge;
   const bool is_balanced = lost_.count == 0 && !(frame && frame->is_unsteady());
   if (!std::isfinite(limit) || !is_balanced) return "";
-  const double given = initial_energy_ + given_from_outside_;
+  const double given = initial_energy_ + largest_.given_from_outside;
   // Particles filter energy out; what they give has come from nothing.
   const double error = std::max(std::abs(energies_.total - initial_energy_), -energies_.filter);
   if (error <= limit * given || error <= negligible_energy()) return "";
@@ -254,16 +252,26 @@ std::string RunHistory::energy_problem(double limit) const
 double RunHistory::negligible_energy() const
 {
   const tasks::Scene& scene = simulation_.scene();
-  double mass = 0;
-  for (const tasks::BodySums& body : initial_.bodies) mass += body.mass;
   double fastest = 0;
   for (const tasks::SceneMaterial& m : scene.materials) fastest = std::max(fastest, tasks::initial_wave_speed(m));
   constexpr double part_of_wave_speed = 1e-6;
   const double slow = part_of_wave_speed * fastest;
   // Velocities are those of half a step before.
   const double late = greatest_acceleration(scene) * simulation_.last_step_size();
-  return 0.5 * mass * slow * slow + late * std::sqrt(2 * mass * report_.kinetic) +
+  return 0.5 * mass() * slow * slow + late * std::sqrt(2 * mass() * report_.kinetic) +
          std::abs(simulation_.energies().last_driving);
+}
+
+double RunHistory::mass() const
+{
+  double mass = 0;
+  for (const tasks::BodySums& body : initial_.bodies) mass += body.mass;
+  return mass;
+}
+
+double RunHistory::weight_of_a_step() const
+{
+  return mass() * greatest_acceleration(simulation_.scene()) * simulation_.last_step_size();
 }
 
 double RunHistory::depth(std::size_t body) const

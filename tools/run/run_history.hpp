@@ -28,6 +28,14 @@ struct EnergyBalance {
   double total;
 };
 
+/// The largest of a run so far, by which its errors are measured: they stay large when the run comes to rest.
+struct LargestSoFar {
+  /// The work of gravity, loads and driving bodies, without its sign [J].
+  double given_from_outside = 0;
+  /// The sum of m |v|, with what gravity gives in a step [N s].
+  double momenta = 0;
+};
+
 /// Follows a simulation from its start: energies, momentum, the motion of bodies, the peaks of materials.
 class RunHistory
 {
@@ -49,18 +57,18 @@ class RunHistory
   /// The same, and writes it as a row.
   void write_row();
 
-  /// The error of the total energy, of the initial energy (of the largest energy if that is nothing), and that
-  /// of the momentum that the grid has given to the particles, of the bodies' initial momenta.
+  /// The error of the total energy, of the initial energy (of the largest energy if that is nothing).
   double energy_error() const { return energy_error_; }
+  /// What of the change of momentum the grid has not given to the particles, of the largest sum of m |v| so far.
+  double momentum_error() const { return momentum_error_; }
   /// Says so if energy has come or gone by more than `limit` times what the run has been given so far: its initial
   /// energy and the work from outside; empty otherwise. Of the last measured state. Where particles have left, or
   /// a centrifuge speeds up, the balance is not known, and nothing is said. What particles filter out is no error; what
   /// they add is.
   std::string energy_problem(double limit) const;
-  /// The largest work of gravity so far, without its sign [J]; a run that goes on has that of the run before.
-  double given_from_outside() const { return given_from_outside_; }
-  void set_given_from_outside(double given) { given_from_outside_ = given; }
-  double momentum_error() const { return momentum_error_; }
+  /// A run that goes on has those of the run before.
+  const LargestSoFar& largest() const { return largest_; }
+  void set_largest(const LargestSoFar& largest) { largest_ = largest; }
   const EnergyBalance& energies() const { return energies_; }
   const tasks::ParticleReport& report() const { return report_; }
   const tasks::NoseReport& near_noses() const { return near_noses_; }
@@ -93,6 +101,9 @@ class RunHistory
   /// with, what half a step of free fall makes, and the work of a step of driving and of loads, which is counted to the
   /// step's middle while what it goes into is counted to its end [J].
   double negligible_energy() const;
+  double mass() const;
+  /// What gravity and centrifuge give to all mass in a step [N s]: sand at rest moves by no more than its round-off.
+  double weight_of_a_step() const;
 
   tasks::Simulation& simulation_;
   std::vector<std::size_t> tracked_;
@@ -103,7 +114,7 @@ class RunHistory
   tasks::NoseReport near_noses_;
   tasks::LostParticles lost_;
   EnergyBalance energies_{};
-  double given_from_outside_ = 0;
+  LargestSoFar largest_;
   double energy_error_ = 0;
   double momentum_error_ = 0;
   /// By material, since the row before.
