@@ -124,12 +124,15 @@ class ThePage(unittest.TestCase):
         document = study()
         gate = {"quantity": "greatest depth", "method": "a", "label": "a, fine", "expected": "order at least 1.95",
                 "note": "order 1.2 < 2", "why": "theory"}  # fmt: skip
-        document["gates"] = [{**gate, "holds": False}, {**gate, "holds": True}]
+        document["gates"] = [{**gate, "holds": False}, {**gate, "holds": True},
+                             {**gate, "holds": False, "missed": "noise"}]  # fmt: skip
 
         with drawn(document) as folder:
             text = (folder / "index.html").read_text()
 
-        self.assertIn("1 of 2 do not hold", text)
+        self.assertIn("2 of 3 do not hold, 1 of them as is known", text)
+        self.assertIn("<td>missed, as known</td>", text)
+        self.assertIn("<td>noise</td>", text)
         self.assertIn("<td>DOES NOT HOLD</td><td>greatest depth</td><td>a, fine</td><td>order 1.2 &lt; 2</td>", text)
         self.assertNotIn("What was expected", self.text)
 

@@ -21,6 +21,7 @@ TEST_CASE("short verifications hold what they expect, and say which errors and o
   CHECK(outcome.exit_code == 0);
   const Json results = Json::parse(read_text(out + "/verification.json"));
   CHECK(results["failures"].empty());
+  CHECK(results["held_misses"].empty());
   REQUIRE(results["studies"].size() > 20);
   for (const Json& study : results["studies"]) {
     INFO(study["name"]);

@@ -212,12 +212,20 @@ std::vector<Gate> gates_of(const Study& study, const std::vector<MeasuredPoint>&
       for (const PointGroup& group : groups_of(study, points, method)) {
         Gate gate{expected.quantity, method, label_of(study, group), expected.kind, expected.limit};
         gate.why = expected.why;
+        const auto miss = expected.missed.find(method);
+        if (miss != expected.missed.end()) gate.missed = miss->second;
         Judge(study, found, group).judge(expected, gate);
         gates.push_back(std::move(gate));
       }
     }
   }
   return gates;
+}
+
+std::string verdict(const Gate& gate)
+{
+  if (gate.missed.empty()) return gate.holds ? "holds" : "FAILS";
+  return gate.holds ? "holds, though known to be missed" : "missed, as known";
 }
 
 std::string to_text(Expectation::Kind kind)

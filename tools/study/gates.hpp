@@ -21,7 +21,12 @@ struct Gate {
   std::optional<double> found{};
   /// For people: "order at least 1.95", "order 2.01", and the reason.
   std::string expected{}, note{}, why{};
+  /// Why it is known not to hold; empty where it is to hold.
+  std::string missed{};
 };
+
+/// In a word or two: whether it holds, and whether that is as the study has it.
+std::string verdict(const Gate& gate);
 
 /// Judges every expectation of a study for each of its methods. The order is the slope of log(error) over log(refined
 /// setting), by least squares through all points, three at least, whether errors fall from each to the next or not; a

@@ -256,6 +256,7 @@ class StudyReader
       read_bar(reader, expected);
       read_terms(reader, expected);
       expected.why = reader.text("why", "");
+      read_misses(reader, expected);
       reader.finish();
       study_.expectations.push_back(std::move(expected));
     }
@@ -308,6 +309,26 @@ class StudyReader
     }
     expected.at = reader.optional_number("at");
     expected.limit_order = reader.number("limit_order");
+  }
+
+  void read_misses(JsonReader& reader, Expectation& expected)
+  {
+    const std::string key = "missed";
+    if (!reader.has(key)) return;
+    const Json& misses = document_.root.at(reader.pointer(key));
+    if (!misses.is_object()) {
+      return reader.add_problem(key, misses.type_name(), "expected an object: method → why it misses");
+    }
+    for (const auto& [method, why] : misses.items()) {
+      if (std::find(expected.methods.begin(), expected.methods.end(), method) == expected.methods.end()) {
+        reader.add_problem(key, fmt::format("\"{}\"", method), "expected methods of which it is expected");
+      }
+      if (!why.is_string() || why.get<std::string>().empty()) {
+        reader.add_problem(key, fmt::format("{} for \"{}\"", why.dump(), method), "expected why, in words");
+      } else {
+        expected.missed.emplace(method, why);
+      }
+    }
   }
 
   void read_limits()

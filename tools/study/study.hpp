@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <limits>
+#include <map>
 #include <optional>
 #include <string>
 #include <utility>
@@ -146,6 +147,8 @@ struct Expectation {
   /// The value of the refined setting whose error is judged; empty: the finest.
   std::optional<double> at{};
   double limit_order = 1;
+  /// Methods that are known to miss it, and why.
+  std::map<std::string, std::string> missed{};
 };
 
 struct Study {

@@ -188,7 +188,8 @@ Json gates_json(const StudyResults& results)
                    {"holds", gate.holds},
                    {"expected", gate.expected},
                    {"note", gate.note},
-                   {"why", gate.why}});
+                   {"why", gate.why},
+                   {"missed", gate.missed}});
   }
   return all;
 }
@@ -275,8 +276,8 @@ std::string gates_text(const StudyResults& results)
   if (results.gates.empty()) return "";
   std::string text = "  expected:\n";
   for (const Gate& gate : results.gates) {
-    text += fmt::format("    {}  {}: {}: {}, expected {}{}\n", gate.holds ? "holds" : "FAILS", gate.quantity,
-                        gate.label, gate.note, gate.expected, gate.why.empty() ? "" : " (" + gate.why + ")");
+    text += fmt::format("    {}  {}: {}: {}, expected {}{}\n", verdict(gate), gate.quantity, gate.label, gate.note,
+                        gate.expected, gate.why.empty() ? "" : " (" + gate.why + ")");
   }
   return text;
 }

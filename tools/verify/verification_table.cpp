@@ -14,6 +14,36 @@ namespace
 
 using Cells = std::vector<std::string>;
 
+bool is_known_to_miss(const Json& gate)
+{
+  return !gate["missed"].get<std::string>().empty();
+}
+
+bool is_failure(const Json& gate)
+{
+  return gate["holds"] == false && !is_known_to_miss(gate);
+}
+
+bool is_known_miss(const Json& gate)
+{
+  return gate["holds"] == false && is_known_to_miss(gate);
+}
+
+/// What was found of those that are asked for, and what was expected, with the reason under a key.
+template <class IsAskedFor>
+std::vector<std::string> lines_of(const Json& study, const IsAskedFor& is_asked_for, const char* key_of_reason)
+{
+  std::vector<std::string> lines;
+  for (const Json& gate : study["gates"]) {
+    if (!is_asked_for(gate)) continue;
+    const std::string reason = gate[key_of_reason];
+    lines.push_back(fmt::format("{}, {}: {}, expected {}{}", gate["label"].get<std::string>(),
+                                gate["quantity"].get<std::string>(), gate["note"].get<std::string>(),
+                                gate["expected"].get<std::string>(), reason.empty() ? "" : " (" + reason + ")"));
+  }
+  return lines;
+}
+
 /// Rows as wide as their widest cells, so that they can be read as they are too.
 std::string table_text(const std::vector<Cells>& rows)
 {
@@ -138,8 +168,8 @@ class QuantityTable
   {
     const std::vector<Json> gates = gates_of(method);
     if (gates.empty()) return "";
-    return std::all_of(gates.begin(), gates.end(), [](const Json& gate) { return gate["holds"] == true; }) ? "yes"
-                                                                                                           : "**NO**";
+    if (std::any_of(gates.begin(), gates.end(), is_failure)) return "**NO**";
+    return std::any_of(gates.begin(), gates.end(), is_known_miss) ? "no, as known" : "yes";
   }
 
   /// Of the point with the most of them that is done.
@@ -172,21 +202,26 @@ std::string to_markdown(const std::vector<Json>& studies)
                         study["title"].get<std::string>());
     for (const Json& quantity : study["quantities"]) text += QuantityTable(study, quantity).text() + "\n";
     for (const std::string& failure : failures_of(study)) text += "- does not hold: " + failure + "\n";
+    for (const std::string& miss : known_misses_of(study)) text += "- missed, as known: " + miss + "\n";
+    for (const std::string& held : held_misses_of(study)) text += "- holds, though known to be missed: " + held + "\n";
   }
   return text;
 }
 
 std::vector<std::string> failures_of(const Json& study)
 {
-  std::vector<std::string> texts;
-  for (const Json& gate : study["gates"]) {
-    if (gate["holds"] == true) continue;
-    const std::string why = gate["why"];
-    texts.push_back(fmt::format("{}, {}: {}, expected {}{}", gate["label"].get<std::string>(),
-                                gate["quantity"].get<std::string>(), gate["note"].get<std::string>(),
-                                gate["expected"].get<std::string>(), why.empty() ? "" : " (" + why + ")"));
-  }
-  return texts;
+  return lines_of(study, is_failure, "why");
+}
+
+std::vector<std::string> known_misses_of(const Json& study)
+{
+  return lines_of(study, is_known_miss, "missed");
+}
+
+std::vector<std::string> held_misses_of(const Json& study)
+{
+  return lines_of(
+      study, [](const Json& gate) { return gate["holds"] == true && is_known_to_miss(gate); }, "missed");
 }
 
 }  // namespace tamp::tools::verify

@@ -13,7 +13,11 @@ namespace tamp::tools::verify
 /// each method. `studies` are their `study.json`.
 std::string to_markdown(const std::vector<Json>& studies);
 
-/// What was expected and does not hold, a line each.
+/// What was to hold and does not, a line each.
 std::vector<std::string> failures_of(const Json& study);
+
+/// What is known to be missed and is, with why; and what holds nevertheless.
+std::vector<std::string> known_misses_of(const Json& study);
+std::vector<std::string> held_misses_of(const Json& study);
 
 }  // namespace tamp::tools::verify

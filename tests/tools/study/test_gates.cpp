@@ -57,6 +57,18 @@ Gate judged(Kind kind, double limit, const std::vector<double>& errors)
 
 }  // namespace
 
+TEST_CASE("an expectation that is known to be missed is told apart from one that is to hold")
+{
+  Expectation known = expecting(Kind::error_at_most, 0.1);
+  known.missed = {{"a", "noise"}, {"other", "more noise"}};
+
+  CHECK(judged(known, {0.4, 0.2, 0.2}).missed == "noise");
+  CHECK(verdict(judged(known, {0.4, 0.2, 0.2})) == "missed, as known");
+  CHECK(verdict(judged(known, {0.4, 0.2, 0.1})) == "holds, though known to be missed");
+  CHECK(verdict(judged(Kind::error_at_most, 0.1, {0.4, 0.2, 0.2})) == "FAILS");
+  CHECK(verdict(judged(Kind::error_at_most, 0.1, {0.4, 0.2, 0.1})) == "holds");
+}
+
 TEST_CASE("an order is that of the fit through all grids")
 {
   // Slope of log2 0.16, 0.08, 0.02 over log2 4, 2, 1: (3 + 0) / 2.

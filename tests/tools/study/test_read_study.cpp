@@ -111,6 +111,13 @@ TEST_CASE("what is expected names quantities and methods that there are, and say
              Contains("study.json#/expect/0/limit_order: given where no limit is judged"));
   CHECK_THAT(expecting(R"({"quantity": "depth", "limit_error_at_most": 1})"),
              Contains("study.json#/expect/0/limit_error_at_most: the limit of a quantity without an exact answer"));
+  CHECK(expecting(R"({"quantity": "depth", "fails": true, "missed": {"one": "noise"}})").empty());
+  CHECK_THAT(expecting(R"({"quantity": "depth", "fails": true, "missed": {"two": "noise"}})"),
+             Contains("study.json#/expect/0/missed: \"two\"; expected methods of which it is expected"));
+  CHECK_THAT(expecting(R"({"quantity": "depth", "fails": true, "missed": {"one": ""}})"),
+             Contains("study.json#/expect/0/missed: \"\" for \"one\"; expected why, in words"));
+  CHECK_THAT(expecting(R"({"quantity": "depth", "fails": true, "missed": ["one"]})"),
+             Contains("study.json#/expect/0/missed: array; expected an object"));
   CHECK_THAT(expecting(R"({"quantity": "depth", "order": 2})"), Contains("study.json#/expect/0/order: unknown key"));
   CHECK_THAT(problems_of_study(R"({"expect": [{"quantity": "depth", "order_at_least": 2}]})"),
              Contains("study.json#/expect/0/order_at_least: an order in a study that refines nothing"));

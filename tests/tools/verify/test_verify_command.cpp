@@ -29,6 +29,8 @@ class Studies
       "time": )" + time + "}");
     write_study("sound", 0.1);
     write_study("unsound", 0.2);
+    write_study("unsound_as_known", 0.2, "nobody's block");
+    write_study("sound_unlike_known", 0.1, "nobody's block");
   }
 
   Outcome verify(const std::string& arguments) const
@@ -46,7 +48,7 @@ class Studies
   Json results() const { return Json::parse(read_text(folder_.path() / "out/verification.json")); }
 
  private:
-  void write_study(const std::string& name, double exact)
+  void write_study(const std::string& name, double exact, const std::string& why_missed = "")
   {
     Json study = Json::parse(R"({
       "title": "A block that flies", "measure": { "run": "scenes/flight.json" }, "methods": [{ "name": "flight" }],
@@ -56,6 +58,7 @@ class Studies
       "repeat": 1, "short": { "sweep": { "/grid/cell_size": [0.2] } }
     })");
     study["quantities"][0]["exact"] = exact;
+    if (!why_missed.empty()) study["expect"][0]["missed"] = {{"flight", why_missed}};
     folder_.write("inputs/verification/" + name + ".json", study.dump());
   }
 
@@ -84,21 +87,52 @@ TEST_CASE("a verification with an expectation that does not hold runs all studie
 {
   const Studies studies;
 
-  const Outcome outcome = studies.verify("--short --quiet --jobs 2");
+  const Outcome outcome = studies.verify("sound unsound --short --quiet --jobs 2");
 
   CHECK(outcome.exit_code == 3);
   CHECK(outcome.out.empty());
-  CHECK_THAT(outcome.err, Contains("1 of 2 expectations do not hold") &&
+  CHECK_THAT(outcome.err, Contains("1 of 2 expectations that are to hold do not") &&
                               Contains("unsound: flight, depth: error 50 %, expected error at most 0.0001 %"));
   CHECK_THAT(studies.table(), Contains("### sound") && Contains("### unsound") && Contains("**NO**") &&
                                   Contains("- does not hold: flight, depth: error 50 %"));
   CHECK(studies.results()["studies"][0]["points"].size() == 1);
 }
 
+TEST_CASE("a verification that misses what is known to be missed ends with 0, and says why it is")
+{
+  const Studies studies;
+
+  const Outcome outcome = studies.verify("sound unsound_as_known --short");
+
+  INFO(outcome.err);
+  CHECK(outcome.exit_code == 0);
+  CHECK_THAT(
+      studies.table(),
+      Contains("no, as known") &&
+          Contains("- missed, as known: flight, depth: error 50 %, expected error at most 0.0001 % (nobody's block)"));
+  CHECK(studies.results()["failures"].empty());
+  CHECK(studies.results()["known_misses"].size() == 1);
+  CHECK_THAT(outcome.err,
+             Contains("of 2 expectations 1 are known to be missed, 0 of them hold; 0 of the others do not"));
+}
+
+TEST_CASE("a verification in which something holds that is known to be missed ends with 0, and says so")
+{
+  const Studies studies;
+
+  const Outcome outcome = studies.verify("sound_unlike_known --short --quiet");
+
+  CHECK(outcome.exit_code == 0);
+  CHECK_THAT(outcome.err,
+             Contains("holds, though its study lists it under \"missed\": sound_unlike_known: flight, depth"));
+  CHECK_THAT(studies.table(), Contains("- holds, though known to be missed: flight, depth: error"));
+  CHECK(studies.results()["held_misses"].size() == 1);
+}
+
 TEST_CASE("a verification that is asked to stop ends the studies under way, and says so")
 {
   const Studies studies(R"({ "end": 1e3 })");
-  BackgroundProgram program("/usr/bin/env", studies.in_background("--jobs 2"));
+  BackgroundProgram program("/usr/bin/env", studies.in_background("sound unsound --jobs 2"));
   wait_until([&] { return program.children().size() == 2; });
   const std::vector<pid_t> children = program.children();
 
@@ -115,7 +149,8 @@ TEST_CASE("a verification of a study that there is not is refused before anythin
   const Outcome outcome = studies.verify("sound soft");
 
   CHECK(outcome.exit_code == 2);
-  CHECK_THAT(outcome.err, Contains("soft: no study of inputs/verification; expected one of sound, unsound"));
+  CHECK_THAT(outcome.err, Contains("soft: no study of inputs/verification; expected one of sound, sound_unlike_known, "
+                                   "unsound, unsound_as_known"));
   CHECK_THROWS(studies.results());
 }
 
