@@ -11,8 +11,11 @@
 #include <sstream>
 #include <thread>
 
+#include "tasks/simulation.hpp"
 #include "tests/tools/background_program.hpp"
 #include "tests/tools/program.hpp"
+#include "tools/run/checkpointing.hpp"
+#include "tools/scene/read_scene.hpp"
 
 namespace test_restart
 {
@@ -235,6 +238,22 @@ TEST_CASE("bodies that go around a periodic domain go on with the bits of a stra
 TEST_CASE("a body that functions start and drive goes on with the bits of a straight run", "[mpiexec]")
 {
   check_parted_run(TAMP_SOURCE_DIR "/inputs/verification/axis_aligned/quick.json", 2);
+}
+
+TEST_CASE("a checkpoint of a version that kept other things of the run is refused")
+{
+  const TemporaryFolder folder;
+  const auto run = folder.path() / "run";
+  const std::string quick = TAMP_SOURCE_DIR "/inputs/punch/quick.json";
+  const auto checked = tamp::tools::read_scene(quick);
+  const auto simulation = tamp::tasks::Simulation::make(checked.scene, 1);
+  const std::vector<std::byte> of_other_version(8);
+  simulation->write_checkpoint(run / "checkpoints", tamp::tools::fingerprint(checked), of_other_version, 2);
+
+  const Outcome outcome = tamp_with("run " + quick + " --quiet --restart " + run.string());
+
+  CHECK(outcome.exit_code == 2);
+  CHECK_THAT(outcome.err, Catch::Contains("step_00000000.h5: a checkpoint of another version of tamp"));
 }
 
 TEST_CASE("a damaged checkpoint is refused with its reason, and the one before is used")

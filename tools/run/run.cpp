@@ -16,6 +16,7 @@
 #include "tasks/simulation.hpp"
 #include "tasks/simulation_error.hpp"
 #include "tools/console.hpp"
+#include "tools/errors.hpp"
 #include "tools/machine_room.hpp"
 #include "tools/run/forecast.hpp"
 #include "tools/run/machine_history.hpp"
@@ -193,6 +194,10 @@ class Runner
   {
     const auto found = checkpoint_to_restart(options_.folder, checked_, options_.communicator);
     const std::vector<std::byte> own = simulation_->restart(found);
+    if (own.size() != sizeof(due_)) {
+      throw InputError({found.file.string(), "a checkpoint of another version of tamp",
+                        "expected one that this version has written"});
+    }
     runtime::ByteReader(own).read(due_);
     written_ = due_;
     restarted_at_ = simulation_->n_steps();
