@@ -214,7 +214,7 @@ def is_scene(file):
     """Neither a material nor a solid, nor a study or what it names; but for the scenes of studies."""
     if "studies" in file.parts or file.parent.name == "verification":
         return file.parent.name == "scenes"
-    return "materials" not in file.parts and file.name != "projectile.json"
+    return "materials" not in file.parts and not file.name.startswith("projectile")
 
 
 def main():
@@ -225,7 +225,7 @@ def main():
     shipped = [file for file in sorted((ROOT / "inputs").rglob("*.json")) if is_scene(file)]
     for file in shipped:
         both.expect_sound(file.relative_to(ROOT), file)
-    for kind, pattern in (("material", "materials/*/*.json"), ("solid", "uxo/projectile.json")):
+    for kind, pattern in (("material", "materials/*/*.json"), ("solid", "uxo/projectile*.json")):
         for file in sorted((ROOT / "inputs").glob(pattern)):
             if file.name != "support_vectors.json":
                 both.expect_accepted(file.relative_to(ROOT), json.loads(file.read_text()), both.definitions[kind])

@@ -1,0 +1,86 @@
+"""What a run has written, as arrays: history.csv, machine.csv and fields.h5. Units are SI, compression is positive."""
+
+import csv
+import json
+import os
+from typing import NamedTuple
+
+import numpy as np
+
+os.environ.setdefault("HDF5_USE_FILE_LOCKING", "FALSE")
+SHARES = (0.001, 0.01, 0.05)
+
+
+def read_columns(path):
+    """The columns of a CSV by their names without units; numbers that are missing are nan."""
+    with open(path, newline="") as file:
+        rows = [row for row in csv.reader(file) if row and not row[0].startswith("#")]
+    numbers = np.array([[float(value or "nan") for value in row] for row in rows[1:]])
+    numbers = numbers.reshape(len(rows) - 1, len(rows[0]))
+    return {name.split("[")[0]: numbers[:, k] for k, name in enumerate(rows[0])}
+
+
+def history(run):
+    return read_columns(run.folder / "history.csv")
+
+
+def machine(run):
+    """None where the program that ran it wrote no such file."""
+    path = run.folder / "machine.csv"
+    return read_columns(path) if path.exists() else None
+
+
+def summary(run):
+    return json.loads((run.folder / "summary.json").read_text())
+
+
+def at(columns, name, time):
+    """Linear between rows."""
+    return float(np.interp(time, columns["time"], columns[name]))
+
+
+class Particles(NamedTuple):
+    """Of one material at one time."""
+
+    time: float
+    fields: dict
+
+    def __getitem__(self, name):
+        if name == "speed":
+            return np.linalg.norm(self.fields["velocity"], axis=1)
+        return self.fields[name]
+
+    def __contains__(self, name):
+        return name == "speed" or name in self.fields
+
+    @property
+    def position(self):
+        return self.fields["position"]
+
+
+def particles(run, material, time):
+    """At the output nearest to a time, in the order of their numbers, so that two runs can be compared one by one."""
+    import h5py
+
+    with h5py.File(run.folder / "fields.h5", "r") as file:
+        steps = [name for name in file if name.startswith("step_")]
+        times = {name: float(np.ravel(file[name].attrs["time"])[0]) for name in steps}
+        name = min(times, key=lambda step: abs(times[step] - time))
+        group = file[name]["particles"][material]
+        fields = {field: values[()] for field, values in group.items()}
+    order = np.argsort(fields["id"], kind="stable")
+    return Particles(times[name], {field: values[order] for field, values in fields.items()})
+
+
+def exceeded(values, shares=SHARES):
+    """What some shares of all values are above."""
+    return tuple(float(value) for value in np.quantile(values, [1 - share for share in shares]))
+
+
+def spacing(position):
+    """How far apart particles are that lie on a lattice at the start: the least distance along their last axis."""
+    for axis in (2, 1, 0):
+        places = np.unique(np.round(position[:, axis], 9))
+        if len(places) > 1:
+            return float(np.diff(places).min())
+    raise ValueError("a single particle has no spacing")
