@@ -24,8 +24,8 @@ TEST_CASE("a disk that fills while a checkpoint is written ends the run with 4, 
   const int n_ranks = GENERATE(1, 2);
   const TemporaryFolder folder;
   const std::string disk = folder.path().string() + "/disk", kept = folder.path().string() + "/kept";
-  // Room for the first fields (1.4 MB) and two checkpoints (1.8 MB each): the third finds the disk full.
-  const std::string mount = "mkdir -p " + disk + " && mount -t tmpfs -o size=6m tmpfs " + disk;
+  // Room for the first fields (0.7 MB) and two checkpoints (0.7 MB each): the third finds the disk full.
+  const std::string mount = "mkdir -p " + disk + " && mount -t tmpfs -o size=2500k tmpfs " + disk;
   const auto as_root = [](const std::string& script) {
     return outcome_of("unshare --map-root-user --mount sh -c '" + script + "'");
   };
