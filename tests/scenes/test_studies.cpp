@@ -145,6 +145,23 @@ TEST_CASE("the short study of the punch on other grids compares each strength wi
   CHECK(study.error("as shipped: q", "depth at 0.2 ms") < 0.1);
 }
 
+TEST_CASE("the short study of viscosity finds the piston nearer to its exact force with 1 / 4 than with 0.2 / 2")
+{
+  const ShortStudy study = run_short("viscosity_piston_200");
+
+  const double cell_size = 0.02;
+  CHECK(study.error("cubic, flip, 1 / 4", "pressure", cell_size) <
+        study.error("cubic, flip, 0.2 / 2", "pressure", cell_size));
+}
+
+TEST_CASE("the short studies of viscosity in other scenes run to their end")
+{
+  const ShortStudy study = run_short(GENERATE("viscosity_impact", "viscosity_punch", "viscosity_projectile"));
+
+  CHECK(study.methods("done").size() > 1);
+  CHECK(study.methods("unstable").empty());
+}
+
 TEST_CASE("the short study of the projectile has an error budget")
 {
   const ShortStudy study = run_short("projectile");

@@ -22,12 +22,14 @@ N_ROWS, N_RINGS = 400, 2000
 LEAST_INCREMENT = 1e-5
 
 
-def material_file(scene_file, scene):
+def material_of(scene_file, scene):
+    """Its file, and what the scene lays over it as arguments of `tamp drive`."""
     (material,) = scene["materials"].values()
-    return scene_file.parent / material["file"]
+    own = {key: value for key, value in material.items() if key != "file"}
+    return scene_file.parent / material["file"], [f"--set=/{key}={json.dumps(value)}" for key, value in own.items()]
 
 
-def stress_path(program, material, shortening, last):
+def stress_path(program, material, own, shortening, last):
     """Rows of e and the stresses along the radius and around."""
     with tempfile.TemporaryDirectory() as folder:
         path, table = pathlib.Path(folder, "path.csv"), pathlib.Path(folder, "table.csv")
@@ -36,7 +38,7 @@ def stress_path(program, material, shortening, last):
             e = last * i / N_ROWS
             lines.append(f"{i},{math.exp(-shortening * e)!r},0,0,0,{math.exp(e)!r},0,0,0,1")
         path.write_text("\n".join(lines) + "\n")
-        arguments = ["--increment", str(LEAST_INCREMENT), "--set", "/tolerance=1e-8", "--set", "/max_substeps=100000"]
+        arguments = ["--increment", str(LEAST_INCREMENT), "--set", "/tolerance=1e-8", "--set", "/max_substeps=100000", *own]
         subprocess.run([program, "drive", material, path, "--out", table, *arguments], check=True)
         rows = [line for line in table.read_text().splitlines() if not line.startswith("#")]
     return [(math.log(float(row["F22"])), float(row["s11[Pa]"]), float(row["s22[Pa]"])) for row in csv.DictReader(rows)]
@@ -68,7 +70,8 @@ def main():
     inner, outer, shortening = problem["inner_radius"], problem["outer_radius"], problem["shortening"]
     n = 1 + shortening
     growth = inner**n * ((1 + problem["expansion"]) ** n - 1)
-    path = stress_path(options.program, material_file(options.scene, scene), shortening, math.log(1 + problem["expansion"]))
+    material, own = material_of(options.scene, scene)
+    path = stress_path(options.program, material, own, shortening, math.log(1 + problem["expansion"]))
     strains, work = [row[0] for row in path], work_along(path, shortening)
     step = (outer - inner) / N_RINGS
     middles = (inner + (i + 0.5) * step for i in range(N_RINGS))
