@@ -117,10 +117,12 @@ void compare_density(const std::string& place, const Json& material, Warnings& w
 void compare_strain(const std::string& place, const Json& material, Warnings& warnings)
 {
   if (!material.contains("tested_strain") || material["tested_strain"] == material["strain_measure"]) return;
+  const std::string tested = material["tested_strain"], read = material["strain_measure"];
+  // A volume ratio is a larger number as logarithmic strain.
   warnings.push_back(fmt::format(
-      "{}/strain_measure: strains that were measured as {} ones are read as {}, as the published tables do; "
-      "at 20 % of strain stresses are then 1.4 times as high",
-      place, material["tested_strain"].get<std::string>(), material["strain_measure"].get<std::string>()));
+      "{}/strain_measure: strains that were measured as {} ones are read as {}; in compression the material "
+      "is then {} than was measured",
+      place, tested, read, read == "logarithmic" ? "stiffer" : "softer"));
 }
 
 }  // namespace

@@ -124,14 +124,6 @@ def answer(rows, at, quantity):
 UNITS = {"MPa": 1e6, "GPa": 1e9, "-": 1}
 
 
-def print_table(header, rows):
-    print("| " + " | ".join(header) + " |")
-    print("| --- " * len(header) + "|")
-    for row in rows:
-        print("| " + " | ".join(row) + " |")
-    print()
-
-
 def companion_text(figure):
     number = f"{figure['value']} to {figure['to']}" if figure["to"] else figure["value"]
     return number if figure["unit"] == "-" else f"{number} {figure['unit']}"

@@ -21,8 +21,9 @@ import tempfile
 
 from companion import (
     COMBINATIONS, COMPANION, MODELS, MULTIAXIAL, NAMES, ROOT, SAND, UNITS, Point, answer, at_time, companion_number,
-    companion_text, compared, multiaxial, off, print_table, read_rows, write_path, write_paths,
+    companion_text, compared, multiaxial, off, read_rows, write_path, write_paths,
 )  # fmt: skip
+from markdown import print_table
 
 # Ranges beyond what the runs come to, as the files have them: largest total and plastic strain in percent; least and
 # largest elastic, least and largest plastic strain.

@@ -22,6 +22,7 @@ import resource
 import subprocess
 
 import ranks
+from markdown import print_table
 
 UXO = ranks.ROOT / "inputs" / "uxo"
 SAND = ranks.ROOT / "inputs" / "materials" / "concrete-sand"
@@ -153,14 +154,6 @@ def angle(row):
 
 def speed(row):
     return math.hypot(*(row[f"projectile.velocity_{axis}[m/s]"] for axis in "xyz"))
-
-
-def print_table(header, rows):
-    print("| " + " | ".join(header) + " |")
-    print("| --- " * len(header) + "|")
-    for row in rows:
-        print("| " + " | ".join(row) + " |")
-    print()
 
 
 def position(row):
