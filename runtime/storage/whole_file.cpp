@@ -6,11 +6,14 @@
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
+#include <utility>
 
 #include "runtime/file_error.hpp"
 
 namespace tamp::runtime
 {
+
+namespace fs = std::filesystem;
 
 namespace
 {
@@ -25,23 +28,73 @@ void settle(const std::filesystem::path& file)
   if (!settled) throw FileError(file.string(), std::strerror(cause));
 }
 
+/// One of /proc/self/fd: a link whose text is no name of a file.
+bool is_of_process(const fs::path& file)
+{
+  return file.string().starts_with("/proc/");
+}
+
+/// Where the links of a name lead; a link among the files of a process, such as /dev/stdout, is followed up to there.
+fs::path end_of_links(fs::path file)
+{
+  constexpr int most_links = 40;  // as the system follows
+  std::error_code error;
+  for (int n = 0; n < most_links && fs::is_symlink(fs::symlink_status(file, error)) && !is_of_process(file); ++n) {
+    const fs::path next = fs::read_symlink(file, error);
+    if (error) throw FileError(file.string(), error.message());
+    file = file.parent_path() / next;
+  }
+  return file;
+}
+
+/// What takes text but is not replaced: a pipe, a device, an open file of this process.
+bool is_stream(const fs::path& file)
+{
+  std::error_code error;
+  const fs::file_status status = fs::status(file, error);
+  if (!fs::exists(status) || fs::is_directory(status)) return false;
+  return !fs::is_regular_file(status) || is_of_process(file);
+}
+
 }  // namespace
 
-void write_whole_file(const std::filesystem::path& file, const std::string& content)
+WholeFile::WholeFile(fs::path file) : file_(std::move(file)), target_(end_of_links(file_))
 {
-  std::filesystem::path part = file;
-  part += ".part";
-  std::FILE* stream = std::fopen(part.c_str(), "wb");
-  if (stream == nullptr) throw FileError(file.string(), std::strerror(errno));
+  if (!is_stream(target_)) (part_ = target_) += ".part";
+  // To append leaves alone what others have written to the same open file.
+  stream_.reset(std::fopen((is_direct() ? target_ : part_).c_str(), is_direct() ? "ab" : "wb"));
+  if (!stream_) fail(errno);
+}
+
+WholeFile::~WholeFile()
+{
+  stream_.reset();
+  if (!is_direct()) std::remove(part_.c_str());
+}
+
+void WholeFile::write(std::string_view text)
+{
   errno = 0;
-  const bool written = std::fwrite(content.data(), 1, content.size(), stream) == content.size();
-  int cause = written ? 0 : errno;
+  if (std::fwrite(text.data(), 1, text.size(), stream_.get()) != text.size()) fail(errno);
+}
+
+void WholeFile::publish()
+{
   // A full disk may show only when the stream is closed.
-  if (std::fclose(stream) != 0 && cause == 0) cause = errno;
-  if (cause == 0 && std::rename(part.c_str(), file.c_str()) != 0) cause = errno;
-  if (cause == 0) return;
-  std::remove(part.c_str());
-  throw FileError(file.string(), std::strerror(cause));
+  if (std::fclose(stream_.release()) != 0) fail(errno);
+  if (!is_direct() && std::rename(part_.c_str(), target_.c_str()) != 0) fail(errno);
+}
+
+void WholeFile::fail(int cause) const
+{
+  throw FileError(file_.string(), std::strerror(cause));
+}
+
+void write_whole_file(const fs::path& file, std::string_view content)
+{
+  WholeFile whole(file);
+  whole.write(content);
+  whole.publish();
 }
 
 std::filesystem::path name_aside(const std::filesystem::path& file)

@@ -1,15 +1,48 @@
 #pragma once
 
 #include <cstdint>
+#include <cstdio>
 #include <filesystem>
+#include <memory>
 #include <string>
+#include <string_view>
 
 namespace tamp::runtime
 {
 
-/// Writes a file whole or not at all: a reader sees the old content or the new, whenever it looks and however the
-/// program ends. Throws FileError; the old file is then left as it was.
-void write_whole_file(const std::filesystem::path& file, const std::string& content);
+/// A file that is written whole or not at all: a reader sees the old content or the new, whenever it looks and however
+/// the program ends. A link stays one, and what it points to is replaced. What is no regular file, such as a pipe or a
+/// device, stays what it is: it is written to directly. All throw FileError; an old file is then left as it was.
+class WholeFile
+{
+ public:
+  explicit WholeFile(std::filesystem::path file);
+  /// Forgets what was written, unless it was published.
+  ~WholeFile();
+  WholeFile(const WholeFile&) = delete;
+  WholeFile& operator=(const WholeFile&) = delete;
+
+  void write(std::string_view text);
+  /// Gives the content its name.
+  void publish();
+
+ private:
+  struct Close {
+    void operator()(std::FILE* stream) const { std::fclose(stream); }
+  };
+
+  [[noreturn]] void fail(int cause) const;
+  bool is_direct() const { return part_.empty(); }
+
+  std::filesystem::path file_;
+  /// Beside what is to be replaced; empty for what is written to directly.
+  std::filesystem::path part_;
+  std::filesystem::path target_;
+  std::unique_ptr<std::FILE, Close> stream_;
+};
+
+/// Writes a whole file at once.
+void write_whole_file(const std::filesystem::path& file, std::string_view content);
 
 /// FILE.damaged, or the first of FILE.damaged.2, FILE.damaged.3 ... that is not there yet.
 std::filesystem::path name_aside(const std::filesystem::path& file);

@@ -116,7 +116,7 @@ TEST_CASE("a command line that asks for nothing sensible ends with 2 and says wh
   CHECK_THAT(complaint("--at 0,0 --scaling 1,2,3,4,5,6"), Catch::Contains("no network"));
 }
 
-TEST_CASE("files that are no model end with 2 and their place, those that cannot be read with 4")
+TEST_CASE("files that are no model, or are not there, end with 2 and their place")
 {
   const TemporaryFolder folder;
   write_keras(folder.path() / "n.h5", {.layers = small_network.layers});
@@ -140,7 +140,7 @@ TEST_CASE("files that are no model end with 2 and their place, those that cannot
   CHECK_THAT(complaint("half.json"), Catch::Contains("#/support_vectors: missing"));
   CHECK_THAT(complaint("words.txt"), Catch::Contains(":1: columns some words; expected plastic_volumetric[-]"));
   CHECK_THAT(complaint("steel.json"), Catch::Contains("#/type: a material without a model of its moduli"));
-  CHECK(modulus("/no/such/model.h5", "--at 0,0").exit_code == 4);
+  CHECK(modulus("/no/such/model.h5", "--at 0,0").exit_code == 2);
 }
 
 TEST_CASE("the states of a file are answered as those of the command line")
@@ -235,7 +235,7 @@ TEST_CASE("files of states that cannot be answered end with 2 and their place")
   const std::string sand = (folder.path() / "sand.json").string(), states = folder.write("s.csv", header).string();
   CHECK(tamp_with("modulus " + sand + " --at 0,0 --states " + states).exit_code == 2);
   CHECK(tamp_with("modulus " + sand + " --at 0,0 --out " + (folder.path() / "out.csv").string()).exit_code == 2);
-  CHECK(tamp_with("modulus " + sand + " --states /no/such/file.csv").exit_code == 4);
+  CHECK(tamp_with("modulus " + sand + " --states /no/such/file.csv").exit_code == 2);
 }
 
 }  // namespace test_modulus

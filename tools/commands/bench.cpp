@@ -11,6 +11,8 @@
 #include "tools/commands/commands.hpp"
 #include "tools/console.hpp"
 #include "tools/errors.hpp"
+#include "tools/output_file.hpp"
+#include "tools/scene/input_file.hpp"
 #include "tools/shipped_inputs.hpp"
 #include "tools/verify/verify.hpp"
 
@@ -65,6 +67,8 @@ std::vector<std::string> names_of(const BenchArguments& options, int n_ranks)
 void run_benchmarks(const BenchArguments& options)
 {
   const auto ranks = runtime::Communicator::world();
+  if (!options.windows.scene.empty()) expect_input_file(options.windows.scene);
+  if (ranks.is_first()) expect_outputs({{"--json", options.json}});
   nlohmann::ordered_json json;
   for (const std::string& name : names_of(options, ranks.size())) {
     const bench::Result result = benchmarks().at(name)(options);

@@ -13,6 +13,7 @@
 #include "tools/drive/drive.hpp"
 #include "tools/drive/drive_costs.hpp"
 #include "tools/drive/read_path.hpp"
+#include "tools/output_file.hpp"
 #include "tools/scene/read_material.hpp"
 
 namespace tamp::tools
@@ -47,6 +48,7 @@ void drive_point(const DriveArguments& options)
 {
   const tasks::SceneMaterial material = read_material_file(options.material, options.assignments);
   const DeformationPath path = read_path(options.path);
+  expect_outputs({{"--out", options.out}, {"--summary", options.summary}});
   std::optional<runtime::CsvWriter> file;
   if (options.out.empty()) {
     print_out("{}\n", fmt::join(drive_columns(material.model), ","));

@@ -8,6 +8,7 @@
 #include "tools/commands/commands.hpp"
 #include "tools/console.hpp"
 #include "tools/errors.hpp"
+#include "tools/output_file.hpp"
 #include "tools/scene/read_scene.hpp"
 
 namespace tamp::tools
@@ -26,7 +27,9 @@ struct GraphArguments {
 
 void dump_graph(const GraphArguments& options)
 {
-  const auto simulation = tasks::Simulation::make(read_scene(options.scene, options.assignments).scene, 1);
+  const CheckedScene scene = read_scene(options.scene, options.assignments);
+  expect_outputs({{"--out", options.out}});
+  const auto simulation = tasks::Simulation::make(scene.scene, 1);
   const runtime::TaskGraph& graph = simulation->graph();
   if (options.patch >= graph.layout().size()) {
     throw InputError(

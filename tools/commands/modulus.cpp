@@ -11,6 +11,7 @@
 #include "tools/console.hpp"
 #include "tools/errors.hpp"
 #include "tools/modulus/modulus_states.hpp"
+#include "tools/output_file.hpp"
 #include "tools/scene/file_kind.hpp"
 #include "tools/scene/parse_json.hpp"
 #include "tools/scene/read_material.hpp"
@@ -135,6 +136,7 @@ void answer_states(const ModulusArguments& options)
 {
   const ModulusStates states = read_modulus_states(options.states);
   const AskedModel model = asked_model(options);
+  expect_outputs({{"--out", options.out}, {"--summary", options.summary}});
   const std::string table = modulus_table(model.modulus, model.form, model.shear_ratio(), states);
   if (options.out.empty()) {
     print_out("{}", table);

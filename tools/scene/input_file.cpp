@@ -2,9 +2,14 @@
 
 #include <fmt/format.h>
 
+#include <sys/stat.h>
+
 #include <cstddef>
 #include <fstream>
+#include <mutex>
+#include <set>
 #include <span>
+#include <utility>
 
 #include "runtime/file_error.hpp"
 #include "runtime/storage/checksum.hpp"
@@ -13,13 +18,60 @@
 namespace tamp::tools
 {
 
+namespace
+{
+
+/// A file whatever its names: its device and its number there.
+using Identity = std::pair<dev_t, ino_t>;
+
+/// Those that the program has read. A reader is so free to be called from anywhere, and none can be forgotten.
+struct FilesRead {
+  std::mutex mutex;
+  std::set<Identity> identities;
+};
+
+FilesRead& files_read()
+{
+  static FilesRead files;
+  return files;
+}
+
+bool identify(const std::filesystem::path& file, Identity& identity)
+{
+  struct stat status {
+  };
+  if (stat(file.c_str(), &status) != 0) return false;
+  identity = {status.st_dev, status.st_ino};
+  return true;
+}
+
+void note_input(const std::filesystem::path& file)
+{
+  Identity identity;
+  if (!identify(file, identity)) return;
+  const std::scoped_lock lock(files_read().mutex);
+  files_read().identities.insert(identity);
+}
+
+}  // namespace
+
+bool is_input(const std::filesystem::path& file)
+{
+  Identity identity;
+  if (!identify(file, identity)) return false;
+  const std::scoped_lock lock(files_read().mutex);
+  return files_read().identities.contains(identity);
+}
+
 void expect_input_file(const std::filesystem::path& file)
 {
   std::error_code error;
   const std::filesystem::file_status status = std::filesystem::status(file, error);
-  if (status.type() == std::filesystem::file_type::not_found) throw runtime::FileError(file.string(), "no such file");
+  if (status.type() == std::filesystem::file_type::not_found) {
+    throw InputError({file.string(), "no such file", "expected the name of one"});
+  }
   if (status.type() == std::filesystem::file_type::none) throw runtime::FileError(file.string(), error.message());
-  if (std::filesystem::is_directory(status)) throw runtime::FileError(file.string(), "cannot be read");
+  if (std::filesystem::is_directory(status)) throw InputError({file.string(), "a folder", "expected a file"});
   if (!std::filesystem::is_regular_file(status)) {
     throw InputError({file.string(), "a pipe, a device or a socket", "expected a file"});
   }
@@ -28,6 +80,7 @@ void expect_input_file(const std::filesystem::path& file)
     throw InputError(
         {file.string(), fmt::format("{} bytes", size), fmt::format("expected at most {}", most_input_bytes)});
   }
+  note_input(file);
 }
 
 std::string read_input_file(const std::filesystem::path& file)

@@ -10,12 +10,15 @@ namespace tamp::tools
 /// More than any file of a scene needs, and little enough to be read at once [bytes].
 inline constexpr std::uintmax_t most_input_bytes = std::uintmax_t{1} << 28;
 
-/// Throws FileError for a file that is not there or cannot be read, and InputError for what can be read without an end
-/// or is too large: a device, a pipe, a file of more than `most_input_bytes`.
+/// Throws InputError for a file that is not there, and for what can be read without an end or is too large: a folder, a
+/// device, a pipe, a file of more than `most_input_bytes`; FileError for one that cannot be read.
 void expect_input_file(const std::filesystem::path& file);
 
 /// The content of such a file.
 std::string read_input_file(const std::filesystem::path& file);
+
+/// Whether this is a file that the program has read by the functions above, under whatever name.
+bool is_input(const std::filesystem::path& file);
 
 /// A file that a scene names.
 struct InputFile {

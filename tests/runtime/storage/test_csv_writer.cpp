@@ -1,4 +1,6 @@
+#include <sys/stat.h>
 #include <array>
+
 #include <catch2/catch.hpp>
 #include <filesystem>
 
@@ -154,6 +156,49 @@ TEST_CASE("a file written whole replaces the old one and leaves nothing beside i
 
   CHECK(read_text(folder.path / "summary.json") == "new");
   CHECK(std::distance(fs::directory_iterator(folder.path), fs::directory_iterator()) == 1);
+}
+
+TEST_CASE("a link stays a link, and the file it points to is written whole")
+{
+  const TemporaryFolder folder;
+  fs::create_directory(folder.path / "elsewhere");
+  write_text(folder.path / "elsewhere" / "summary.json", "old");
+  fs::create_symlink("elsewhere/summary.json", folder.path / "summary.json");
+  fs::create_symlink("summary.json", folder.path / "latest.json");
+
+  write_whole_file(folder.path / "latest.json", "new");
+
+  CHECK(fs::is_symlink(folder.path / "latest.json"));
+  CHECK(fs::is_symlink(folder.path / "summary.json"));
+  CHECK(read_text(folder.path / "elsewhere" / "summary.json") == "new");
+}
+
+TEST_CASE("a pipe is written to, and stays one")
+{
+  const TemporaryFolder folder;
+  const fs::path pipe = folder.path / "pipe";
+  REQUIRE(mkfifo(pipe.c_str(), 0600) == 0);
+  std::string found;
+  std::thread reader([&] { found = read_text(pipe); });
+
+  write_whole_file(pipe, "told");
+  reader.join();
+
+  CHECK(found == "told");
+  CHECK(fs::is_fifo(pipe));
+  CHECK_THROWS_AS(write_whole_file("/dev/full", "told"), FileError);
+  CHECK(fs::is_character_file("/dev/full"));
+}
+
+TEST_CASE("what was not published leaves nothing")
+{
+  const TemporaryFolder folder;
+  {
+    WholeFile file(folder.path / "trace.json");
+    file.write("half of");
+  }
+
+  CHECK(fs::is_empty(folder.path));
 }
 
 TEST_CASE("a file that cannot be replaced is an error, and is left as it was")

@@ -78,9 +78,9 @@ TEST_CASE("a path that cannot be used is refused with file and line")
         "P:2: a rotation about the axis 0 0 0; expected an axis");
 }
 
-TEST_CASE("a path that is not there is an error of files")
+TEST_CASE("a path that is not there is an error of the input")
 {
-  CHECK_THROWS_AS(read_path("/no/such/path.csv"), runtime::FileError);
+  CHECK_THROWS_AS(read_path("/no/such/path.csv"), tools::InputError);
 }
 
 }  // namespace test_read_path

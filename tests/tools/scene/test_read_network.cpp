@@ -125,9 +125,9 @@ TEST_CASE("layers that do nothing when the network is asked are passed over")
   CHECK(read_network_file(folder.path() / "n.h5").layers.size() == 4);
 }
 
-TEST_CASE("a network file that does not exist is an error of files")
+TEST_CASE("a network file that does not exist is an error of the input")
 {
-  CHECK_THROWS_AS(read_network_file("/no/such/network.h5"), runtime::FileError);
+  CHECK_THROWS_AS(read_network_file("/no/such/network.h5"), tools::InputError);
 }
 
 TEST_CASE("a file that is no HDF5, is cut short, or holds no Keras model is told")

@@ -140,10 +140,10 @@ TEST_CASE("all problems of a scene are told at once")
   CHECK(std::count(problems.begin(), problems.end(), '\n') == 3);
 }
 
-TEST_CASE("a scene file that does not exist is an error of files, not of input")
+TEST_CASE("a scene file that does not exist is an error of the input")
 {
-  CHECK_THROWS_AS(read_scene("/no/such/scene.json"), runtime::FileError);
-  CHECK_THROWS_WITH(read_scene("/no/such/scene.json"), "/no/such/scene.json: no such file");
+  CHECK_THROWS_AS(read_scene("/no/such/scene.json"), tools::InputError);
+  CHECK_THROWS_WITH(read_scene("/no/such/scene.json"), "/no/such/scene.json: no such file; expected the name of one");
 }
 
 TEST_CASE("a grid that is wrong does not make every body seem to lie outside of it")

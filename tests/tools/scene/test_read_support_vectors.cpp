@@ -109,7 +109,7 @@ TEST_CASE("ragged vectors and lists of other lengths are told with their place")
 TEST_CASE("text that is no JSON, and a file that does not exist, are told")
 {
   CHECK_THAT(problems_of_text(R"({"gamma": NaN})"), Catch::StartsWith("svr.json:1:"));
-  CHECK_THROWS_AS(read_support_vectors("/no/such/svr.json"), runtime::FileError);
+  CHECK_THROWS_AS(read_support_vectors("/no/such/svr.json"), tools::InputError);
 }
 
 }  // namespace test_read_support_vectors
