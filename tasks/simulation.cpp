@@ -31,9 +31,6 @@ namespace tamp::tasks
 namespace
 {
 
-/// Steps at the start of a run that the trace keeps instance by instance.
-constexpr long n_traced_steps = 20;
-
 std::vector<std::string> material_names(const Scene& scene)
 {
   std::vector<std::string> names;
@@ -75,7 +72,7 @@ class SimulationOf : public Simulation
     engine_ = make_engine(dealt(scene_, particles.per_patch(), communicator.size()));
     particles.store(engine_->warehouse());
     make_rigid_bodies(particles);
-    profiler_.emplace(engine_->schedule(step_graph), engine_->bound(step_graph), n_threads(), n_traced_steps);
+    profiler_.emplace(engine_->schedule(step_graph), engine_->bound(step_graph), n_threads());
     forecast_bytes_ = communicator_.sum(engine_->warehouse().forecast_bytes());
     lost_.emplace(engine_->layout().size());
     stable_step_ = initial_stable_step(particles);
@@ -118,6 +115,8 @@ class SimulationOf : public Simulation
   const runtime::MemoryLedger& ledger() const override { return engine_->warehouse().ledger(); }
   std::size_t forecast_bytes() const override { return forecast_bytes_; }
   runtime::Profile profile() const override { return profiler_->profile(communicator_); }
+  runtime::Trace trace() const override { return profiler_->trace(communicator_); }
+  void trace_steps(long n_steps) override { profiler_->trace_steps(n_steps); }
   void record(bool on) override { engine_->schedule(step_graph).recording = on; }
   std::size_t n_particles(int material) const override
   {

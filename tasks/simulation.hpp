@@ -107,6 +107,9 @@ class Simulation
   /// The memory of fields on all ranks [bytes].
   virtual std::size_t forecast_bytes() const = 0;
   virtual runtime::Profile profile() const = 0;
+  /// Of the first steps, as many as `trace_steps` asked for before them: none if it was not called.
+  virtual runtime::Trace trace() const = 0;
+  virtual void trace_steps(long n_steps) = 0;
   /// Off only to measure what recording costs.
   virtual void record(bool on) = 0;
 

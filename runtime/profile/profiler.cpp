@@ -48,8 +48,7 @@ double DurationHistogram::quantile(double q) const
   return static_cast<double>(most_);
 }
 
-Profiler::Profiler(const Schedule& schedule, BoundGraph& graph, int n_workers, long n_traced_steps)
-    : n_workers_(n_workers), n_traced_steps_(n_traced_steps)
+Profiler::Profiler(const Schedule& schedule, BoundGraph& graph, int n_workers) : n_workers_(n_workers)
 {
   steps_.first_tick = ticks();
   graph_ = nullptr;
@@ -83,6 +82,7 @@ void Profiler::add_step()
   std::uint64_t first = ~std::uint64_t{0};
   std::uint64_t last = 0;
   std::uint64_t longest = 0;
+  const bool traced = is_traced(n_steps_);
   for (std::size_t i = 0; i < records.size(); ++i) {
     if (!graph_->is_local(static_cast<int>(i))) continue;
     const InstanceRecord& record = records[i];
@@ -111,11 +111,18 @@ void Profiler::add_step()
     row.totals.particles += static_cast<double>(graph_->n_particles(static_cast<int>(i)));
     row.per_patch[static_cast<std::size_t>(std::max(0, instance.patch))] += duration;
     if (instance.patch >= 0) patch_costs_[static_cast<std::size_t>(instance.patch)] += static_cast<double>(duration);
-    if (n_steps_ < n_traced_steps_) traced_.push_back({row_of_instance_[i], instance.patch, instance.group, record});
+    if (traced) traced_.push_back({row_of_instance_[i], instance.patch, instance.group, record});
   }
   ++n_steps_;
   if (last > first) steps_.ticks += last - first;
   steps_.path_ticks += longest;
+}
+
+/// All ranks know the whole graph, so that they trace the same steps.
+bool Profiler::is_traced(long step) const
+{
+  const std::size_t n_instances = std::max<std::size_t>(graph_->graph().instances().size(), 1);
+  return step < std::min(n_traced_steps_, static_cast<long>(most_traced / n_instances));
 }
 
 std::vector<double> Profiler::take_patch_costs()
@@ -186,27 +193,12 @@ TaskStatistics Profiler::statistics(const Row& row, std::uint64_t all_ticks, dou
   return t;
 }
 
-void Profiler::add_trace(Profile& profile, const Communicator& communicator, std::uint64_t first_tick,
-                         double second) const
-{
-  const auto from_each = communicator.gather(std::as_bytes(std::span(traced_)));
-  for (int rank = 0; rank < communicator.size(); ++rank) {
-    const auto& bytes = from_each[static_cast<std::size_t>(rank)];
-    std::vector<TracedInstance> traced(bytes.size() / sizeof(TracedInstance));
-    if (!bytes.empty()) std::memcpy(static_cast<void*>(traced.data()), bytes.data(), bytes.size());
-    const auto since_start = [&](std::uint64_t tick) { return static_cast<double>(tick - first_tick) * second; };
-    for (const TracedInstance& t : traced) {
-      profile.trace.push_back({rows_[t.row].name, rank, t.patch, t.group, t.record.worker, since_start(t.record.start),
-                               since_start(t.record.end)});
-    }
-  }
-}
-
 Profile Profiler::profile(const Communicator& communicator) const
 {
   const double second = rate_.seconds_per_tick();
   Profile profile;
   profile.n_steps = n_steps_;
+  while (profile.n_traced_steps < n_steps_ && is_traced(profile.n_traced_steps)) ++profile.n_traced_steps;
   const std::vector<Row> rows = rows_of_all(communicator);
   std::uint64_t all = 0;
   for (const Row& row : rows) all += row.totals.durations.total();
@@ -237,8 +229,27 @@ Profile Profiler::profile(const Communicator& communicator) const
   profile.message_bytes = together.traffic.n_bytes;
   profile.message_s = static_cast<double>(together.traffic.under_way) * second;
   profile.message_wait_s = static_cast<double>(together.traffic.waited_for) * second;
-  add_trace(profile, communicator, together.first_tick, second);
   return profile;
+}
+
+Trace Profiler::trace(const Communicator& communicator) const
+{
+  const double second = rate_.seconds_per_tick();
+  const std::uint64_t first_tick = communicator.min(steps_.first_tick);
+  Trace trace;
+  for (const Row& row : rows_) trace.tasks.push_back(row.name);
+  const auto from_each = communicator.gather(std::as_bytes(std::span(traced_)));
+  for (int rank = 0; rank < communicator.size(); ++rank) {
+    const auto& bytes = from_each[static_cast<std::size_t>(rank)];
+    std::vector<TracedInstance> traced(bytes.size() / sizeof(TracedInstance));
+    if (!bytes.empty()) std::memcpy(static_cast<void*>(traced.data()), bytes.data(), bytes.size());
+    const auto since_start = [&](std::uint64_t tick) { return static_cast<double>(tick - first_tick) * second; };
+    for (const TracedInstance& t : traced) {
+      trace.events.push_back(
+          {t.row, rank, t.patch, t.group, t.record.worker, since_start(t.record.start), since_start(t.record.end)});
+    }
+  }
+  return trace;
 }
 
 }  // namespace tamp::runtime

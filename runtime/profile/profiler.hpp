@@ -60,7 +60,8 @@ struct TaskStatistics {
 
 /// One instance in the trace; times in seconds since the profile began.
 struct TraceEvent {
-  std::string name;
+  /// Its place among the names of the trace.
+  std::size_t task = 0;
   int rank = 0;
   int patch = 0;
   int group = 0;
@@ -69,10 +70,17 @@ struct TraceEvent {
   double end_s = 0;
 };
 
+/// What the first steps did, instance by instance.
+struct Trace {
+  std::vector<std::string> tasks;
+  std::vector<TraceEvent> events;
+};
+
 struct Profile {
   /// Most expensive first.
   std::vector<TaskStatistics> tasks;
   long n_steps = 0;
+  long n_traced_steps = 0;
   /// Mean time of a step, of its longest chain of tasks, and the share of the workers' time outside of task bodies.
   double step_s = 0;
   double critical_path_s = 0;
@@ -83,16 +91,20 @@ struct Profile {
   std::uint64_t message_bytes = 0;
   double message_s = 0;
   double message_wait_s = 0;
-  std::vector<TraceEvent> trace;
 };
 
 /// Gathers what the workers of a rank recorded, after each step and outside of it.
 class Profiler
 {
  public:
-  /// The first `n_traced_steps` steps are kept instance by instance.
-  Profiler(const Schedule& schedule, BoundGraph& graph, int n_workers, long n_traced_steps);
+  /// Instances that all ranks together trace at most: as JSON some 30 MB.
+  static constexpr std::size_t most_traced = 300'000;
 
+  Profiler(const Schedule& schedule, BoundGraph& graph, int n_workers);
+
+  /// Keeps the first `n_steps` steps instance by instance; fewer where these would be more than `most_traced`, which
+  /// is told by the number of all instances of a step. To be called before the first step.
+  void trace_steps(long n_steps) { n_traced_steps_ = n_steps; }
   /// Goes on with the same tasks on patches dealt anew.
   void follow(const Schedule& schedule, BoundGraph& graph);
   /// Takes in the records of the step that has just been run.
@@ -101,6 +113,8 @@ class Profiler
   std::vector<double> take_patch_costs();
   /// The profile of all ranks together. Collective.
   Profile profile(const Communicator& communicator = {}) const;
+  /// The trace of all ranks together. Collective.
+  Trace trace(const Communicator& communicator = {}) const;
 
  private:
   /// Numbers of one task, which may be sent as bytes.
@@ -131,13 +145,13 @@ class Profiler
 
   std::vector<Row> rows_of_all(const Communicator& communicator) const;
   TaskStatistics statistics(const Row& row, std::uint64_t all_ticks, double second) const;
-  void add_trace(Profile& profile, const Communicator& communicator, std::uint64_t first_tick, double second) const;
+  bool is_traced(long step) const;
   Traffic traffic() const;
 
   const Schedule* schedule_;
   BoundGraph* graph_;
   int n_workers_;
-  long n_traced_steps_;
+  long n_traced_steps_ = 0;
   TickRate rate_;
   std::vector<Row> rows_;
   std::vector<std::size_t> row_of_instance_;

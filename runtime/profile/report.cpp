@@ -30,6 +30,7 @@ nlohmann::json to_json(const Profile& profile, const MemoryLedger& ledger, const
   const std::size_t total = communicator.sum(static_cast<std::uint64_t>(ledger.total().peak()));
   return {{"tasks", tasks},
           {"steps", profile.n_steps},
+          {"traced_steps", profile.n_traced_steps},
           {"overhead", profile.overhead},
           {"critical_path_s", profile.critical_path_s},
           {"step_s", profile.step_s},
@@ -40,20 +41,21 @@ nlohmann::json to_json(const Profile& profile, const MemoryLedger& ledger, const
           {"memory", {{"labels", labels}, {"total", total}}}};
 }
 
-nlohmann::json trace_to_json(const Profile& profile)
+void write_trace(const Trace& trace, const std::function<void(std::string_view)>& write)
 {
   constexpr double microseconds = 1e6;
-  nlohmann::json events = nlohmann::json::array();
-  for (const TraceEvent& e : profile.trace) {
-    events.push_back({{"name", e.name},
-                      {"ph", "X"},
-                      {"pid", e.rank},
-                      {"tid", e.worker},
-                      {"ts", e.start_s * microseconds},
-                      {"dur", (e.end_s - e.start_s) * microseconds},
-                      {"args", {{"patch", e.patch}, {"group", e.group}}}});
+  std::vector<std::string> names;
+  for (const std::string& task : trace.tasks) names.push_back(nlohmann::json(task).dump());
+  write(R"({"displayTimeUnit":"ns","traceEvents":[)");
+  const char* before = "\n";
+  for (const TraceEvent& e : trace.events) {
+    write(fmt::format(
+        R"({}{{"name":{},"ph":"X","pid":{},"tid":{},"ts":{:.3f},"dur":{:.3f},"args":{{"patch":{},"group":{}}}}})",
+        before, names[e.task], e.rank, e.worker, e.start_s * microseconds, (e.end_s - e.start_s) * microseconds,
+        e.patch, e.group));
+    before = ",\n";
   }
-  return {{"displayTimeUnit", "ns"}, {"traceEvents", events}};
+  write("]}\n");
 }
 
 std::string to_text(const nlohmann::json& profile, int n_rows)

@@ -1,7 +1,9 @@
 #pragma once
 
+#include <functional>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <string_view>
 
 #include "runtime/data/memory_ledger.hpp"
 #include "runtime/profile/profiler.hpp"
@@ -14,8 +16,9 @@ namespace tamp::runtime
 /// the ranks. Collective.
 nlohmann::json to_json(const Profile& profile, const MemoryLedger& ledger, const Communicator& communicator = {});
 
-/// The trace in the Chrome / Perfetto event format: one track for each worker of each rank.
-nlohmann::json trace_to_json(const Profile& profile);
+/// Writes the trace in the Chrome / Perfetto event format, one track for each worker of each rank, piece by piece: as a
+/// whole it may be larger than all else that a run keeps in memory.
+void write_trace(const Trace& trace, const std::function<void(std::string_view)>& write);
 
 /// A table of a `profile.json`, most expensive task first; at most `n_rows` rows when positive.
 std::string to_text(const nlohmann::json& profile, int n_rows = 0);

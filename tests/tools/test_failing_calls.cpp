@@ -92,6 +92,22 @@ TEST_CASE("a call that fails ends a run with 4 and the place, and its last check
   CHECK(digest_of(out) == straight_digest());
 }
 
+TEST_CASE("a run that cannot write its trace has its summary and its profile")
+{
+  const TemporaryFolder folder;
+  const fs::path out = folder.path() / "run";
+
+  const Outcome outcome =
+      outcome_of("LD_PRELOAD=" TAMP_FAILING_CALLS " TAMP_FAIL_CALL=rename TAMP_FAIL_AT=1 TAMP_FAIL_PATH=trace.json " +
+                 run + "--steps 5 --out " + out.string());
+
+  CHECK(outcome.exit_code == 4);
+  CHECK_THAT(outcome.err, Catch::Contains("trace.json"));
+  CHECK(summary_of(out)["status"] == "completed");
+  CHECK(fs::exists(out / "profile.json"));
+  CHECK_FALSE(fs::exists(out / "trace.json"));
+}
+
 TEST_CASE("a thread that cannot be started ends a run with 4 before it begins")
 {
   const int at = GENERATE(range(1, 6));

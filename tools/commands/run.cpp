@@ -2,9 +2,10 @@
 
 #include <fmt/core.h>
 
-#include <cstdio>
+#include <map>
 #include <memory>
 
+#include "tools/commands/checks.hpp"
 #include "tools/commands/commands.hpp"
 #include "tools/console.hpp"
 #include "tools/run/signals.hpp"
@@ -92,7 +93,8 @@ CLI::App* add_run_command(CLI::App& app)
   options->run.communicator = runtime::Communicator::world();
   command->add_option("SCENE", options->scene, "the scene's JSON file")->required();
   CLI::Option* out =
-      command->add_option("--out", options->out, "the run's folder; by default runs/ and the scene's name");
+      command->add_option("--out", options->out, "the run's folder; by default runs/ and the scene's name")
+          ->check(not_empty());
   command->add_option("--set", options->assignments, "POINTER=VALUE: replace a value of the scene, may be repeated")
       ->allow_extra_args(false);
   command->add_option("--threads", options->n_threads, "threads of each rank")
@@ -110,9 +112,11 @@ CLI::App* add_run_command(CLI::App& app)
       ->default_str("no limit");
   CLI::Option* force =
       command->add_flag("--force", options->run.force, "replace what an earlier run left in the folder");
-  command->add_option("--restart", options->restart, "go on in this run's folder, from its newest checkpoint")
-      ->excludes(out)
-      ->excludes(force);
+  CLI::Option* restart =
+      command->add_option("--restart", options->restart, "go on in this run's folder, from its newest checkpoint")
+          ->check(not_empty())
+          ->excludes(out)
+          ->excludes(force);
   add_checkpoint_options(*command, options->run.checkpoints);
   command
       ->add_option("--balance", options->run.balance_interval,
@@ -127,16 +131,22 @@ CLI::App* add_run_command(CLI::App& app)
                    "stop after so many seconds of the clock, with the state kept for --restart")
       ->check(CLI::PositiveNumber)
       ->default_str("no limit");
+  command
+      ->add_option("--trace-steps", options->run.n_traced_steps,
+                   "steps at the start that trace.json shows task by task, as many as fit into some 30 MB; none: it is "
+                   "not written")
+      ->transform(CLI::Transformer(std::map<std::string, std::string>{{"none", "0"}}))
+      ->check(CLI::NonNegativeNumber);
   command->add_flag("--strict", options->run.strict, "let a run that completes with warnings end with exit code 3");
   command->add_flag("--quiet", options->run.quiet, "print no progress and no table");
-  command->callback([options] {
+  command->callback([options, out, restart] {
     note_early_signals();
     const CheckedScene scene = read_scene(options->scene, options->assignments);
     expect_few_checkpoints(options->run.checkpoints, scene.scene.time.end);
-    options->run.restart = !options->restart.empty();
-    options->run.folder = options->run.restart   ? options->restart
-                          : options->out.empty() ? "runs/" + scene.scene.name
-                                                 : options->out;
+    options->run.restart = restart->count() > 0;
+    options->run.folder = options->run.restart ? options->restart
+                          : out->count() > 0   ? options->out
+                                               : "runs/" + scene.scene.name;
     if (options->run.communicator.size() > 1) {
       options->run.executor.stall.prefix = fmt::format("rank {}: ", options->run.communicator.rank());
     }

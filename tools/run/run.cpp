@@ -114,6 +114,7 @@ class Runner
         end_(std::min(checked.scene.time.end, options.until))
   {
     simulation_->balance_every(options.balance_interval);
+    simulation_->trace_steps(options.n_traced_steps);
     if (is_first()) warn_all(plausibility_warnings(checked));
     if (options.restart) {
       restart();
@@ -372,12 +373,23 @@ class Runner
                     {status, reason, seconds_since(start_), median({step_seconds_.begin(), step_seconds_.end()}),
                      restarted_at_, output_.in_background(), output_time, forecast_, checked_.inputs, warnings_});
     on_first_rank([&] {
-      runtime::write_whole_file(options_.folder / "profile.json", json.dump(1) + "\n");
-      runtime::write_whole_file(options_.folder / "trace.json", runtime::trace_to_json(profile).dump() + "\n");
       runtime::write_whole_file(options_.folder / "summary.json", told.dump(2) + "\n");
+      runtime::write_whole_file(options_.folder / "profile.json", json.dump(1) + "\n");
     });
+    // Last, as it may be large, and a run can do without.
+    if (options_.n_traced_steps > 0) write_trace();
     if (options_.quiet || !is_first()) return;
     print_out("{}\n{}  written to {}\n", runtime::to_text(json, 10), summary_text(told), options_.folder.string());
+  }
+
+  void write_trace()
+  {
+    const runtime::Trace trace = simulation_->trace();
+    on_first_rank([&] {
+      runtime::WholeFile file(options_.folder / "trace.json");
+      runtime::write_trace(trace, [&](std::string_view text) { file.write(text); });
+      file.publish();
+    });
   }
 
   const CheckedScene& checked_;

@@ -35,6 +35,8 @@ struct RunOptions {
   CheckpointPolicy checkpoints{};
   /// Steps between two looks at the load of the ranks; 0: patches stay where they are.
   long balance_interval = 200;
+  /// Steps at the start that `trace.json` shows task by task; 0: it is not written.
+  long n_traced_steps = 20;
   /// No progress, no table at the end.
   bool quiet = false;
   /// A run that completes with warnings counts as one that has gone wrong.

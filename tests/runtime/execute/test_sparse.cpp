@@ -249,7 +249,7 @@ TEST_CASE("state that the host sets is never taken for zero")
 TEST_CASE("the profile counts skipped instances apart")
 {
   Row row(true, 1);
-  Profiler profiler(row.schedule, row.bound, 1, 0);
+  Profiler profiler(row.schedule, row.bound, 1);
 
   row.step(0);
   profiler.add_step();
@@ -273,7 +273,7 @@ TEST_CASE("a task that was always skipped is in the profile with zeros")
   for (const Patch& patch : row.layout) {
     for (int group = 0; group < 2; ++group) row.warehouse.set_n_particles(patch.id, group, 0);
   }
-  Profiler profiler(row.schedule, row.bound, 1, 0);
+  Profiler profiler(row.schedule, row.bound, 1);
 
   row.step(0);
   profiler.add_step();

@@ -23,7 +23,8 @@ TEST_CASE("a quantile of durations is right to a bin", "[profile]")
 TEST_CASE("the profile counts every instance and its shares sum to one", "[profile]")
 {
   test::Heat heat(16, {2, 2, 1}, 2);
-  Profiler profiler(heat.engine.schedule(), heat.engine.bound(), 2, 3);
+  Profiler profiler(heat.engine.schedule(), heat.engine.bound(), 2);
+  profiler.trace_steps(3);
   for (int n = 0; n < 10; ++n) {
     heat.run(1, 1e-4);
     profiler.add_step();
@@ -41,7 +42,42 @@ TEST_CASE("the profile counts every instance and its shares sum to one", "[profi
   CHECK(count == 10 * heat.engine.graph().instances().size());
   CHECK(json["critical_path_s"].get<double>() <= json["step_s"].get<double>() * 1.001);
   CHECK(json["memory"]["total"].get<std::size_t>() >= heat.engine.warehouse().forecast_bytes());
-  CHECK(trace_to_json(profiler.profile())["traceEvents"].size() == 3 * heat.engine.graph().instances().size());
+}
+
+TEST_CASE("the trace has every instance of the first steps, as JSON that other programs read", "[profile]")
+{
+  test::Heat heat(16, {2, 2, 1}, 2);
+  Profiler profiler(heat.engine.schedule(), heat.engine.bound(), 2);
+  profiler.trace_steps(3);
+  for (int n = 0; n < 10; ++n) {
+    heat.run(1, 1e-4);
+    profiler.add_step();
+  }
+
+  std::string text;
+  write_trace(profiler.trace(), [&](std::string_view piece) { text += piece; });
+
+  const nlohmann::json events = nlohmann::json::parse(text)["traceEvents"];
+  CHECK(events.size() == 3 * heat.engine.graph().instances().size());
+  CHECK(events[0]["dur"].get<double>() >= 0);
+  CHECK(profiler.profile().n_traced_steps == 3);
+}
+
+TEST_CASE("no more is traced than fits, and without a wish nothing is", "[profile]")
+{
+  test::Heat heat(16, {4, 4, 1}, 1);
+  Profiler wanted(heat.engine.schedule(), heat.engine.bound(), 1),
+      unasked(heat.engine.schedule(), heat.engine.bound(), 1);
+  wanted.trace_steps(std::numeric_limits<long>::max());
+  const std::size_t n_fit = Profiler::most_traced / heat.engine.graph().instances().size();
+  for (std::size_t n = 0; n < n_fit + 2; ++n) {
+    heat.run(1, 1e-4);
+    wanted.add_step();
+    unasked.add_step();
+  }
+
+  CHECK(wanted.trace().events.size() == n_fit * heat.engine.graph().instances().size());
+  CHECK(unasked.trace().events.empty());
 }
 
 TEST_CASE("the ledger knows the bytes of each label", "[profile]")
