@@ -1,6 +1,10 @@
+#include <fmt/core.h>
+
+#include <algorithm>
 #include <exception>
 #include <new>
 #include <string>
+#include <vector>
 
 #include "runtime/execute/exchange.hpp"
 #include "runtime/file_error.hpp"
@@ -28,6 +32,20 @@ bool is_for_all_ranks(int argc, char** argv)
   return command == "run" || command == "bench";
 }
 
+/// Ranks that were given different work would wait for each other without end.
+void expect_same_arguments(int argc, char** argv)
+{
+  const Communicator world = Communicator::world();
+  if (world.size() == 1) return;
+  std::string own;
+  for (int i = 1; i < argc; ++i) own.append(argv[i]).push_back('\0');
+  const std::vector<std::string> of_each = world.gather(own);
+  const auto other = std::find_if(of_each.begin(), of_each.end(), [&](const auto& a) { return a != of_each.front(); });
+  if (other == of_each.end()) return;
+  throw tamp::tools::InputError({fmt::format("rank {}", other - of_each.begin()),
+                                 "other arguments than those of rank 0", "expected the same on all ranks"});
+}
+
 /// The ranks that work on a command.
 Communicator ranks_of(int argc, char** argv)
 {
@@ -36,9 +54,11 @@ Communicator ranks_of(int argc, char** argv)
 
 int run_or_report(int argc, char** argv)
 {
-  const Communicator ranks = ranks_of(argc, argv);
-  if (ranks.size() == 1 && !Communicator::world().is_first()) return 0;
+  Communicator ranks = Communicator::world();
   try {
+    expect_same_arguments(argc, argv);
+    ranks = ranks_of(argc, argv);
+    if (ranks.size() == 1 && !Communicator::world().is_first()) return 0;
     const int code = tamp::tools::run_program(argc, argv, ranks);
     tamp::tools::flush_out();
     return code;

@@ -51,6 +51,23 @@ TEST_CASE("a command that no ranks share is the first rank's alone", "[mpiexec]"
   CHECK(tamp_on_ranks(2, "--version").exit_code == 0);
 }
 
+TEST_CASE("ranks with different arguments are told, and do not wait for each other", "[mpiexec]")
+{
+  const TemporaryFolder folder;
+  const auto file = folder.write("small.json", small_scene);
+  allow_ranks_anywhere();
+  const std::string program = " -n 1 " TAMP_PROGRAM " ", run = program + "run " + file.string() + " --quiet --out ";
+  const std::string here = (folder.path() / "here").string(), there = (folder.path() / "there").string();
+
+  for (const std::string& other : {run + there, run + here + " --steps 2", program + "check " + file.string()}) {
+    INFO(other);
+    const Outcome outcome = outcome_of("timeout 60 " TAMP_MPIEXEC + run + here + " :" + other);
+    CHECK(outcome.exit_code == 2);
+    CHECK_THAT(outcome.err, Catch::Contains("rank 1: other arguments than those of rank 0"));
+    CHECK_FALSE(std::filesystem::exists(here));
+  }
+}
+
 TEST_CASE("volume and mass of a solid are printed beside those of its particles")
 {
   const TemporaryFolder folder;
@@ -89,12 +106,12 @@ TEST_CASE("each problem of a bad scene is a line of its own on stderr, and the e
         "tamp: --set#/gravity: \"down\"; expected 2 numbers\n");
 }
 
-TEST_CASE("a scene file that cannot be read ends with 4")
+TEST_CASE("a scene file that is not there ends with 2")
 {
   const Outcome outcome = tamp_with("check /no/such/scene.json");
 
-  CHECK(outcome.exit_code == 4);
-  CHECK(outcome.err == "tamp: /no/such/scene.json: no such file\n");
+  CHECK(outcome.exit_code == 2);
+  CHECK(outcome.err == "tamp: /no/such/scene.json: no such file; expected the name of one\n");
 }
 
 }  // namespace test_program
