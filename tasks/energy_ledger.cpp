@@ -6,12 +6,15 @@ namespace tamp::tasks
 void EnergyLedger::add(const StepTotals& step, const GridTotals& nodes, const BodyForceWork& body_forces,
                        const LoadTotals& loads, bool deforms_by_other_velocities)
 {
+  gained += nodes.gained_by_particles + nodes.gained_by_rigid_bodies;
   elastic += step.elastic;
   plastic += step.plastic;
   viscous += step.viscous + nodes.taken_by_damping;
   contact += step.contact + nodes.taken_by_walls;
   last_driving = step.driving + loads.work;
   driving += last_driving + body_forces.value;
+  gravity += nodes.gravity_work;
+  gravity_at_end = nodes.gravity_work_at_end;
   add_filtered(step, nodes, body_forces, loads, deforms_by_other_velocities);
 }
 

@@ -5,10 +5,11 @@
 namespace tamp::tasks
 {
 
-/// Where the energy of a simulation has gone since its start, and what has come from outside [J]. What is in motion is
-/// no part of it. With that the sum stays the same, but for the error of the steps:
-///     kinetic + elastic + plastic + viscous + contact + filter - half_step - driving - work of gravity.
+/// Where the energy of a simulation has gone since its start, and what has come from outside [J]. Particles that leave
+/// the domain stay in it. The sum of all stays the same, but for the error of the steps: see `sum`.
 struct EnergyLedger {
+  /// What is in motion more than at the start.
+  double gained = 0;
   double elastic = 0;
   double plastic = 0;
   double viscous = 0;  ///< by artificial viscosity and local damping
@@ -20,9 +21,21 @@ struct EnergyLedger {
   double driving = 0;
   /// What of `driving` is by driven bodies and pressure loads in the last step.
   double last_driving = 0;
+  /// Work of gravity and of a steady centrifuge.
+  double gravity = 0;
   /// What stress took from the motion in the second half of the last step; body forces count against it. Velocities are
   /// half a step behind all else, so that kinetic energy still has it. 0 where particles deform by other velocities.
   double half_step = 0;
+  /// The same of gravity, which gave it.
+  double gravity_at_end = 0;
+
+  /// Work from outside.
+  double external() const { return gravity + driving; }
+  /// What is left and where it went, but what came from outside; at the start it is `elastic`.
+  double sum() const
+  {
+    return gained + elastic + plastic + viscous + contact + filter - (half_step - gravity_at_end) - external();
+  }
 
   /// Adds a step. Totals of what a scene does not have are those of nothing. `deforms_by_other_velocities`: see Method.
   void add(const StepTotals& step, const GridTotals& nodes, const BodyForceWork& body_forces, const LoadTotals& loads,

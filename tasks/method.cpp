@@ -74,6 +74,16 @@ Method<D>::Method(const Scene& given)
 }
 
 template <int D>
+double Method<D>::work_function(const Vector<D>& x) const
+{
+  double work = gravity.dot(x);
+  if constexpr (D == 3) {
+    if (centrifuge && centrifuge->is_steady()) work += centrifuge->work_function(x);
+  }
+  return work;
+}
+
+template <int D>
 bool Method<D>::needs_surface_of(int material) const
 {
   const bool is_pressed =

@@ -85,6 +85,12 @@ struct Method {
   /// Whether the particles of a cell share the changes of its volume and the stress that works against them.
   bool deforms_as_cells() const { return relief == Relief::cell_average && !deformable_materials.empty(); }
 
+  /// What gravity and a steady centrifuge have done to matter that is at x, less what they have at the origin, per mass
+  /// [J/kg]. A centrifuge that speeds up has no such function, and is left out.
+  double work_function(const Vector<D>& x) const;
+  /// Whether that is 0 everywhere.
+  bool is_weightless() const { return gravity.isZero(0) && !(centrifuge && centrifuge->is_steady()); }
+
   const Scene& scene;
   std::vector<std::unique_ptr<const components::Interpolation<D>>> interpolations;
   /// Layers of nodes beyond a patch that its particles reach.

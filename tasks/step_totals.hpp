@@ -92,6 +92,11 @@ struct GridTotals {
   double taken_by_damping = 0;
   /// Kinetic energy that the nodes of deformable materials gain, and what of it their particles do [J].
   double gained_by_nodes = 0, gained_by_particles = 0;
+  /// That which rigid bodies gain [J].
+  double gained_by_rigid_bodies = 0;
+  /// What gravity and a steady centrifuge do to all particles, and to those of the end of the step in its second half,
+  /// which velocities, of half a step before, do not have yet [J].
+  double gravity_work = 0, gravity_work_at_end = 0;
   /// What forces take from these nodes [J]: at their velocities at the start of the step in the half of the step
   /// before, minus the sum of f.v dt/2; where particles deform by other velocities in the whole kick.
   double taken_by_forces = 0;
@@ -103,6 +108,9 @@ struct GridTotals {
     taken_by_damping += other.taken_by_damping;
     gained_by_nodes += other.gained_by_nodes;
     gained_by_particles += other.gained_by_particles;
+    gained_by_rigid_bodies += other.gained_by_rigid_bodies;
+    gravity_work += other.gravity_work;
+    gravity_work_at_end += other.gravity_work_at_end;
     taken_by_forces += other.taken_by_forces;
   }
 };

@@ -5,6 +5,7 @@
 #include "components/shapes/transfer.hpp"
 #include "tasks/labels.hpp"
 #include "tasks/phases/deform.hpp"
+#include "tasks/phases/gravity_work.hpp"
 #include "tasks/phases/phases.hpp"
 #include "tasks/phases/places.hpp"
 
@@ -81,6 +82,22 @@ double gained(const Data& data, std::size_t first, std::size_t n)
   return energy;
 }
 
+/// Counts what gravity does to `n` particles from `first` on.
+template <int D, class Data>
+void count_gravity(const Method<D>& method, double dt, const Data& data, std::size_t first, std::size_t n)
+{
+  if (method.is_weightless()) return;
+  const auto mass = data[particle::mass.previous()];
+  const auto before = data[particle::position<D>.previous()];
+  const auto after = data[particle::position<D>];
+  const auto velocity = data[particle::velocity<D>];
+  GridTotals totals;
+  for (std::size_t p = first; p < first + n; ++p) {
+    add_gravity_work<D>(method, dt, mass[p], before[p], after[p], velocity[p], totals);
+  }
+  data[grid_totals].combine(totals);
+}
+
 /// The task with what the transfer of the scene reads and keeps.
 template <int D, class Task, class Body>
 runtime::TaskDeclaration with_velocities(const Method<D>& method, Task task, const Body& body)
@@ -130,6 +147,7 @@ runtime::TaskDeclaration grid_to_particles(const Method<D>& method)
       }
       move<D>(method, at.step.size, data, first, motion, restored);
       data[grid_totals].gained_by_particles += gained<D>(data, first, size);
+      count_gravity<D>(method, at.step.size, data, first, size);
       if (filters) add_filtered_momentum<D>(data, first, motion);
       if constexpr (data.has(particle::velocity_moment<D>)) {
         interpolation.velocity_moments(block, places.subspan(first, size), nodes.data(),

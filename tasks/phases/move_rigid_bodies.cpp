@@ -3,6 +3,7 @@
 #include "components/loads/time_step.hpp"
 #include "tasks/labels.hpp"
 #include "tasks/particle_axes.hpp"
+#include "tasks/phases/gravity_work.hpp"
 #include "tasks/phases/phases.hpp"
 #include "tasks/simulation_error.hpp"
 
@@ -65,9 +66,27 @@ void add_totals(const TaskContext& at, const RigidBody& body, const RigidStates&
   if (at.patch.id != 0) return;
   const Eigen::Vector3d p = before.of(body).momentum, q = after.of(body).momentum;
   for (int k = 0; k < 3; ++k) grid.impulse[static_cast<std::size_t>(k)] += q[k] - p[k];
+  grid.gained_by_rigid_bodies += components::kinetic_energy(body.properties, after.of(body)) -
+                                 components::kinetic_energy(body.properties, before.of(body));
   if (body.drive == nullptr) return;
   totals.driving += after.driving[static_cast<std::size_t>(body.material)].dot(p + q) / (2 * body.properties.mass);
 }
+
+/// Where the points of a rigid body are in a state of it.
+template <int D>
+struct Placement {
+  Placement(const RigidBody& body, const components::RigidState& state)
+      : turn(state.orientation.toRotationMatrix().template topLeftCorner<D, D>()),
+        start(body.properties.centre.template head<D>()),
+        centre(state.centre.template head<D>())
+  {
+  }
+
+  Vector<D> operator()(const Vector<D>& reference) const { return centre + turn * (reference - start); }
+
+  Matrix<D> turn;
+  Vector<D> start, centre;
+};
 
 }  // namespace
 
@@ -79,12 +98,13 @@ runtime::TaskDeclaration move_rigid_particles(const Method<D>& method, int mater
   return runtime::task("move rigid particles: " + name)
       .over_patches_and_groups({material})
       .reads(rigid_states.previous(), rigid_states, particle::id.previous(), particle::reference_position<D>.previous(),
-             particle::volume.previous())
+             particle::mass.previous(), particle::volume.previous())
       .computes(particle::position<D>, particle::velocity<D>, particle::deformation_gradient<D>, particle::volume,
                 particle::stress<D>, particle::viscous_pressure)
       .reduces(step_totals, grid_totals)
       .body([&method](const TaskContext& at, auto data) {
         const auto id = data[particle::id.previous()];
+        const auto mass = data[particle::mass.previous()];
         const auto reference = data[particle::reference_position<D>.previous()];
         const auto old_volume = data[particle::volume.previous()];
         const auto position = data[particle::position<D>];
@@ -94,21 +114,26 @@ runtime::TaskDeclaration move_rigid_particles(const Method<D>& method, int mater
         const auto stress = data[particle::stress<D>];
         const auto viscous_pressure = data[particle::viscous_pressure];
         StepTotals& totals = data[step_totals];
+        GridTotals of_gravity;
         const RigidBody& body = *method.rigid_body(at.group);
         const components::RigidState& state = data[rigid_states].of(body);
         add_totals(at, body, data[rigid_states.previous()], data[rigid_states], data[grid_totals], totals);
         const components::RigidMotion motion = components::motion_of(body.properties, state);
-        const Matrix<D> turn = state.orientation.toRotationMatrix().template topLeftCorner<D, D>();
-        const Vector<D> start = body.properties.centre.template head<D>(), centre = state.centre.template head<D>();
+        const Placement<D> before(body, data[rigid_states.previous()].of(body)), after(body, state);
         const SceneBody& of_scene = method.scene.bodies[static_cast<std::size_t>(body.body)];
-        const bool in_sectors = of_scene.functions.layout.has_value();
+        const bool in_sectors = of_scene.functions.layout.has_value(), weighs = !method.is_weightless();
         for (std::size_t p = 0; p < id.size(); ++p) {
-          position[p] = centre + turn * (reference[p] - start);
+          position[p] = after(reference[p]);
           velocity[p] = motion.at(in_space<D>(position[p])).template head<D>();
-          deformation[p] = in_sectors ? turn * particle_axes<D>(method.scene, of_scene, reference[p]) : turn;
+          deformation[p] =
+              in_sectors ? after.turn * particle_axes<D>(method.scene, of_scene, reference[p]) : after.turn;
           volume[p] = old_volume[p];
           stress[p].setZero();
           viscous_pressure[p] = 0;
+          if (weighs) {
+            add_gravity_work<D>(method, at.step.size, mass[p], before(reference[p]), position[p], velocity[p],
+                                of_gravity);
+          }
           if (!is_off_edges<D>(at.layout.grid(), method.scene.reach_of(at.group), body.touchable, position[p])) {
             throw SimulationError("a rigid body reaches the edge of the domain, where nothing is known to hold it",
                                   method.materials[static_cast<std::size_t>(at.group)].name, id[p],
@@ -117,6 +142,7 @@ runtime::TaskDeclaration move_rigid_particles(const Method<D>& method, int mater
           totals.stable_step =
               std::min(totals.stable_step, components::published_time_step<D>(method.cell_size, 0, velocity[p]));
         }
+        data[grid_totals].combine(of_gravity);
       });
 }
 

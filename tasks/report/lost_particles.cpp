@@ -20,6 +20,7 @@ void LostByPatch::take(runtime::Migration& migration, const runtime::PatchLayout
       lost.count += mass.size();
       for (std::size_t p = 0; p < mass.size(); ++p) {
         lost.mass += mass[p];
+        lost.kinetic += 0.5 * mass[p] * velocity[p].squaredNorm();
         lost.momentum.template head<D>() += mass[p] * velocity[p];
       }
     }
@@ -46,6 +47,7 @@ LostParticles LostByPatch::sum() const
   for (const LostParticles& lost : lost_) {
     sum.count += lost.count;
     sum.mass += lost.mass;
+    sum.kinetic += lost.kinetic;
     sum.momentum += lost.momentum;
   }
   return sum;

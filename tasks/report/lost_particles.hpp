@@ -16,6 +16,7 @@ namespace tamp::tasks
 struct LostParticles {
   std::size_t count = 0;
   double mass = 0;                                     ///< kg
+  double kinetic = 0;                                  ///< J
   Eigen::Vector3d momentum = Eigen::Vector3d::Zero();  ///< N s
 };
 

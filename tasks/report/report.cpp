@@ -13,17 +13,6 @@ using runtime::TaskContext;
 namespace
 {
 
-/// Per mass, of the loads that have one [J/kg].
-template <int D>
-double work_function(const Method<D>& method, const Vector<D>& x)
-{
-  double work = method.gravity.dot(x);
-  if constexpr (D == 3) {
-    if (method.centrifuge && method.centrifuge->is_steady()) work += method.centrifuge->work_function(x);
-  }
-  return work;
-}
-
 /// A rigid body is known as a whole, and one patch tells of it; its particles as points would lack their own turning.
 void report_rigid_motion(const TaskContext& at, const RigidBody& body, const components::RigidState& state,
                          ParticleReport& report)
@@ -91,9 +80,9 @@ void report_motion(const Method<D>& method, const TaskContext& at, const Data& d
   double gravity_work = 0, at_end = 0, kinetic = 0, sum_of_momenta = 0;
   for (std::size_t p = 0; p < mass.size(); ++p) {
     const Vector<D> now = place(p), half_step_before = now - 0.5 * at.step.previous_size * velocity[p];
-    const double work = work_function<D>(method, now);
+    const double work = method.work_function(now);
     gravity_work += mass[p] * work;
-    at_end += mass[p] * (work - work_function<D>(method, half_step_before));
+    at_end += mass[p] * (work - method.work_function(half_step_before));
   }
   report.gravity_work += gravity_work;
   report.gravity_work_at_end += at_end;

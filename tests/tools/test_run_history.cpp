@@ -170,6 +170,62 @@ TEST_CASE("the energy of a body that FMPM moves is all there once what it filter
   CHECK(history.energy_error() < 1e-12);
 }
 
+TEST_CASE("energy is balanced and judged also after particles have left")
+{
+  const test::TemporaryFolder folder;
+  const auto file = folder.write("scene.json", falling_block);
+  const auto checked = tools::read_scene(
+      file, {"/bodies/block/rigid=false", "/bodies/block/velocity=[20,0]", "/bodies/block/angular_velocity=[20]",
+             "/time/end=1", "/grid/cell_size=0.125", "/time/maximum_step=1e-3"});
+  const auto simulation = tasks::Simulation::make(checked.scene, 1);
+  tools::RunHistory history(*simulation);
+  const double at_start = history.report().kinetic;
+  const auto n_at_start = simulation->n_particles(0);
+  while (simulation->lost().count < n_at_start / 2) simulation->advance(1);
+
+  history.measure();
+
+  const tools::EnergyBalance& e = history.energies();
+  CHECK(e.kinetic < 0.7 * at_start);
+  CHECK(e.external > 0);
+  CHECK(history.energy_error() < 1e-3);
+  CHECK(std::abs(e.total - at_start) < 1e-3 * at_start);
+}
+
+TEST_CASE("the loss of particles does not end the judgement of energy")
+{
+  const test::TemporaryFolder folder;
+  const auto file = folder.write("scene.json", falling_block);
+  const auto checked =
+      tools::read_scene(file, {"/gravity=[0,0]", "/bodies/block/rigid=false", "/bodies/block/velocity=[20,0]",
+                               "/bodies/block/angular_velocity=[20]", "/time/end=1", "/grid/cell_size=0.125"});
+  const auto simulation = tasks::Simulation::make(checked.scene, 1);
+  tools::RunHistory history(*simulation);
+  while (simulation->lost().count == 0) simulation->advance(1);
+
+  const double error = history.energy_error();
+
+  CHECK_THAT(history.energy_problem(0.5 * error), Catch::Contains("the energy is wrong by"));
+  CHECK(history.energy_problem(2 * error).empty());
+}
+
+TEST_CASE("what is judged of each step is the balance that the history shows")
+{
+  const std::string given = GENERATE("/bodies/block/rigid=true", "/bodies/block/rigid=false");
+  const test::TemporaryFolder folder;
+  const auto file = folder.write("scene.json", falling_block);
+  const auto checked =
+      tools::read_scene(file, {given, "/bodies/block/angular_velocity=[5]", "/time/maximum_step=1e-3"});
+  const auto simulation = tasks::Simulation::make(checked.scene, 1);
+  tools::RunHistory history(*simulation);
+  const double at_start = history.report().kinetic;
+  for (int n = 0; n < 100; ++n) simulation->advance(1);
+
+  history.measure();
+
+  CHECK(history.energies().total - at_start == Approx(simulation->energies().sum()).margin(1e-10 * at_start));
+}
+
 TEST_CASE("an energy error is told beyond its limit, and never where the limit is off")
 {
   const auto checked = tools::read_scene(TAMP_SOURCE_DIR "/inputs/punch/quick.json");

@@ -1,3 +1,5 @@
+#include <fmt/format.h>
+
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
 
@@ -48,6 +50,30 @@ TEST_CASE("a run whose energy is wrong by more than its limit ends with 3, with 
   CHECK_THAT(wrong.outcome.err, Catch::Contains("the energy is wrong by") && Catch::Contains("/limits/energy_error"));
   CHECK(wrong.summary["status"] == "unstable");
   CHECK(off.outcome.exit_code == 0);
+}
+
+TEST_CASE(
+    "the energy of every step is judged, also between the rows of the history, and the summary has what was judged")
+{
+  const Run wrong = run_with("--steps 100 --set /limits/energy_error=1e-5 --set /output/history_interval=1");
+
+  CHECK(wrong.outcome.exit_code == 3);
+  CHECK(wrong.summary["status"] == "unstable");
+  CHECK(wrong.summary["energy_error"].get<double>() > 1e-5);
+  CHECK_THAT(wrong.outcome.err,
+             Catch::Contains(fmt::format("{:.3g} times the", wrong.summary["energy_error"].get<double>())));
+}
+
+TEST_CASE("a comparison judges the energy of every step too")
+{
+  const TemporaryFolder folder;
+
+  const Outcome outcome = tamp_with("compare " + punch + " --models table --steps 40 --quiet --out " +
+                                    (folder.path() / "compare").string() +
+                                    " --set /limits/energy_error=1e-6 --set /output/history_interval=1");
+
+  CHECK(outcome.exit_code == 3);
+  CHECK_THAT(outcome.err, Catch::Contains("the energy is wrong by"));
 }
 
 TEST_CASE("free fall from rest, whose first velocities are half a step late, has its energy right")

@@ -84,17 +84,20 @@ void ModelRun::step()
   }
   step_walls_.push_back(std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
   result_.wall += step_walls_.back();
+  expect_energy();
   if (simulation_->time() >= next_sample_ || finished()) add_sample();
+}
+
+void ModelRun::expect_energy()
+{
+  const std::string problem = history_.energy_problem(simulation_->scene().limits.energy_error);
+  if (problem.empty()) return;
+  result_.instability = fmt::format("step {}, time {:.6g} s: {}", simulation_->n_steps(), simulation_->time(), problem);
 }
 
 void ModelRun::add_sample()
 {
   history_.write_row();
-  const std::string problem = history_.energy_problem(simulation_->scene().limits.energy_error);
-  if (!problem.empty() && !result_.unstable()) {
-    result_.instability =
-        fmt::format("step {}, time {:.6g} s: {}", simulation_->n_steps(), simulation_->time(), problem);
-  }
   Sample sample{simulation_->time(), simulation_->last_step_size(), result_.wall, {}, {}, {}};
   for (const std::size_t body : history_.tracked_bodies()) sample.depth.push_back(history_.depth(body));
   for (const std::size_t sand : sands_) {

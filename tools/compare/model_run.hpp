@@ -46,6 +46,7 @@ class ModelRun
 
  private:
   void step();
+  void expect_energy();
   void add_sample();
   template <class Wanted>
   void advance_while(const Wanted& wanted);

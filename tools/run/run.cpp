@@ -139,21 +139,20 @@ class Runner
  private:
   void run_to_end()
   {
-    const std::size_t n = n_particles();
-    Progress progress(options_.quiet || !is_first(), end_, options_.max_steps, n);
-    write_due();
-    while (simulation_->time() < end_ && simulation_->n_steps() < options_.max_steps) {
-      try {
+    Progress progress(options_.quiet || !is_first(), end_, options_.max_steps, n_particles());
+    try {
+      write_due();
+      while (simulation_->time() < end_ && simulation_->n_steps() < options_.max_steps) {
         with_resources_for(fmt::format("after step {}", simulation_->n_steps()), [&] { advance(); });
-      } catch (const tasks::SimulationError& error) {
-        progress.finish();
-        fail(error);
+        if (const StopReason* reason = stop_reason(simulation_->asked())) {
+          progress.finish();
+          leave(*reason);
+        }
+        progress.show(simulation_->n_steps(), simulation_->time(), simulation_->last_step_size());
       }
-      if (const StopReason* reason = stop_reason(simulation_->asked())) {
-        progress.finish();
-        leave(*reason);
-      }
-      progress.show(simulation_->n_steps(), simulation_->time(), simulation_->last_step_size());
+    } catch (const tasks::SimulationError& error) {
+      progress.finish();
+      fail(error);
     }
     progress.finish();
     write_last_state();
@@ -169,6 +168,7 @@ class Runner
     const double seconds = seconds_since(begin);
     step_seconds_.push_back(static_cast<float>(seconds));
     machine_history_.add_step(seconds);
+    expect_energy();
     if ((simulation_->asked() & end_as_output_has_failed) != 0) output_.finish();
     write_due();
     keep_state();
@@ -255,8 +255,6 @@ class Runner
       write_history();
       due_.history = simulation_->n_steps();
       due_.rows = history_.extent();
-      due_.largest = history_.largest();
-      expect_energy();
     }
     if (field_times_.due(simulation_->time())) {
       write_fields();
@@ -319,6 +317,7 @@ class Runner
     const bool due = checkpoint_clock_.due(simulation_->n_steps(), simulation_->time());
     if (!due && simulation_->asked() == 0) return;
     expect_own_folder();
+    due_.largest = history_.largest();
     runtime::ByteWriter own;
     own.add(due_);
     output_.write_checkpoint(fingerprint(checked_), own.bytes());

@@ -57,15 +57,16 @@ class RunHistory
   /// The same, and writes it as a row.
   void write_row();
 
-  /// The error of the total energy, of the initial energy (of the largest energy if that is nothing).
-  double energy_error() const { return energy_error_; }
+  /// To be asked after every step, which costs next to nothing: says so if the energy is wrong by more than `limit`
+  /// times what the run has been given, see `energy_error`; empty otherwise. Where a centrifuge speeds up the balance
+  /// is not known, and nothing is said.
+  std::string energy_problem(double limit);
+  /// What of the energy has come or gone without a cause, or what particles have made of nothing where that is more, of
+  /// what the run has been given so far: its initial energy and the largest work from outside. What particles filter
+  /// out of the motion of the nodes is no error; what they add is. Of the last step; it needs no `measure`.
+  double energy_error() const;
   /// What of the change of momentum the grid has not given to the particles, of the largest sum of m |v| so far.
   double momentum_error() const { return momentum_error_; }
-  /// Says so if energy has come or gone by more than `limit` times what the run has been given so far: its initial
-  /// energy and the work from outside; empty otherwise. Of the last measured state. Where particles have left, or
-  /// a centrifuge speeds up, the balance is not known, and nothing is said. What particles filter out is no error; what
-  /// they add is.
-  std::string energy_problem(double limit) const;
   /// A run that goes on has those of the run before.
   const LargestSoFar& largest() const { return largest_; }
   void set_largest(const LargestSoFar& largest) { largest_ = largest; }
@@ -101,21 +102,24 @@ class RunHistory
   /// with, what half a step of free fall makes, and the work of a step of driving and of loads, which is counted to the
   /// step's middle while what it goes into is counted to its end [J].
   double negligible_energy() const;
-  double mass() const;
+  double wrong_energy() const;
+  double given_energy() const;
   /// What gravity and centrifuge give to all mass in a step [N s]: sand at rest moves by no more than its round-off.
   double weight_of_a_step() const;
 
   tasks::Simulation& simulation_;
   std::vector<std::size_t> tracked_;
   tasks::ParticleReport initial_;
-  /// In motion, and stored by an initial deformation [J].
-  double initial_energy_;
+  /// Of all that is there at the start.
+  double mass_;              ///< kg
+  double wave_speed_;        ///< of the fastest material [m/s]
+  double acceleration_;      ///< the greatest by gravity and centrifuge [m/s^2]
+  double elastic_at_start_;  ///< J
   tasks::ParticleReport report_;
   tasks::NoseReport near_noses_;
   tasks::LostParticles lost_;
   EnergyBalance energies_{};
   LargestSoFar largest_;
-  double energy_error_ = 0;
   double momentum_error_ = 0;
   /// By material, since the row before.
   std::vector<tasks::ContactForce> contact_forces_;

@@ -131,9 +131,8 @@ const ObjectKeys& limit_keys()
         "",
         {tasks::SceneLimits{}.energy_error},
         "a run whose total energy is wrong by more than this part of what it has been given (its initial energy and "
-        "the "
-        "work of gravity, of loads and of driving bodies) ends with exit code 3; once particles have left, or where a "
-        "centrifuge speeds up, nothing is judged; `\"off\"`: no limit"}}};
+        "the work of gravity, of loads and of driving bodies) ends with exit code 3; every step is judged, unless a "
+        "centrifuge speeds up; `\"off\"`: no limit"}}};
   return keys;
 }
 
