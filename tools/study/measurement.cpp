@@ -32,10 +32,12 @@ Json resolved(const Measure& measure, const Settings& settings)
 
 /// A key of an object that is there, which may be new, or an item of a list.
 bool is_place(const Json& document, const JsonPointer& pointer)
-{
+try {
   const JsonPointer above = pointer.parent_pointer();
   if (!document.contains(above)) return false;
   return document.at(above).is_object() ? pointer.back() != "-" : document.contains(pointer);
+} catch (const Json::exception&) {  // an item whose number no list has
+  return false;
 }
 
 /// Each pointer means something with the settings before it.

@@ -63,6 +63,7 @@ class StudyReader
     read_limits();
     root_.finish();
     expect_answers();
+    expect_few_points();
     return std::move(study_);
   }
 
@@ -357,6 +358,45 @@ class StudyReader
                           "expected a number that is taken of it");
       }
     }
+  }
+
+  /// Counted before they are made, and told where most of them come from.
+  void expect_few_points()
+  {
+    const auto all = n_points_by_key();
+    const auto is_less = [](const auto& a, const auto& b) { return a.second < b.second; };
+    const auto most = std::max_element(all.begin(), all.end(), is_less);
+    double n = 0;
+    for (const auto& [key, points] : all) n += points;
+    if (n <= most_points) return;
+    document_.add_problem(JsonPointer(most->first), n < 1e15 ? fmt::format("{:.0f} points", n) : "over 1e15 points",
+                          fmt::format("expected at most {:.0f}", most_points));
+  }
+
+  /// In floating point, which knows no overflow.
+  std::vector<std::pair<std::string, double>> n_points_by_key() const
+  {
+    std::vector<std::pair<std::string, double>> all;
+    for (std::size_t i = 0; i < study_.methods.size(); ++i) {
+      const Method& method = study_.methods[i];
+      const std::string own = fmt::format("/methods/{}/sweep", i);
+      double n = method.sweep.empty() && !method.listed.empty() ? 0 : 1;
+      for (const Axis& axis : method.sweep) n *= static_cast<double>(axis.values.size());
+      all.emplace_back(document_.root.contains(JsonPointer(own)) ? own : "/sweep", n);
+      all.emplace_back("/points", static_cast<double>(method.listed.size()));
+    }
+    if (study_.reference) {
+      const ReferenceRuns& reference = *study_.reference;
+      const std::size_t n = std::max<std::size_t>(reference.refinement.values.size(), 1) + reference.beside.size();
+      const std::size_t n_references = reference.of_each_method ? study_.methods.size() : 1;
+      all.emplace_back("/reference", static_cast<double>(n) * static_cast<double>(n_references));
+    }
+    if (study_.budget) {
+      double n = 1;
+      for (const BudgetPart& part : study_.budget->parts) n += static_cast<double>(part.variations.size());
+      all.emplace_back("/budget", n * static_cast<double>(study_.budget->bases.size()));
+    }
+    return all;
   }
 
   std::string pointer(JsonReader& reader, const std::string& key)

@@ -172,6 +172,9 @@ struct Study {
   int n_threads = 1;
 };
 
+/// Each is checked before the first runs, and is a process of its own.
+inline constexpr double most_points = 1e4;
+
 /// Reads a study's file, with its key `short` laid over the rest if `in_short`. Throws FileError if it cannot be read,
 /// and InputError with every problem. Settings are not looked at (measurement.hpp does that).
 Study read_study(const std::filesystem::path& file, bool in_short);

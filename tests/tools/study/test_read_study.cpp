@@ -75,6 +75,25 @@ TEST_CASE("what is misspelt or of the wrong kind is told with its place")
              Contains("study.json#/quantities/0/take"));
 }
 
+TEST_CASE("more points than a study can have are counted, not made")
+{
+  const auto with_axes = [](int n_axes, int n_values, const std::string& more = "") {
+    Json patch{{"sweep", Json::object()}};
+    for (int i = 0; i < n_axes; ++i) patch["sweep"]["/axis_" + std::to_string(i)] = std::vector<int>(n_values, i);
+    patch.merge_patch(Json::parse(more.empty() ? "{}" : more));
+    return problems_of_study(patch.dump());
+  };
+  CHECK(with_axes(4, 10).empty());
+  CHECK_THAT(with_axes(8, 10), Contains("study.json#/sweep: 100000000 points; expected at most 10000"));
+  CHECK_THAT(with_axes(64, 10), Contains("study.json#/sweep: over 1e15 points"));
+  CHECK_THAT(with_axes(400, 10), Contains("study.json#/sweep: over 1e15 points"));
+  CHECK_THAT(with_axes(4, 10, R"({"methods": [{"name": "a"}, {"name": "b"}]})"), Contains("#/sweep: 20000 points"));
+  CHECK_THAT(with_axes(4, 10, R"({"methods": [{"name": "a", "sweep": {"/b": [1]}}, {"name": "b"}],
+                                 "points": [{"method": "a", "set": {}}]})"),
+             Contains("#/sweep: 10002 points"));
+  CHECK_THAT(with_axes(4, 10, R"({"reference": {"set": {}}})"), Contains("#/sweep: 10001 points"));
+}
+
 TEST_CASE("columns and budgets need the reference that they are measured by")
 {
   CHECK_THAT(problems_of_study(R"({"quantities": [{"name": "d", "column": "x", "take": "curve"}]})"),

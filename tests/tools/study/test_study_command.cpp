@@ -323,6 +323,7 @@ TEST_CASE("a pointer to nothing ends a study before anything runs")
   const Outcome misspelt = study.run(R"({"sweep": {"/grid/cel_size": [0.1]}})");
   const Outcome nowhere = study.run(R"({"set": {"/materials/sand/tolerance": 1}})");
   const Outcome beyond = study.run(R"({"set": {"/grid/upper/3000000": 1}})");
+  const Outcome endless = study.run(R"({"set": {"/grid/upper/99999999999999999999": 1}})");
   const Outcome refined = study.run(R"({"refine": "/grid/cells"})");
 
   CHECK(misspelt.exit_code == 2);
@@ -330,6 +331,8 @@ TEST_CASE("a pointer to nothing ends a study before anything runs")
   CHECK(nowhere.exit_code == 2);
   CHECK_THAT(nowhere.err, Contains("/materials/sand/tolerance: there is no such place"));
   CHECK(beyond.exit_code == 2);
+  CHECK(endless.exit_code == 2);
+  CHECK_THAT(endless.err, Contains("/grid/upper/99999999999999999999: there is no such place"));
   CHECK(refined.exit_code == 2);
   CHECK_THAT(refined.err, Contains("study.json#/refine: /grid/cells, which no point sets"));
   CHECK(study.n_kept() == 0);
