@@ -139,33 +139,49 @@ class TableReader
   int line_ = 0;
 };
 
+/// Calls `use_row` with the number and the parts of each line that is not empty and no comment.
+template <class UseRow>
+void for_each_row(const std::filesystem::path& file, const UseRow& use_row)
+{
+  std::istringstream stream(read_input_file(file));
+  int number = 0;
+  for (std::string line; std::getline(stream, line);) {
+    ++number;
+    const std::string_view content = trimmed(line);
+    if (!content.empty() && content.front() != '#') use_row(number, split(content));
+  }
+}
+
 }  // namespace
 
 std::vector<std::pair<std::string, std::vector<double>>> numbers_by_column(const std::filesystem::path& file)
 {
   std::vector<std::pair<std::string, std::vector<double>>> columns;
-  std::istringstream stream(read_input_file(file));
-  for (std::string line; std::getline(stream, line);) {
-    const std::string_view content = trimmed(line);
-    if (content.empty() || content.front() == '#') continue;
-    const std::vector<std::string_view> parts = split(content);
-    const bool first = columns.empty();
-    for (std::size_t i = 0; first && i < parts.size(); ++i) columns.emplace_back(parts[i], std::vector<double>{});
-    for (std::size_t i = 0; !first && i < std::min(parts.size(), columns.size()); ++i) {
-      columns[i].second.push_back(finite_number(parts[i]).value_or(NAN));
+  for_each_row(file, [&](int line, const std::vector<std::string_view>& parts) {
+    if (columns.empty()) {
+      for (const std::string_view name : parts) columns.emplace_back(name, std::vector<double>{});
+      return;
     }
-  }
+    if (parts.size() != columns.size()) {
+      throw InputError({fmt::format("{}:{}", file.string(), line), fmt::format("{} values", parts.size()),
+                        fmt::format("expected {}", columns.size())});
+    }
+    for (std::size_t i = 0; i < parts.size(); ++i) columns[i].second.push_back(finite_number(parts[i]).value_or(NAN));
+  });
   return columns;
 }
 
 std::vector<std::pair<std::string, double>> greatest_of_columns(const std::filesystem::path& file)
 {
   std::vector<std::pair<std::string, double>> all;
-  for (const auto& [name, values] : numbers_by_column(file)) {
-    double greatest = -HUGE_VAL;
-    for (const double value : values) greatest = std::fmax(greatest, value);
-    all.emplace_back(name, greatest);
-  }
+  bool is_heading = true;
+  for_each_row(file, [&](int, const std::vector<std::string_view>& parts) {
+    for (std::size_t i = 0; is_heading && i < parts.size(); ++i) all.emplace_back(parts[i], -HUGE_VAL);
+    for (std::size_t i = 0; !is_heading && i < std::min(parts.size(), all.size()); ++i) {
+      all[i].second = std::fmax(all[i].second, finite_number(parts[i]).value_or(NAN));
+    }
+    is_heading = false;
+  });
   return all;
 }
 

@@ -20,10 +20,12 @@ Table read_csv_table(const std::filesystem::path& file, const std::vector<std::s
 std::pair<Table, std::size_t> read_csv_table(const std::filesystem::path& file,
                                              const std::vector<std::vector<std::string>>& headings);
 
-/// Each column of such a file by its name, whatever its columns are, with NaN for what is no number.
+/// Each column of such a file by its name, whatever its columns are, with NaN for what is no number. Throws InputError
+/// for a row that is shorter or longer than the first; FileError for a file that cannot be read.
 std::vector<std::pair<std::string, std::vector<double>>> numbers_by_column(const std::filesystem::path& file);
 
-/// Each column of such a file by its name, with the largest of its numbers; what is no number is passed over.
+/// Each column of such a file by its name, with the largest of its numbers; what is no number is passed over, and what
+/// a row has too many or too few of, as any text may be looked at.
 std::vector<std::pair<std::string, double>> greatest_of_columns(const std::filesystem::path& file);
 
 }  // namespace tamp::tools

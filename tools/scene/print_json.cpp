@@ -60,4 +60,9 @@ std::string printed(const Json& value)
   return out;
 }
 
+std::string json_text(const Json& value, int indent)
+{
+  return value.dump(indent, ' ', false, Json::error_handler_t::replace);
+}
+
 }  // namespace tamp::tools

@@ -42,7 +42,7 @@ struct PointResult {
   double limit = 0;
   std::filesystem::path folder;
 
-  /// Read when they are first asked for.
+  /// Read when they are first asked for. Throws FileError where they cannot be, as where a row lacks a number.
   const Columns& columns() const;
 
   /// Median, least and greatest of a cost; empty where it is not known.
@@ -55,8 +55,10 @@ struct PointResult {
   mutable std::shared_ptr<const Columns> read_columns{};
 };
 
-/// The result that a folder keeps; empty where it keeps none.
+/// The result that a folder keeps of the point with its name, the key of its measurement; empty where there is no such
+/// folder. Throws FileError, which names the file, where one of the folder's files is not what was written.
 std::optional<PointResult> read_result(const std::filesystem::path& folder);
-void write_result(const PointResult& result);
+/// Keeps the result of the point with this key in its folder, with checksums of all that is there.
+void write_result(const PointResult& result, const std::string& key);
 
 }  // namespace tamp::tools::study

@@ -81,15 +81,15 @@ class FieldsOfMaterial
       : study_(study),
         quantity_(quantity),
         file_(result.folder / "fields.h5", runtime::hdf5::OpenFile::Access::read, "cannot read fields"),
-        last_(file_.members(runtime::hdf5::MemberOrder::by_name).back())
+        last_(last_output())
   {
   }
 
   /// A number of each particle: of a field of numbers, or a component of one of vectors.
   std::vector<double> values() const
   {
-    if (!quantity_.component) return numbers(quantity_.field, 1);
-    const std::vector<double> vectors = numbers(quantity_.field, 2);
+    if (!quantity_.component) return numbers(quantity_.field);
+    const std::vector<double> vectors = numbers_of_vectors(quantity_.field);
     std::vector<double> values;
     for (std::size_t i = static_cast<std::size_t>(*quantity_.component); i < vectors.size(); i += 3) {
       values.push_back(vectors[i]);
@@ -97,15 +97,32 @@ class FieldsOfMaterial
     return values;
   }
   /// Three of each particle.
-  std::vector<double> positions() const { return numbers("position", 2); }
+  std::vector<double> positions() const { return numbers_of_vectors("position"); }
 
  private:
-  std::vector<double> numbers(const std::string& field, std::size_t rank) const
+  std::string last_output() const
+  {
+    const std::vector<std::string> outputs = file_.members(runtime::hdf5::MemberOrder::by_name);
+    if (outputs.empty()) throw runtime::FileError(file_.file().string(), "has no output of fields");
+    return outputs.back();
+  }
+
+  std::vector<double> numbers(const std::string& field) const
+  {
+    return read(field, [](const auto& dimensions) { return dimensions.size() == 1; });
+  }
+  std::vector<double> numbers_of_vectors(const std::string& field) const
+  {
+    return read(field, [](const auto& dimensions) { return dimensions.size() == 2 && dimensions[1] == 3; });
+  }
+
+  template <class IsOfShape>
+  std::vector<double> read(const std::string& field, const IsOfShape& is_of_shape) const
   {
     const std::string path = fmt::format("{}/particles/{}/{}", last_, quantity_.material, field);
     std::vector<double> values;
     try {
-      if (file_.info(path).dimensions.size() == rank) values = file_.read<double>(path);
+      if (is_of_shape(file_.info(path).dimensions)) values = file_.read<double>(path);
     } catch (const runtime::FileError&) {
       // Told below, in the study's words.
     }
@@ -133,6 +150,9 @@ double distance_from_line(const Study& study, const Quantity& quantity, const Po
 {
   const FieldsOfMaterial fields(study, quantity, result);
   const std::vector<double> values = fields.values(), positions = fields.positions();
+  if (positions.size() != 3 * values.size()) {
+    throw runtime::FileError((result.folder / "fields.h5").string(), "has not a position of each particle");
+  }
   double sum = 0;
   for (std::size_t p = 0; p < values.size(); ++p) {
     double expected = quantity.line.front();

@@ -73,7 +73,7 @@ class PointRunner
     if (task == nullptr) {
       tasks_.push_back(std::make_unique<Task>(Task{&measurement, point.name()}));
       task = tasks_.back().get();
-      task->result = kept(measurement.key);
+      task->result = kept(*task);
       if (point.role == Point::Role::chart && task->result) note_time(*task->result);
     }
     const bool in_chart = point.role == Point::Role::chart;
@@ -96,12 +96,17 @@ class PointRunner
  private:
   fs::path folder_of(const std::string& key) const { return cache_ / key; }
 
-  /// A result that has all that the study asks for.
-  std::optional<PointResult> kept(const std::string& key) const
+  /// A result that has all that the study asks for. One that is damaged is none, and told of.
+  std::optional<PointResult> kept(const Task& task) const
   {
-    auto result = read_result(folder_of(key));
-    if (result && result->end == End::done && !has_all(study_, *result)) return std::nullopt;
-    return result;
+    try {
+      auto result = read_result(folder_of(task.measurement->key));
+      if (result && result->end == End::done && !has_all(study_, *result)) return std::nullopt;
+      return result;
+    } catch (const runtime::FileError& damage) {
+      print_err("tamp: warning: {}: {}: it is run again\n", task.label, damage.what());
+      return std::nullopt;
+    }
   }
 
   /// Whether a point that took too long has more time now.
@@ -143,7 +148,7 @@ class PointRunner
     }
     if (was_done) result.costs.insert(result.costs.begin(), task.result->costs.begin(), task.result->costs.end());
     if (result.end == End::done) expect_all(study_, result);
-    write_result(result);
+    write_result(result, task.measurement->key);
     fs::remove_all(folder);
     fs::rename(fresh, folder);
     result.folder = folder;

@@ -2,14 +2,13 @@
 
 #include <fmt/format.h>
 
-#include <fstream>
-
 #include "runtime/file_error.hpp"
 #include "runtime/storage/whole_file.hpp"
 #include "tools/errors.hpp"
 #include "tools/machine.hpp"
 #include "tools/scene/document.hpp"
 #include "tools/scene/input_file.hpp"
+#include "tools/scene/parse_json.hpp"
 #include "tools/version.hpp"
 
 namespace tamp::tools::study
@@ -27,6 +26,21 @@ std::string program_hash()
 {
   static const std::string hash = hash_of(read_input_file("/proc/self/exe"));
   return hash;
+}
+
+/// Of a mark, without its line break; empty for what is no file.
+std::string content_of(const fs::path& mark)
+{
+  if (!fs::is_regular_file(mark)) return "";
+  const std::string text = read_input_file(mark);
+  return text.substr(0, text.find('\n'));
+}
+
+/// A mark may hold anything.
+std::string told(const std::string& content)
+{
+  constexpr std::size_t most = 300;
+  return content.empty() ? "its mark is empty or no file" : utf8(content.substr(0, most));
 }
 
 bool holds_no_file(const fs::path& folder)
@@ -69,18 +83,18 @@ StudyFolder::StudyFolder(const fs::path& folder, bool force) : folder_(folder)
 
 void StudyFolder::expect_own_program(bool force) const
 {
-  const Json own{{"program", program_hash()}, {"version", version()}, {"processor", machine_json()["processor"]}};
-  const Json mark = Json::parse(std::ifstream(folder_ / study_mark), nullptr, false);
-  if (fs::exists(folder_ / study_mark) && mark != own) {
+  const std::string own =
+      Json{{"program", program_hash()}, {"version", version()}, {"processor", machine_json()["processor"]}}.dump();
+  const fs::path mark = folder_ / study_mark;
+  if (fs::exists(mark) && content_of(mark) != own) {
     if (!force) {
       throw InputError(
-          {folder_.string(), fmt::format("results of another program or processor: {}", mark.dump()),
-           fmt::format("expected results of this one, {}; --force removes them, --out names another folder",
-                       own.dump())});
+          {folder_.string(), "results of another program or processor: " + told(content_of(mark)),
+           fmt::format("expected results of this one, {}; --force removes them, --out names another folder", own)});
     }
     fs::remove_all(points());
   }
-  runtime::write_whole_file(folder_ / study_mark, own.dump() + "\n");
+  runtime::write_whole_file(mark, own + "\n");
 }
 
 }  // namespace tamp::tools::study

@@ -1,7 +1,10 @@
 #include "tools/study/quantities.hpp"
 
+#include <hdf5.h>
+
 #include <catch2/catch.hpp>
 
+#include "runtime/file_error.hpp"
 #include "tests/tools/problems.hpp"
 
 namespace test_quantities
@@ -97,6 +100,26 @@ TEST_CASE("a column that is not there is told, with those that are")
                                    taken({"speed", Take::last, "speed[m/s]"});
                                  }),
              Catch::Contains("there is no column \"speed[m/s]\"; expected one of depth[m], time[s]"));
+}
+
+TEST_CASE("a history with a row of another length is refused, with the row")
+{
+  const std::string short_row = "0,1\n1\n2,3\n", long_row = "0,1\n1,2,3\n";
+  CHECK_THROWS_WITH(taken(depth(Take::last), short_row), Catch::Contains("history.csv:3: 1 values"));
+  CHECK_THROWS_AS(taken(depth(Take::curve), short_row), runtime::FileError);
+  CHECK_THROWS_WITH(taken(depth(Take::last), long_row), Catch::Contains("history.csv:3: 3 values"));
+}
+
+TEST_CASE("fields without outputs are refused")
+{
+  const TemporaryFolder folder;
+  const std::string file = (folder.path() / "fields.h5").string();
+  H5Fclose(H5Fcreate(file.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT));
+  Quantity lowest{"lowest", Take::quantile, ""};
+  lowest.field = "position";
+
+  CHECK_THROWS_WITH(answer_of(Study{}, lowest, PointResult{End::done, "", {}, 1, folder.path()}),
+                    Catch::Contains("fields.h5: has no output of fields"));
 }
 
 TEST_CASE("the unit of a quantity is its column's")

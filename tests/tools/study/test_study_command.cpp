@@ -1,3 +1,7 @@
+#include <hdf5.h>
+#include <sys/stat.h>
+
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <csignal>
@@ -6,6 +10,7 @@
 #include "tests/tools/background_program.hpp"
 #include "tests/tools/program.hpp"
 #include "tests/tools/scene/small_scene.hpp"
+#include "tools/scene/input_file.hpp"
 
 namespace test_study_command
 {
@@ -55,6 +60,15 @@ class FlightStudy
   Json results() const { return Json::parse(read_text(out() / "study.json")); }
   const std::filesystem::path& path() const { return folder_.path(); }
   std::filesystem::path out() const { return path() / "out"; }
+  /// The folder of the kept point that is first by name.
+  std::filesystem::path kept_point() const
+  {
+    std::filesystem::path first;
+    for (const auto& entry : std::filesystem::directory_iterator(out() / "points")) {
+      if (entry.is_directory() && (first.empty() || entry.path() < first)) first = entry.path();
+    }
+    return first;
+  }
   std::size_t n_kept() const
   {
     std::size_t n = 0;
@@ -68,6 +82,56 @@ class FlightStudy
  private:
   TemporaryFolder folder_;
 };
+
+using Damage = void (*)(const std::filesystem::path&);
+
+void emptied(const std::filesystem::path& file)
+{
+  std::filesystem::resize_file(file, 0);
+}
+void half(const std::filesystem::path& file)
+{
+  std::filesystem::resize_file(file, std::filesystem::file_size(file) / 2);
+}
+void removed(const std::filesystem::path& file)
+{
+  std::filesystem::remove(file);
+}
+void a_pipe(const std::filesystem::path& file)
+{
+  removed(file);
+  REQUIRE(mkfifo(file.c_str(), 0600) == 0);
+}
+/// The file stays as long as it is.
+void in_the_last_digit(const std::filesystem::path& file)
+{
+  std::string text = read_text(file);
+  char& digit = text[text.find_last_of("0123456789")];
+  digit = digit == '9' ? '0' : '9';
+  std::ofstream(file) << text;
+}
+void without_outputs(const std::filesystem::path& file)
+{
+  removed(file);
+  H5Fclose(H5Fcreate(file.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT));
+}
+void cheaper(const std::filesystem::path& file)
+{
+  Json result = Json::parse(read_text(file));
+  result["costs"][0]["core_s"] = 1e-9;
+  std::ofstream(file) << result;
+}
+/// As no program wrote it, with a checksum that holds.
+void without_files(const std::filesystem::path& file)
+{
+  nlohmann::ordered_json result{{"key", file.parent_path().filename().string()}};
+  result["checksum"] = tamp::tools::hash_of(result.dump());
+  std::ofstream(file) << result;
+}
+void a_list(const std::filesystem::path& file)
+{
+  std::ofstream(file) << "[]";
+}
 
 }  // namespace
 
@@ -233,21 +297,59 @@ TEST_CASE("a run that somebody kills is no result")
   CHECK(study.n_kept() == 0);
 }
 
-TEST_CASE("damaged results are measured anew")
+TEST_CASE("a kept point whose files are not what was written is run again, and told of once")
+{
+  const FlightStudy study;
+  // Its points are one, so that one is told of.
+  const std::string patch = R"({"methods": [{"name": "a"}, {"name": "b"}], "sweep": null, "quantities": [
+    {"name": "depth", "column": "block.depth[m]", "take": "greatest", "exact": 0.1},
+    {"name": "lowest", "take": "quantile", "quantile": 0, "field": "position", "component": 1, "material": "steel"}]})";
+  REQUIRE(study.run(patch).exit_code == 0);
+  const Json before = study.results()["points"][0]["values"];
+  const auto [name, damage, said] = GENERATE(table<std::string, Damage, std::string>({
+      {"history.csv", in_the_last_digit, "is not what was written"},
+      {"history.csv", half, "is not what was written"},
+      {"history.csv", removed, "is missing"},
+      {"fields.h5", without_outputs, "is not what was written"},
+      {"fields.h5", half, "is not what was written"},
+      {"fields.h5", a_pipe, "is no file"},
+      {"summary.json", emptied, "is not what was written"},
+      {"result.json", emptied, "parse error"},
+      {"result.json", half, "parse error"},
+      {"result.json", removed, "no such file"},
+      {"result.json", a_pipe, "a pipe"},
+      {"result.json", cheaper, "is not what its checksum says"},
+      {"result.json", without_files, "is no result"},
+      {"result.json", a_list, "has no checksum"},
+  }));
+  damage(study.kept_point() / name);
+
+  const Outcome outcome = study.run(patch);
+
+  INFO(name << ": " << outcome.err);
+  CHECK(outcome.exit_code == 0);
+  CHECK(study.results()["points"][0]["values"] == before);
+  const std::string place = "tamp: warning: a: " + (study.kept_point() / name).string();
+  CHECK_THAT(outcome.err, Contains(place) && Contains(said) && Contains("it is run again"));
+  CHECK(std::count(outcome.err.begin(), outcome.err.end(), '\n') == 1);
+  CHECK(study.run(patch).err.empty());
+}
+
+TEST_CASE("a kept point under another one's name is run again")
 {
   const FlightStudy study;
   REQUIRE(study.run().exit_code == 0);
-  const std::string damage = GENERATE("", "[]", R"({"ended": "weird", "reason": "", "costs": [], "limit_s": 1})",
-                                      R"({"ended": "done", "reason": "", "costs": [], "limit_s": 1})");
-  for (const auto& entry : std::filesystem::directory_iterator(study.out() / "points")) {
-    if (std::filesystem::is_directory(entry)) std::ofstream(entry.path() / "result.json") << damage;
-  }
+  const std::string table = read_text(study.out() / "points.csv");
+  const auto first = study.kept_point(), aside = study.path() / "aside";
+  std::filesystem::rename(first, aside);
+  std::filesystem::copy(study.kept_point(), first);
 
   const Outcome outcome = study.run();
 
-  INFO(damage << ": " << outcome.err);
   CHECK(outcome.exit_code == 0);
-  CHECK(study.results()["points"][0]["errors"]["depth"].get<double>() < 1e-9);
+  CHECK_THAT(outcome.err, Contains("result.json: is of another point: it is run again"));
+  CHECK(Json::parse(read_text(first / "summary.json"))["steps"] ==
+        Json::parse(read_text(aside / "summary.json"))["steps"]);
 }
 
 TEST_CASE("a study that is killed goes on where it was")
@@ -306,6 +408,23 @@ TEST_CASE("results of another program are refused, and removed only when asked")
   CHECK(n_kept == 3);
   CHECK(forced.exit_code == 0);
   CHECK_FALSE(std::filesystem::exists(study.out() / "points" / "old"));
+}
+
+TEST_CASE("a mark that says nothing, or something else, is another program's")
+{
+  const FlightStudy study;
+  REQUIRE(study.run().exit_code == 0);
+  const std::string content = GENERATE("", "\n", "{", "\xff", "[]", "null");
+  std::ofstream(study.out() / ".tamp-study") << content;
+
+  const Outcome refused = study.run();
+  const Outcome forced = study.run("{}", "--force");
+
+  INFO(content << ": " << refused.err);
+  CHECK(refused.exit_code == 2);
+  CHECK_THAT(refused.err, Contains("results of another program or processor: ") && Contains("--force"));
+  CHECK(forced.exit_code == 0);
+  CHECK(study.run().exit_code == 0);
 }
 
 TEST_CASE("a folder that is no study's is left alone")
