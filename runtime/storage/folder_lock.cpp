@@ -7,13 +7,15 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <chrono>
+#include <cmath>
 #include <csignal>
 #include <cstring>
 #include <ctime>
-#include <fstream>
+#include <sstream>
 #include <system_error>
 #include <utility>
 
@@ -38,6 +40,7 @@ class Descriptor
   {
     if (descriptor_ >= 0) ::close(descriptor_);
   }
+  Descriptor(Descriptor&& other) noexcept : descriptor_(other.release()) {}
   Descriptor(const Descriptor&) = delete;
   Descriptor& operator=(const Descriptor&) = delete;
 
@@ -74,11 +77,29 @@ std::time_t now_in(const std::filesystem::path& folder)
   return made.st_mtime;
 }
 
-/// What a lock file says; what it does not say, because it was not written to its end, stays empty.
-LockHolder holder_in(const std::filesystem::path& file)
+/// The lock that is there, open; not good where there is none. Throws FileError for what is no file, which is not
+/// opened: a pipe would wait for a writer.
+Descriptor existing_lock(const std::filesystem::path& file)
+{
+  struct stat found {
+  };
+  if (lstat(file.c_str(), &found) != 0) {
+    if (errno != ENOENT) throw FileError(file.string(), std::strerror(errno));
+    return Descriptor(-1);
+  }
+  if (!S_ISREG(found.st_mode)) throw FileError(file.string(), "is no file, as a lock is; remove it");
+  Descriptor lock(::open(file.c_str(), O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC));
+  if (!lock.good() && errno != ENOENT) throw FileError(file.string(), std::strerror(errno));
+  return lock;
+}
+
+/// What a lock says; what it does not say, because it was not written to its end, stays empty.
+LockHolder holder_in(const std::filesystem::path& folder, const Descriptor& lock)
 {
   LockHolder holder;
-  std::ifstream stream(file);
+  std::array<char, 1024> text{};
+  const ssize_t size = ::pread(lock.get(), text.data(), text.size(), 0);
+  std::istringstream stream(std::string(text.data(), static_cast<std::size_t>(std::max<ssize_t>(size, 0))));
   for (std::string word; stream >> word;) {
     if (word == "host") stream >> holder.host;
     if (word == "process") stream >> holder.process;
@@ -86,7 +107,7 @@ LockHolder holder_in(const std::filesystem::path& file)
   }
   struct stat found {
   };
-  if (stat(file.c_str(), &found) == 0) holder.untouched = std::difftime(now_in(file.parent_path()), found.st_mtime);
+  if (fstat(lock.get(), &found) == 0) holder.untouched = std::difftime(now_in(folder), found.st_mtime);
   return holder;
 }
 
@@ -102,10 +123,18 @@ bool has_ended(const LockHolder& holder, int descriptor)
 
 }  // namespace
 
+bool LockHolder::is_silent() const
+{
+  return std::abs(untouched) >= stale_after;
+}
+
 std::string LockHolder::told() const
 {
-  return fmt::format("process {} on {} since {}, last heard of {:.0f} s ago", process,
-                     host.empty() ? "an unknown machine" : host, since.empty() ? "an unknown time" : since, untouched);
+  const std::string heard = untouched > -stale_after
+                                ? fmt::format("last heard of {:.0f} s ago", std::max(untouched, 0.0))
+                                : fmt::format("its lock dated {:.0f} s ahead of now", -untouched);
+  return fmt::format("process {} on {} since {}, {}", process, host.empty() ? "an unknown machine" : host,
+                     since.empty() ? "an unknown time" : since, heard);
 }
 
 FolderLock::FolderLock(const std::filesystem::path& folder) : folder_(folder), file_(folder / file_name)
@@ -139,16 +168,15 @@ void FolderLock::take()
   if (!gate.good()) throw FileError(folder_.string(), std::strerror(errno));
   ::flock(gate.get(), LOCK_EX);
 
-  const Descriptor old(::open(file_.c_str(), O_RDONLY | O_CLOEXEC));
-  if (old.good()) {
-    former_ = holder_in(file_);
-    if (!has_ended(*former_, old.get()) && former_->untouched < stale_after) throw FolderInUse(*former_);
+  if (const Descriptor old = existing_lock(file_); old.good()) {
+    former_ = holder_in(folder_, old);
+    if (!has_ended(*former_, old.get()) && !former_->is_silent()) throw FolderInUse(*former_);
     ::unlink(file_.c_str());
   }
   const std::string text = text_of_own_lock();
   errno = ENOSPC;  // what a short write means
   Descriptor own(::open(file_.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0644));
-  if (!own.good() && errno == EEXIST) throw FolderInUse(holder_in(file_));
+  if (!own.good() && errno == EEXIST) throw FolderInUse(holder_in(folder_, existing_lock(file_)));
   if (!own.good() || ::write(own.get(), text.data(), text.size()) != static_cast<ssize_t>(text.size())) {
     const int cause = errno;
     if (own.good()) ::unlink(file_.c_str());

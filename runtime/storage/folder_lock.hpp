@@ -17,9 +17,11 @@ struct LockHolder {
   long process = 0;
   /// When it took the folder, UTC, such as 2026-11-22T16:40:00Z.
   std::string since;
-  /// Seconds since it last touched its lock.
+  /// Seconds since it last touched its lock; below 0 for a lock that is dated ahead of the folder's clock.
   double untouched = 0;
 
+  /// Whether that is a minute at least, either way: who is alive touches it every ten seconds.
+  bool is_silent() const;
   /// Such as "process 12 on HOST since TIME, last heard of 3 s ago".
   std::string told() const;
 };
@@ -30,14 +32,16 @@ struct FolderInUse : std::runtime_error {
 };
 
 /// Keeps a folder for one program, by the file `run.lock` in it, which is touched every ten seconds. The lock of a
-/// program that has gone, on this machine, or has not touched it for a minute, on any, is taken over. A program that
+/// program that has gone, on this machine, or has not touched it for a minute, on any, is taken over; so is one that is
+/// dated a minute ahead, by a clock that was wrong. A program that
 /// was stopped for so long and goes on finds that it is no longer its own.
 class FolderLock
 {
  public:
   static constexpr const char* file_name = "run.lock";
 
-  /// Throws FolderInUse, and FileError if the file cannot be written or the thread that touches it not be started.
+  /// Throws FolderInUse, and FileError if the file cannot be written, something else has its name, or the thread that
+  /// touches it cannot be started.
   explicit FolderLock(const std::filesystem::path& folder);
   /// Removes the file, if it is still this program's.
   ~FolderLock();

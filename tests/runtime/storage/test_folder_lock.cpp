@@ -1,3 +1,4 @@
+#include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -82,6 +83,33 @@ TEST_CASE("the lock of another machine is taken over when it has not been touche
   const FolderLock lock(folder.path);
 
   CHECK(lock.former_holder()->host == "elsewhere");
+}
+
+TEST_CASE("a lock that is dated far ahead, by whatever clock, is taken over and told of")
+{
+  const TemporaryFolder folder;
+  const fs::path file = folder.path / "run.lock";
+  write_text(file, "host elsewhere\nprocess 12\nsince then\n");
+
+  let_it_be_old(file, std::chrono::seconds(-30));
+  CHECK_THROWS_WITH(FolderLock(folder.path), Catch::Contains("last heard of 0 s ago"));
+  let_it_be_old(file, std::chrono::hours(-24));
+  const FolderLock lock(folder.path);
+
+  CHECK_THAT(lock.former_holder()->told(), Catch::Contains("its lock dated 86") && Catch::Contains("s ahead of now"));
+}
+
+TEST_CASE("a pipe, a folder or a link under a lock's name is refused and left alone")
+{
+  const TemporaryFolder folder;
+  const fs::path file = folder.path / "run.lock";
+  const int kind = GENERATE(0, 1, 2);
+  if (kind == 0) REQUIRE(mkfifo(file.c_str(), 0600) == 0);
+  if (kind == 1) fs::create_directory(file);
+  if (kind == 2) fs::create_symlink("nowhere", file);
+
+  CHECK_THROWS_WITH(FolderLock(folder.path), Catch::Contains("run.lock: is no file"));
+  CHECK(fs::exists(fs::symlink_status(file)));
 }
 
 TEST_CASE("a lock that another program has replaced is no longer its own, and stays when its holder ends")
