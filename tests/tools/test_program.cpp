@@ -1,4 +1,7 @@
+#include <array>
 #include <catch2/catch.hpp>
+#include <string>
+#include <vector>
 
 #include "tests/tools/program.hpp"
 #include "tests/tools/scene/small_scene.hpp"
@@ -27,6 +30,26 @@ TEST_CASE("a command line that cannot be understood ends with 2 and says so on s
     CHECK(outcome.exit_code == 2);
     CHECK(outcome.out.empty());
     CHECK_THAT(outcome.err, Catch::StartsWith("tamp: "));
+  }
+}
+
+TEST_CASE("a number out of its range is refused with the range in words")
+{
+  const std::vector<std::array<std::string, 2>> all{
+      {"bench verify --jobs 0", "--jobs: 0; expected at least 1"},
+      {"run a.json --steps 0", "--steps: 0; expected at least 1"},
+      {"run a.json --steps -3", "--steps: -3; expected at least 1"},
+      {"run a.json --threads 0", "--threads: 0; expected 1 to 1024"},
+      {"run a.json --until nan", "--until: nan; expected above 0"},
+      {"run a.json --wall-limit inf", "--wall-limit: inf; expected above 0"},
+      {"run a.json --balance -1", "--balance: -1; expected at least 0"},
+      {"graph a.json --patch x", "--patch: x; expected at least 0"},
+      {"drive a.json b.csv --increment 1", "--increment: 1; expected 1e-09 to 0.1"},
+      {"bench tasks --message-bytes 1e7", "--message-bytes: 1e7; expected 8 to 1048576"}};
+  for (const auto& [arguments, said] : all) {
+    const Outcome outcome = tamp_with(arguments);
+    CHECK(outcome.exit_code == 2);
+    CHECK(outcome.err == "tamp: " + said + "\n");
   }
 }
 

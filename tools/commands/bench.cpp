@@ -9,6 +9,7 @@
 #include "runtime/ranks/communicator.hpp"
 #include "runtime/storage/whole_file.hpp"
 #include "tools/commands/commands.hpp"
+#include "tools/commands/number_checks.hpp"
 #include "tools/console.hpp"
 #include "tools/errors.hpp"
 #include "tools/output_file.hpp"
@@ -96,7 +97,7 @@ CLI::App* add_verify_command(CLI::App& bench)
   command->add_flag("--quiet", options->quiet, "print no progress and no table");
   command->add_option("--jobs", options->n_jobs, "how many studies run at once; by default as many as there are cores")
       ->option_text("INT")
-      ->check(CLI::PositiveNumber);
+      ->check(is_at_least(1));
   command->callback([options] {
     if (runtime::Communicator::world().size() > 1) {
       throw InputError({"verify", "started on several ranks", "expected one"});
@@ -121,7 +122,7 @@ CLI::App* add_bench_command(CLI::App& app)
           "--rounds", [options](int n) { options->tasks.n_rounds = options->windows.n_rounds = n; },
           "of tasks (15, as far as a minute allows) and of windows of punch and projectile (5): how often each is "
           "measured")
-      ->check(CLI::PositiveNumber);
+      ->check(is_at_least(1));
   command
       ->add_option(
           "--scene", options->windows.scene,
@@ -132,15 +133,15 @@ CLI::App* add_bench_command(CLI::App& app)
       ->add_option("--steps", options->windows.n_steps,
                    "of punch and projectile: steps of a window, instead of a twentieth of the run, or two seconds if "
                    "that is less")
-      ->check(CLI::PositiveNumber);
+      ->check(is_at_least(1));
   command->add_option("--threads", options->tasks.n_threads, "of tasks: numbers of threads, as in 1,2")
       ->delimiter(',')
       ->allow_extra_args(false)
-      ->check(CLI::PositiveNumber);
+      ->check(is_at_least(1));
   command
       ->add_option("--message-bytes", options->tasks.message_bytes,
                    "of tasks on several ranks: data that one sends to the next in a step, a multiple of 8")
-      ->check(CLI::Range(8, 1 << 20))
+      ->check(is_from_to(8, 1 << 20))
       ->check(CLI::Validator(multiple_of_8, ""));
   const CLI::App* verify = add_verify_command(*command);
   command->callback([options, verify] {

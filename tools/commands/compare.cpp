@@ -10,6 +10,7 @@
 #include "tasks/simulation_error.hpp"
 #include "tools/charts.hpp"
 #include "tools/commands/commands.hpp"
+#include "tools/commands/number_checks.hpp"
 #include "tools/compare/comparison_report.hpp"
 #include "tools/compare/peak_memory.hpp"
 #include "tools/console.hpp"
@@ -96,12 +97,12 @@ CLI::App* add_compare_command(CLI::App& app)
   command->add_option("--set", options->assignments, "POINTER=VALUE: replace a value of the scene, may be repeated")
       ->allow_extra_args(false);
   command->add_option("--threads", options->comparison.n_threads, "threads; by default the cores that may be used")
-      ->check(CLI::Range(1, 1024));
+      ->check(is_from_to(1, 1024));
   command->add_option("--until", options->comparison.until, "stop at this simulated time, in seconds")
-      ->check(CLI::PositiveNumber)
+      ->check(is_above_zero())
       ->default_str("the scene's end");
   command->add_option("--steps", options->comparison.max_steps, "stop each model after so many steps")
-      ->check(CLI::PositiveNumber)
+      ->check(is_at_least(1))
       ->default_str("no limit");
   command->add_flag("--force", options->comparison.force, "replace what an earlier comparison left in the folder");
   command->add_flag("--quiet", options->comparison.quiet, "print no progress and no table");

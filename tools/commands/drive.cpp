@@ -8,6 +8,7 @@
 #include "runtime/storage/csv_writer.hpp"
 #include "runtime/storage/whole_file.hpp"
 #include "tools/commands/commands.hpp"
+#include "tools/commands/number_checks.hpp"
 #include "tools/console.hpp"
 #include "tools/drive/columns.hpp"
 #include "tools/drive/drive.hpp"
@@ -80,12 +81,12 @@ CLI::App* add_drive_command(CLI::App& app)
   command->add_option("--set", options->assignments, "POINTER=VALUE: replace a value of the material, may be repeated")
       ->allow_extra_args(false);
   command->add_option("--increment", options->increment, "largest strain of an increment")
-      ->check(CLI::Range(1e-9, 0.1));
+      ->check(is_from_to(1e-9, 0.1));
   command->add_option("--out", options->out, "write to this file");
   CLI::Option* summary =
       command->add_option("--summary", options->summary, "write what the updates cost to this file, as JSON");
   command->add_option("--repeat", options->repeat, "rounds that the updates are timed in for --summary, by default 5")
-      ->check(CLI::Range(1, 1000))
+      ->check(is_from_to(1, 1000))
       ->needs(summary);
   command->callback([options] { drive_point(*options); });
   return command;

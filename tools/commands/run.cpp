@@ -7,6 +7,7 @@
 
 #include "tools/commands/checks.hpp"
 #include "tools/commands/commands.hpp"
+#include "tools/commands/number_checks.hpp"
 #include "tools/console.hpp"
 #include "tools/run/signals.hpp"
 #include "tools/scene/read_scene.hpp"
@@ -50,15 +51,15 @@ void apply_schedule(const std::string& schedule, RunOptions& run)
 void add_checkpoint_options(CLI::App& command, CheckpointPolicy& policy)
 {
   command.add_option("--checkpoint-steps", policy.steps, "keep the state every so many steps")
-      ->check(CLI::PositiveNumber)
+      ->check(is_at_least(1))
       ->default_str("never");
   command.add_option("--checkpoint-time", policy.simulated, "and every so many seconds of simulated time")
-      ->check(CLI::PositiveNumber)
+      ->check(is_above_zero())
       ->default_str("never");
   command.add_option("--checkpoint-wall", policy.wall, "and every so many seconds of the clock")
-      ->check(CLI::PositiveNumber);
+      ->check(is_above_zero());
   command.add_option("--checkpoint-keep", policy.keep, "how many checkpoints stay, the newest")
-      ->check(CLI::Range(1, 1000));
+      ->check(is_from_to(1, 1000));
 }
 
 void expect_few_checkpoints(const CheckpointPolicy& policy, double end)
@@ -98,17 +99,17 @@ CLI::App* add_run_command(CLI::App& app)
   command->add_option("--set", options->assignments, "POINTER=VALUE: replace a value of the scene, may be repeated")
       ->allow_extra_args(false);
   command->add_option("--threads", options->n_threads, "threads of each rank")
-      ->check(CLI::Range(1, 1024))
+      ->check(is_from_to(1, 1024))
       ->default_str("its share of the cores");
   command
       ->add_option("--schedule", options->schedule,
                    "parallel; serial: program order on one thread; shuffle:SEED: random orders that the graph allows")
       ->check(CLI::Validator(schedule_problem, "parallel|serial|shuffle:SEED"));
   command->add_option("--until", options->run.until, "stop at this simulated time, in seconds")
-      ->check(CLI::PositiveNumber)
+      ->check(is_above_zero())
       ->default_str("the scene's end");
   command->add_option("--steps", options->run.max_steps, "stop after so many steps")
-      ->check(CLI::PositiveNumber)
+      ->check(is_at_least(1))
       ->default_str("no limit");
   CLI::Option* force =
       command->add_flag("--force", options->run.force, "replace what an earlier run left in the folder");
@@ -121,15 +122,15 @@ CLI::App* add_run_command(CLI::App& app)
   command
       ->add_option("--balance", options->run.balance_interval,
                    "steps between two looks at the load of the ranks; 0: patches stay where they are")
-      ->check(CLI::NonNegativeNumber);
+      ->check(is_at_least(0));
   command
       ->add_option("--stall-limit", options->run.executor.stall.limit,
                    "seconds in which nothing completes, after which the run tells what it waits for, and ends")
-      ->check(CLI::PositiveNumber);
+      ->check(is_above_zero());
   command
       ->add_option("--wall-limit", options->run.wall_limit,
                    "stop after so many seconds of the clock, with the state kept for --restart")
-      ->check(CLI::PositiveNumber)
+      ->check(is_above_zero())
       ->default_str("no limit");
   command
       ->add_option("--trace-steps", options->run.n_traced_steps,
