@@ -14,6 +14,7 @@
 #include "tools/errors.hpp"
 #include "tools/output_file.hpp"
 #include "tools/scene/input_file.hpp"
+#include "tools/scene/print_json.hpp"
 #include "tools/shipped_inputs.hpp"
 #include "tools/verify/verify.hpp"
 
@@ -76,7 +77,7 @@ void run_benchmarks(const BenchArguments& options)
     if (ranks.is_first()) print_out("{}", result.text);
     json[name] = result.json;
   }
-  if (ranks.is_first() && !options.json.empty()) runtime::write_whole_file(options.json, json.dump(2) + "\n");
+  if (ranks.is_first() && !options.json.empty()) runtime::write_whole_file(options.json, json_text(json, 2) + "\n");
 }
 
 /// What is wrong with a number of bytes that is to hold whole values.

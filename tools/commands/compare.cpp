@@ -15,6 +15,7 @@
 #include "tools/compare/peak_memory.hpp"
 #include "tools/console.hpp"
 #include "tools/run/forecast.hpp"
+#include "tools/scene/print_json.hpp"
 #include "tools/usable_cores.hpp"
 
 namespace tamp::tools
@@ -48,7 +49,7 @@ std::vector<std::optional<std::size_t>> measure_memory(const CompareArguments& o
 void write(const compare::Comparison& comparison, const std::filesystem::path& folder)
 {
   runtime::write_whole_file(folder / "compare.csv", to_csv(comparison));
-  runtime::write_whole_file(folder / "compare.json", to_json(comparison).dump(1) + "\n");
+  runtime::write_whole_file(folder / "compare.json", json_text(to_json(comparison), 1) + "\n");
 }
 
 /// The models that went wrong, in the way of a single run.

@@ -15,6 +15,7 @@
 #include "tools/drive/drive_costs.hpp"
 #include "tools/drive/read_path.hpp"
 #include "tools/output_file.hpp"
+#include "tools/scene/print_json.hpp"
 #include "tools/scene/read_material.hpp"
 
 namespace tamp::tools
@@ -42,7 +43,7 @@ void write_summary(const DriveCosts& costs, const std::filesystem::path& file)
                                        {"modulus_evaluations", costs.counts.modulus_evaluations},
                                        {"evaluations_per_update", per_update(costs.counts.modulus_evaluations)},
                                        {"ns_per_update", costs.ns_per_update}};
-  runtime::write_whole_file(file, summary.dump(2) + "\n");
+  runtime::write_whole_file(file, json_text(summary, 2) + "\n");
 }
 
 void drive_point(const DriveArguments& options)

@@ -14,6 +14,7 @@
 #include "tools/output_file.hpp"
 #include "tools/scene/file_kind.hpp"
 #include "tools/scene/parse_json.hpp"
+#include "tools/scene/print_json.hpp"
 #include "tools/scene/read_material.hpp"
 #include "tools/scene/read_modulus.hpp"
 #include "tools/scene/read_network.hpp"
@@ -129,7 +130,7 @@ void write_costs(const AskedModel& model, const ModulusStates& states, const std
   const ModulusCosts costs = modulus_costs(model.modulus, model.form, states, n_rounds);
   const nlohmann::ordered_json summary{
       {"evaluations", costs.n_evaluations}, {"ns_per_evaluation", costs.ns_per_evaluation}, {"bytes", costs.bytes}};
-  runtime::write_whole_file(file, summary.dump(2) + "\n");
+  runtime::write_whole_file(file, json_text(summary, 2) + "\n");
 }
 
 void answer_states(const ModulusArguments& options)

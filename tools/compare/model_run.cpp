@@ -8,6 +8,7 @@
 
 #include "runtime/storage/whole_file.hpp"
 #include "tasks/simulation_error.hpp"
+#include "tools/scene/print_json.hpp"
 
 namespace tamp::tools::compare
 {
@@ -34,7 +35,7 @@ ModelRun::ModelRun(const ModelScene& scene, const Extent& extent, const std::fil
       sands_(sands_of(simulation_->scene()))
 {
   history_.begin(folder);
-  runtime::write_whole_file(folder / "scene.json", scene.scene.resolved.dump(2) + "\n");
+  runtime::write_whole_file(folder / "scene.json", json_text(scene.scene.resolved, 2) + "\n");
   result_.name = scene.name;
   add_sample();
 }

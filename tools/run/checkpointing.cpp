@@ -10,6 +10,7 @@
 #include "tools/console.hpp"
 #include "tools/errors.hpp"
 #include "tools/scene/parse_json.hpp"
+#include "tools/scene/print_json.hpp"
 
 namespace tamp::tools
 {
@@ -103,7 +104,7 @@ std::string fingerprint(const CheckedScene& scene)
   for (const InputFile& input : scene.inputs) {
     if (!input.pointer.empty() && !input.hash.empty()) inputs[input.pointer] = input.hash;
   }
-  return Json{{"scene", hash_of(essence(scene.resolved, scene.inputs).dump())}, {"inputs", inputs}}.dump();
+  return Json{{"scene", hash_of(json_text(essence(scene.resolved, scene.inputs)))}, {"inputs", inputs}}.dump();
 }
 
 runtime::FoundCheckpoint checkpoint_to_restart(const std::filesystem::path& run_folder, const CheckedScene& scene,

@@ -29,6 +29,7 @@
 #include "tools/run/signals.hpp"
 #include "tools/scene/compiled_moduli.hpp"
 #include "tools/scene/plausibility.hpp"
+#include "tools/scene/print_json.hpp"
 #include "tools/statistics.hpp"
 #include "tools/usable_cores.hpp"
 
@@ -123,7 +124,8 @@ class Runner
       history_.begin(options.folder);
       machine_history_.begin(options.folder);
     }
-    on_first_rank([&] { runtime::write_whole_file(options_.folder / "scene.json", checked_.resolved.dump(2) + "\n"); });
+    on_first_rank(
+        [&] { runtime::write_whole_file(options_.folder / "scene.json", json_text(checked_.resolved, 2) + "\n"); });
   }
 
   void run()
@@ -372,7 +374,7 @@ class Runner
                     {status, reason, seconds_since(start_), median({step_seconds_.begin(), step_seconds_.end()}),
                      restarted_at_, output_.in_background(), output_time, forecast_, checked_.inputs, warnings_});
     on_first_rank([&] {
-      runtime::write_whole_file(options_.folder / "summary.json", told.dump(2) + "\n");
+      runtime::write_whole_file(options_.folder / "summary.json", json_text(told, 2) + "\n");
       runtime::write_whole_file(options_.folder / "profile.json", json.dump(1) + "\n");
     });
     // Last, as it may be large, and a run can do without.

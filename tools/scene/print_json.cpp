@@ -18,11 +18,11 @@ bool is_flat(const Json& value)
 /// The value on one line, its parts separated by blanks.
 std::string on_one_line(const Json& value)
 {
-  if (!value.is_structured()) return value.dump();
+  if (!value.is_structured()) return json_text(value);
   std::string text;
   for (const auto& [key, member] : value.items()) {
     if (!text.empty()) text += ", ";
-    if (value.is_object()) text += Json(key).dump() + ": ";
+    if (value.is_object()) text += json_text(key) + ": ";
     text += on_one_line(member);
   }
   if (value.is_array()) return "[" + text + "]";
@@ -45,7 +45,7 @@ void print(const Json& value, std::size_t indent, std::string& out)
     out += first ? "\n" : ",\n";
     first = false;
     out += blanks;
-    if (value.is_object()) out += Json(key).dump() + ": ";
+    if (value.is_object()) out += json_text(key) + ": ";
     print(member, indent + 2, out);
   }
   out += '\n' + std::string(indent, ' ') + (value.is_array() ? ']' : '}');

@@ -6,6 +6,7 @@
 #include <map>
 
 #include "tools/scene/input_file.hpp"
+#include "tools/scene/print_json.hpp"
 #include "tools/scene/read_material.hpp"
 #include "tools/scene/read_scene.hpp"
 
@@ -106,7 +107,7 @@ Measurement measurement_of(const Study& study, const Settings& settings)
 {
   Measurement measurement{"", "", command_of(study, settings)};
   try {
-    std::string text = resolved(study.measure, settings).dump() + std::to_string(study.n_threads);
+    std::string text = json_text(resolved(study.measure, settings)) + std::to_string(study.n_threads);
     if (!study.measure.along.empty()) {
       text += read_input_file(study.measure.along) + fmt::format("{}", study.measure.increment);
     }

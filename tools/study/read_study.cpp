@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "tools/scene/json_reader.hpp"
+#include "tools/scene/parse_json.hpp"
 #include "tools/study/points.hpp"
 #include "tools/study/study.hpp"
 #include "tools/study/study_keys.hpp"
@@ -489,7 +490,10 @@ class StudyReader
     if (!value.is_string()) return value;
     const std::filesystem::path file = document_.file().parent_path() / value.get<std::string>();
     std::error_code none;
-    return std::filesystem::is_regular_file(file, none) ? Json(from_here(file).string()) : value;
+    if (!std::filesystem::is_regular_file(file, none)) return value;
+    const std::string path = from_here(file).string();
+    if (utf8(path) == path) return path;
+    throw InputError({document_.file().string(), "a setting that names " + path, "expected a path that is UTF-8"});
   }
 
   static std::filesystem::path from_here(const std::filesystem::path& file)

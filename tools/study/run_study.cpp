@@ -6,6 +6,7 @@
 #include "tasks/simulation_error.hpp"
 #include "tools/charts.hpp"
 #include "tools/console.hpp"
+#include "tools/scene/print_json.hpp"
 #include "tools/shell_word.hpp"
 #include "tools/study/run_points.hpp"
 #include "tools/study/study_folder.hpp"
@@ -49,7 +50,7 @@ StudyResults measure_all(const Study& study, const StudyOptions& options, const 
 void write(const StudyResults& results, const std::filesystem::path& folder)
 {
   runtime::write_whole_file(folder / "points.csv", to_csv(results));
-  runtime::write_whole_file(folder / "study.json", to_json(results).dump(1) + "\n");
+  runtime::write_whole_file(folder / "study.json", json_text(to_json(results), 1) + "\n");
   if (!results.gates.empty()) runtime::write_whole_file(folder / "gates.csv", gates_to_csv(results));
 }
 

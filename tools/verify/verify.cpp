@@ -13,6 +13,7 @@
 #include "tools/console.hpp"
 #include "tools/errors.hpp"
 #include "tools/machine.hpp"
+#include "tools/scene/print_json.hpp"
 #include "tools/shipped_inputs.hpp"
 #include "tools/usable_cores.hpp"
 #include "tools/verify/verification_table.hpp"
@@ -115,7 +116,7 @@ void verify(const VerifyOptions& options)
   const Json json{{"program", version_text()}, {"machine", machine_json()},    {"short", options.in_short},
                   {"failures", failures},      {"known_misses", known_misses}, {"held_misses", held_misses},
                   {"studies", studies}};
-  runtime::write_whole_file(options.folder / "verification.json", json.dump(1) + "\n");
+  runtime::write_whole_file(options.folder / "verification.json", json_text(json, 1) + "\n");
   runtime::write_whole_file(options.folder / "verification.md", table);
   if (!options.quiet) print_out("{}", table);
   for (const std::string& held : held_misses) {

@@ -410,6 +410,30 @@ TEST_CASE("results of another program are refused, and removed only when asked")
   CHECK_FALSE(std::filesystem::exists(study.out() / "points" / "old"));
 }
 
+TEST_CASE("paths that are no UTF-8 are told in JSON with a mark, and are no settings")
+{
+  const FlightStudy study;
+  const std::string odd = (study.path() / "odd\xff").string(), file = odd + "/st\xfe.json";
+  study.arguments(R"({"sweep": null})");
+  std::filesystem::create_directory(odd);
+  std::filesystem::copy(study.path() / "flight.json", odd + "/flight.json");
+  std::filesystem::copy(study.path() / "study.json", file);
+
+  const Outcome run = tamp_with("run " + odd + "/flight.json --quiet --steps 1 --out " + odd + "/run\xfe");
+  const Outcome swept = tamp_with("study " + file + " --quiet --out " + odd + "/out");
+  study.arguments(R"({"sweep": null, "set": {"/title": "flight.json"}})");
+  std::filesystem::copy(study.path() / "study.json", odd + "/set.json");
+  const Outcome set = tamp_with("study " + odd + "/set.json --quiet --out " + odd + "/none");
+
+  CHECK(run.err.empty());
+  CHECK(run.exit_code == 0);
+  CHECK(swept.err.empty());
+  CHECK(swept.exit_code == 0);
+  CHECK(Json::parse(read_text(odd + "/out/study.json"))["name"] == "st\xef\xbf\xbd");
+  CHECK(set.exit_code == 2);
+  CHECK_THAT(set.err, Contains("expected a path that is UTF-8"));
+}
+
 TEST_CASE("a mark that says nothing, or something else, is another program's")
 {
   const FlightStudy study;
