@@ -97,6 +97,17 @@ void write_whole_file(const fs::path& file, std::string_view content)
   whole.publish();
 }
 
+void expect_writable(const fs::path& file)
+{
+  std::error_code none;
+  if (fs::is_directory(file, none)) throw FileError(file.string(), std::strerror(EISDIR));
+  if (!is_stream(end_of_links(file))) {
+    const WholeFile forgotten(file);
+  } else if (access(file.c_str(), W_OK) != 0) {
+    throw FileError(file.string(), std::strerror(errno));
+  }
+}
+
 std::filesystem::path name_aside(const std::filesystem::path& file)
 {
   const std::string first = file.string() + ".damaged";

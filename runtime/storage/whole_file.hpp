@@ -44,6 +44,9 @@ class WholeFile
 /// Writes a whole file at once.
 void write_whole_file(const std::filesystem::path& file, std::string_view content);
 
+/// Throws FileError where a file cannot be written whole: what takes long to find out asks before.
+void expect_writable(const std::filesystem::path& file);
+
 /// FILE.damaged, or the first of FILE.damaged.2, FILE.damaged.3 ... that is not there yet.
 std::filesystem::path name_aside(const std::filesystem::path& file);
 

@@ -69,10 +69,11 @@ std::vector<std::string> names_of(const BenchArguments& options, int n_ranks)
 void run_benchmarks(const BenchArguments& options)
 {
   const auto ranks = runtime::Communicator::world();
+  const std::vector<std::string> names = names_of(options, ranks.size());
   if (!options.windows.scene.empty()) expect_input_file(options.windows.scene);
   if (ranks.is_first()) expect_outputs({{"--json", options.json}});
   nlohmann::ordered_json json;
-  for (const std::string& name : names_of(options, ranks.size())) {
+  for (const std::string& name : names) {
     const bench::Result result = benchmarks().at(name)(options);
     if (ranks.is_first()) print_out("{}", result.text);
     json[name] = result.json;

@@ -47,6 +47,12 @@ StudyResults measure_all(const Study& study, const StudyOptions& options, const 
   return results;
 }
 
+/// Before hours of runs, not after them.
+void expect_writable_results(const std::filesystem::path& folder)
+{
+  for (const char* name : {"points.csv", "study.json", "gates.csv"}) runtime::expect_writable(folder / name);
+}
+
 void write(const StudyResults& results, const std::filesystem::path& folder)
 {
   runtime::write_whole_file(folder / "points.csv", to_csv(results));
@@ -73,6 +79,7 @@ void run_study(const StudyOptions& options)
   const std::filesystem::path folder =
       options.folder.empty() ? std::filesystem::path("studies") / study.file.stem() : options.folder;
   const StudyFolder own(folder, options.force);
+  expect_writable_results(folder);
   const StudyResults results = measure_all(study, options, own.points());
   write(results, folder);
   if (!options.quiet) print_out("{}", to_text(results));

@@ -51,7 +51,9 @@ std::vector<fs::path> chosen_studies(const std::vector<std::string>& names)
       throw InputError(
           {name, "no study of inputs/verification", fmt::format("expected one of {}", fmt::join(known, ", "))});
     }
-    chosen.push_back(all[static_cast<std::size_t>(at - known.begin())]);
+    const fs::path& file = all[static_cast<std::size_t>(at - known.begin())];
+    // One named twice runs once: both would write into one folder.
+    if (std::find(chosen.begin(), chosen.end(), file) == chosen.end()) chosen.push_back(file);
   }
   return chosen;
 }
@@ -78,10 +80,19 @@ void expect_study(const std::string& name, const Child& child, const ChildEnd& e
   failures.push_back(name + ": " + said);
 }
 
+/// Before the studies run, not after them.
+void make_folder(const fs::path& folder)
+{
+  std::error_code error;
+  fs::create_directories(folder, error);
+  if (error) throw runtime::FileError(folder.string(), error.message());
+  for (const char* name : {"verification.json", "verification.md"}) runtime::expect_writable(folder / name);
+}
+
 /// Processes of their own, as HDF5 works on one thread at a time. Returns what went wrong with references.
 std::vector<std::string> run_studies(const VerifyOptions& options, const std::vector<fs::path>& files)
 {
-  fs::create_directories(options.folder);
+  make_folder(options.folder);
   std::vector<Child> children;
   for (const fs::path& file : files) children.push_back(study_command(options, file));
   std::vector<std::string> failures;

@@ -460,6 +460,21 @@ TEST_CASE("a folder that is no study's is left alone")
   CHECK(read_text(study.out() / "letter.txt") == "dear");
 }
 
+TEST_CASE("results that cannot be written are refused before anything runs")
+{
+  const FlightStudy study;
+  std::filesystem::create_directories(study.out());
+  std::ofstream(study.out() / ".tamp-study");
+  const auto name = GENERATE("points.csv", "study.json", "gates.csv");
+  std::filesystem::create_directory(study.out() / name);
+
+  const Outcome outcome = study.run("{}", "--force");
+
+  CHECK(outcome.exit_code == 4);
+  CHECK_THAT(outcome.err, Contains(std::string(name) + ": Is a directory"));
+  CHECK(study.n_kept() == 0);
+}
+
 TEST_CASE("a pointer to nothing ends a study before anything runs")
 {
   const FlightStudy study;

@@ -142,6 +142,27 @@ TEST_CASE("a verification that is asked to stop ends the studies under way, and 
   for (const pid_t child : children) CHECK_FALSE(is_running(child));
 }
 
+TEST_CASE("a study that is named twice runs once")
+{
+  const Studies studies;
+
+  const Outcome outcome = studies.verify("sound sound --short --quiet --jobs 2");
+
+  INFO(outcome.err);
+  CHECK(outcome.exit_code == 0);
+  CHECK(studies.results()["studies"].size() == 1);
+}
+
+TEST_CASE("a verification into a folder that cannot be made is refused before anything runs")
+{
+  const Studies studies;
+  for (const std::string out : {"inputs/verification/sound.json/out", "inputs/verification/sound.json", "/proc/none"}) {
+    const Outcome outcome = outcome_of("env " + studies.in_background("sound --out " + out));
+    CHECK(outcome.exit_code == 4);
+    CHECK_THAT(outcome.err, Catch::StartsWith("tamp: " + out + ": "));
+  }
+}
+
 TEST_CASE("a verification of a study that there is not is refused before anything runs")
 {
   const Studies studies;
