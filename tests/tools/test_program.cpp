@@ -36,14 +36,18 @@ TEST_CASE("a command line that cannot be understood ends with 2 and says so on s
 TEST_CASE("a number out of its range is refused with the range in words")
 {
   const std::vector<std::array<std::string, 2>> all{
-      {"bench verify --jobs 0", "--jobs: 0; expected at least 1"},
-      {"run a.json --steps 0", "--steps: 0; expected at least 1"},
-      {"run a.json --steps -3", "--steps: -3; expected at least 1"},
+      {"bench verify --jobs 0", "--jobs: 0; expected a whole number, at least 1"},
+      {"run a.json --steps 0", "--steps: 0; expected a whole number, at least 1"},
+      {"run a.json --steps 99999999999999999999", "--steps: 99999999999999999999; expected a whole number, at least 1"},
+      {"run a.json --trace-steps some", "--trace-steps: some; expected a whole number, at least 0"},
+      {"run a.json --restart ''", "--restart: nothing; expected a name"},
+      {"run a.json --out ''", "--out: nothing; expected a name"},
+      {"run a.json --steps -3", "--steps: -3; expected a whole number, at least 1"},
       {"run a.json --threads 0", "--threads: 0; expected 1 to 1024"},
       {"run a.json --until nan", "--until: nan; expected above 0"},
       {"run a.json --wall-limit inf", "--wall-limit: inf; expected above 0"},
-      {"run a.json --balance -1", "--balance: -1; expected at least 0"},
-      {"graph a.json --patch x", "--patch: x; expected at least 0"},
+      {"run a.json --balance -1", "--balance: -1; expected a whole number, at least 0"},
+      {"graph a.json --patch x", "--patch: x; expected a whole number, at least 0"},
       {"drive a.json b.csv --increment 1", "--increment: 1; expected 1e-09 to 0.1"},
       {"bench tasks --message-bytes 1e7", "--message-bytes: 1e7; expected 8 to 1048576"}};
   for (const auto& [arguments, said] : all) {

@@ -9,7 +9,7 @@
 #include "runtime/ranks/communicator.hpp"
 #include "runtime/storage/whole_file.hpp"
 #include "tools/commands/commands.hpp"
-#include "tools/commands/number_checks.hpp"
+#include "tools/commands/option_checks.hpp"
 #include "tools/console.hpp"
 #include "tools/errors.hpp"
 #include "tools/output_file.hpp"
@@ -99,7 +99,7 @@ CLI::App* add_verify_command(CLI::App& bench)
   command->add_flag("--quiet", options->quiet, "print no progress and no table");
   command->add_option("--jobs", options->n_jobs, "how many studies run at once; by default as many as there are cores")
       ->option_text("INT")
-      ->check(is_at_least(1));
+      ->check(is_whole_from(1));
   command->callback([options] {
     if (runtime::Communicator::world().size() > 1) {
       throw InputError({"verify", "started on several ranks", "expected one"});
@@ -124,7 +124,7 @@ CLI::App* add_bench_command(CLI::App& app)
           "--rounds", [options](int n) { options->tasks.n_rounds = options->windows.n_rounds = n; },
           "of tasks (15, as far as a minute allows) and of windows of punch and projectile (5): how often each is "
           "measured")
-      ->check(is_at_least(1));
+      ->check(is_whole_from(1));
   command
       ->add_option(
           "--scene", options->windows.scene,
@@ -135,11 +135,11 @@ CLI::App* add_bench_command(CLI::App& app)
       ->add_option("--steps", options->windows.n_steps,
                    "of punch and projectile: steps of a window, instead of a twentieth of the run, or two seconds if "
                    "that is less")
-      ->check(is_at_least(1));
+      ->check(is_whole_from(1));
   command->add_option("--threads", options->tasks.n_threads, "of tasks: numbers of threads, as in 1,2")
       ->delimiter(',')
       ->allow_extra_args(false)
-      ->check(is_at_least(1));
+      ->check(is_whole_from(1));
   command
       ->add_option("--message-bytes", options->tasks.message_bytes,
                    "of tasks on several ranks: data that one sends to the next in a step, a multiple of 8")

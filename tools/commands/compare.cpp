@@ -10,7 +10,7 @@
 #include "tasks/simulation_error.hpp"
 #include "tools/charts.hpp"
 #include "tools/commands/commands.hpp"
-#include "tools/commands/number_checks.hpp"
+#include "tools/commands/option_checks.hpp"
 #include "tools/compare/comparison_report.hpp"
 #include "tools/compare/peak_memory.hpp"
 #include "tools/console.hpp"
@@ -103,7 +103,7 @@ CLI::App* add_compare_command(CLI::App& app)
       ->check(is_above_zero())
       ->default_str("the scene's end");
   command->add_option("--steps", options->comparison.max_steps, "stop each model after so many steps")
-      ->check(is_at_least(1))
+      ->check(is_whole_from(1))
       ->default_str("no limit");
   command->add_flag("--force", options->comparison.force, "replace what an earlier comparison left in the folder");
   command->add_flag("--quiet", options->comparison.quiet, "print no progress and no table");

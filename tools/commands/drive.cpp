@@ -8,7 +8,7 @@
 #include "runtime/storage/csv_writer.hpp"
 #include "runtime/storage/whole_file.hpp"
 #include "tools/commands/commands.hpp"
-#include "tools/commands/number_checks.hpp"
+#include "tools/commands/option_checks.hpp"
 #include "tools/console.hpp"
 #include "tools/drive/columns.hpp"
 #include "tools/drive/drive.hpp"

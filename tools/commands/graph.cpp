@@ -6,7 +6,7 @@
 #include "runtime/storage/whole_file.hpp"
 #include "tasks/simulation.hpp"
 #include "tools/commands/commands.hpp"
-#include "tools/commands/number_checks.hpp"
+#include "tools/commands/option_checks.hpp"
 #include "tools/console.hpp"
 #include "tools/errors.hpp"
 #include "tools/output_file.hpp"
@@ -56,7 +56,7 @@ CLI::App* add_graph_command(CLI::App& app)
       ->allow_extra_args(false);
   command->add_option("--format", options->format, "dot, for graphviz, or json")->check(CLI::IsMember({"dot", "json"}));
   command->add_option("--out", options->out, "write to this file");
-  command->add_option("--patch", options->patch, "only this patch and what it touches (dot)")->check(is_at_least(0));
+  command->add_option("--patch", options->patch, "only this patch and what it touches (dot)")->check(is_whole_from(0));
   command->callback([options] { dump_graph(*options); });
   return command;
 }

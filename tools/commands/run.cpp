@@ -5,9 +5,8 @@
 #include <map>
 #include <memory>
 
-#include "tools/commands/checks.hpp"
 #include "tools/commands/commands.hpp"
-#include "tools/commands/number_checks.hpp"
+#include "tools/commands/option_checks.hpp"
 #include "tools/console.hpp"
 #include "tools/run/signals.hpp"
 #include "tools/scene/read_scene.hpp"
@@ -51,7 +50,7 @@ void apply_schedule(const std::string& schedule, RunOptions& run)
 void add_checkpoint_options(CLI::App& command, CheckpointPolicy& policy)
 {
   command.add_option("--checkpoint-steps", policy.steps, "keep the state every so many steps")
-      ->check(is_at_least(1))
+      ->check(is_whole_from(1))
       ->default_str("never");
   command.add_option("--checkpoint-time", policy.simulated, "and every so many seconds of simulated time")
       ->check(is_above_zero())
@@ -95,7 +94,7 @@ CLI::App* add_run_command(CLI::App& app)
   command->add_option("SCENE", options->scene, "the scene's JSON file")->required();
   CLI::Option* out =
       command->add_option("--out", options->out, "the run's folder; by default runs/ and the scene's name")
-          ->check(not_empty());
+          ->check(is_not_empty());
   command->add_option("--set", options->assignments, "POINTER=VALUE: replace a value of the scene, may be repeated")
       ->allow_extra_args(false);
   command->add_option("--threads", options->n_threads, "threads of each rank")
@@ -109,20 +108,20 @@ CLI::App* add_run_command(CLI::App& app)
       ->check(is_above_zero())
       ->default_str("the scene's end");
   command->add_option("--steps", options->run.max_steps, "stop after so many steps")
-      ->check(is_at_least(1))
+      ->check(is_whole_from(1))
       ->default_str("no limit");
   CLI::Option* force =
       command->add_flag("--force", options->run.force, "replace what an earlier run left in the folder");
   CLI::Option* restart =
       command->add_option("--restart", options->restart, "go on in this run's folder, from its newest checkpoint")
-          ->check(not_empty())
+          ->check(is_not_empty())
           ->excludes(out)
           ->excludes(force);
   add_checkpoint_options(*command, options->run.checkpoints);
   command
       ->add_option("--balance", options->run.balance_interval,
                    "steps between two looks at the load of the ranks; 0: patches stay where they are")
-      ->check(is_at_least(0));
+      ->check(is_whole_from(0));
   command
       ->add_option("--stall-limit", options->run.executor.stall.limit,
                    "seconds in which nothing completes, after which the run tells what it waits for, and ends")
@@ -137,7 +136,7 @@ CLI::App* add_run_command(CLI::App& app)
                    "steps at the start that trace.json shows task by task, as many as fit into some 30 MB; none: it is "
                    "not written")
       ->transform(CLI::Transformer(std::map<std::string, std::string>{{"none", "0"}}))
-      ->check(CLI::NonNegativeNumber);
+      ->check(is_whole_from(0));
   command->add_flag("--strict", options->run.strict, "let a run that completes with warnings end with exit code 3");
   command->add_flag("--quiet", options->run.quiet, "print no progress and no table");
   command->callback([options, out, restart] {

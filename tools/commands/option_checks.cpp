@@ -1,8 +1,10 @@
-#include "tools/commands/number_checks.hpp"
+#include "tools/commands/option_checks.hpp"
 
 #include <fmt/format.h>
 
+#include <charconv>
 #include <cmath>
+#include <cstdint>
 
 namespace tamp::tools
 {
@@ -23,9 +25,17 @@ CLI::Validator number_check(const std::string& expected, const IsRight& is_right
 
 }  // namespace
 
-CLI::Validator is_at_least(double least)
+CLI::Validator is_whole_from(std::int64_t least)
 {
-  return number_check(fmt::format("at least {}", least), [least](double value) { return value >= least; });
+  const std::string expected = fmt::format("a whole number, at least {}", least);
+  const auto problem = [expected, least](const std::string& text) {
+    std::int64_t value = 0;
+    const char* const end = text.data() + text.size();
+    const auto [at, error] = std::from_chars(text.data(), end, value);
+    const bool is_right = error == std::errc() && at == end && value >= least;
+    return is_right ? "" : fmt::format("{}; expected {}", text, expected);
+  };
+  return CLI::Validator(problem, expected);
 }
 
 CLI::Validator is_above_zero()
@@ -37,6 +47,11 @@ CLI::Validator is_from_to(double least, double most)
 {
   return number_check(fmt::format("{} to {}", least, most),
                       [least, most](double value) { return value >= least && value <= most; });
+}
+
+CLI::Validator is_not_empty()
+{
+  return CLI::Validator([](const std::string& text) { return text.empty() ? "nothing; expected a name" : ""; }, "");
 }
 
 }  // namespace tamp::tools

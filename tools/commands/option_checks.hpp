@@ -1,0 +1,19 @@
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <cstdint>
+
+/// Checks of what is on the command line, which say in words what they expect. No number may be nan or inf.
+namespace tamp::tools
+{
+
+/// A whole number that fits.
+CLI::Validator is_whole_from(std::int64_t least);
+CLI::Validator is_above_zero();
+/// Both ends belong to it.
+CLI::Validator is_from_to(double least, double most);
+
+/// A name: what a shell makes of a variable that is not set is none.
+CLI::Validator is_not_empty();
+
+}  // namespace tamp::tools
