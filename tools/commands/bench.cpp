@@ -8,6 +8,7 @@
 
 #include "runtime/ranks/communicator.hpp"
 #include "runtime/storage/whole_file.hpp"
+#include "tools/command_line/help_text.hpp"
 #include "tools/commands/commands.hpp"
 #include "tools/commands/option_checks.hpp"
 #include "tools/console.hpp"
@@ -93,13 +94,16 @@ CLI::App* add_verify_command(CLI::App& bench)
       "verify", "Hold the methods against exact answers: the studies of inputs/verification, and what they expect");
   const auto options = std::make_shared<verify::VerifyOptions>();
   command->add_option("NAME", options->names, "which studies; all without a name");
-  command->add_option("--out", options->folder, "holds a folder for each study, verification.json and verification.md");
+  command->add_option("--out", options->folder, "holds a folder for each study, verification.json and verification.md")
+      ->type_name("DIR");
   command->add_flag("--short", options->in_short, "the studies' short forms");
   command->add_flag("--force", options->force, "remove results of another program from the folders");
   command->add_flag("--quiet", options->quiet, "print no progress and no table");
   command->add_option("--jobs", options->n_jobs, "how many studies run at once; by default as many as there are cores")
       ->option_text("INT")
       ->check(is_whole_from(1));
+  command->footer(examples({{"tamp bench verify bar --short", "one study in its short form"},
+                            {"tamp bench verify --jobs 2", "all of them"}}));
   command->callback([options] {
     if (runtime::Communicator::world().size() > 1) {
       throw InputError({"verify", "started on several ranks", "expected one"});
@@ -117,8 +121,8 @@ CLI::App* add_bench_command(CLI::App& app)
   const auto options = std::make_shared<BenchArguments>();
   std::vector<std::string> known;
   for (const auto& [name, benchmark] : benchmarks()) known.push_back(name);
-  command->add_option("NAME", options->names, "which benchmarks; all without a name")->check(CLI::IsMember(known));
-  command->add_option("--json", options->json, "write the results to this file too");
+  command->add_option("NAME", options->names, "which benchmarks; all without a name")->check(is_one_of(known));
+  command->add_option("--json", options->json, "write the results to this file too")->type_name("FILE");
   command
       ->add_option_function<int>(
           "--rounds", [options](int n) { options->tasks.n_rounds = options->windows.n_rounds = n; },
@@ -145,6 +149,8 @@ CLI::App* add_bench_command(CLI::App& app)
                    "of tasks on several ranks: data that one sends to the next in a step, a multiple of 8")
       ->check(is_from_to(8, 1 << 20))
       ->check(CLI::Validator(multiple_of_8, ""));
+  command->footer(examples({{"tamp bench moduli", "Table, SVR and MLP by evaluation"},
+                            {"tamp bench punch --json punch.json", "windows of the quick punch"}}));
   const CLI::App* verify = add_verify_command(*command);
   command->callback([options, verify] {
     if (!verify->parsed()) run_benchmarks(*options);

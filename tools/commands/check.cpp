@@ -5,6 +5,8 @@
 #include <variant>
 
 #include "tasks/set_up/body_sites.hpp"
+#include "tools/command_line/assignments.hpp"
+#include "tools/command_line/help_text.hpp"
 #include "tools/commands/commands.hpp"
 #include "tools/console.hpp"
 #include "tools/run/forecast.hpp"
@@ -76,9 +78,11 @@ CLI::App* add_check_command(CLI::App& app)
   CLI::App* command =
       app.add_subcommand("check", "Check a scene, print it with every default filled in, count particles");
   const auto options = std::make_shared<CheckArguments>();
-  command->add_option("SCENE", options->scene, "the scene's JSON file")->required();
-  command->add_option("--set", options->assignments, "POINTER=VALUE: replace a value of the scene, may be repeated")
-      ->allow_extra_args(false);
+  command->add_option("SCENE", options->scene, "the scene's JSON file")->type_name("FILE")->required();
+  add_assignments(*command, options->assignments, "scene");
+  command->footer(
+      examples({{"tamp check inputs/punch/quick.json", "the scene resolved, its particles, memory and time"},
+                {"tamp check inputs/punch/quick.json --set /grid/cell_size=0.0125", "the same on finer cells"}}));
   command->callback([options] { check(*options); });
   return command;
 }

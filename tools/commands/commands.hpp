@@ -17,5 +17,9 @@ CLI::App* add_compare_command(CLI::App& app);
 CLI::App* add_modulus_command(CLI::App& app);
 CLI::App* add_study_command(CLI::App& app);
 CLI::App* add_bench_command(CLI::App& app);
+CLI::App* add_help_command(CLI::App& app);
+CLI::App* add_version_command(CLI::App& app);
+CLI::App* add_completion_command(CLI::App& app);
+CLI::App* add_man_command(CLI::App& app);
 
 }  // namespace tamp::tools

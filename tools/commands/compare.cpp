@@ -9,6 +9,8 @@
 #include "runtime/storage/whole_file.hpp"
 #include "tasks/simulation_error.hpp"
 #include "tools/charts.hpp"
+#include "tools/command_line/assignments.hpp"
+#include "tools/command_line/help_text.hpp"
 #include "tools/commands/commands.hpp"
 #include "tools/commands/option_checks.hpp"
 #include "tools/compare/comparison_report.hpp"
@@ -88,15 +90,15 @@ CLI::App* add_compare_command(CLI::App& app)
   CLI::App* command = app.add_subcommand("compare", "Run a scene with several models of the sand, and compare them");
   const auto options = std::make_shared<CompareArguments>();
   options->comparison.n_threads = usable_cores().of_machine;
-  command->add_option("SCENE", options->scene, "the scene's JSON file")->required();
+  command->add_option("SCENE", options->scene, "the scene's JSON file")->type_name("FILE")->required();
   command
       ->add_option("--models", options->models,
                    fmt::format("models, with commas between: {}", fmt::join(compare::model_names(), ", ")))
       ->delimiter(',')
       ->allow_extra_args(false);
-  command->add_option("--out", options->out, "the comparison's folder; by default compare/ and the scene's name");
-  command->add_option("--set", options->assignments, "POINTER=VALUE: replace a value of the scene, may be repeated")
-      ->allow_extra_args(false);
+  command->add_option("--out", options->out, "the comparison's folder; by default compare/ and the scene's name")
+      ->type_name("DIR");
+  add_assignments(*command, options->assignments, "scene");
   command->add_option("--threads", options->comparison.n_threads, "threads; by default the cores that may be used")
       ->check(is_from_to(1, 1024));
   command->add_option("--until", options->comparison.until, "stop at this simulated time, in seconds")
@@ -107,6 +109,9 @@ CLI::App* add_compare_command(CLI::App& app)
       ->default_str("no limit");
   command->add_flag("--force", options->comparison.force, "replace what an earlier comparison left in the folder");
   command->add_flag("--quiet", options->comparison.quiet, "print no progress and no table");
+  command->footer(
+      examples({{"tamp compare inputs/punch/quick.json --models table,svr,mlp", "cost and results of all three"},
+                {"tamp compare inputs/punch/quick.json --steps 500 --out compare/short", "the first steps only"}}));
   command->callback([options] { compare_models(*options); });
   return command;
 }

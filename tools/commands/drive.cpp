@@ -7,6 +7,8 @@
 
 #include "runtime/storage/csv_writer.hpp"
 #include "runtime/storage/whole_file.hpp"
+#include "tools/command_line/assignments.hpp"
+#include "tools/command_line/help_text.hpp"
 #include "tools/commands/commands.hpp"
 #include "tools/commands/option_checks.hpp"
 #include "tools/console.hpp"
@@ -79,16 +81,20 @@ CLI::App* add_drive_command(CLI::App& app)
   const auto options = std::make_shared<DriveArguments>();
   command->add_option("MATERIAL", options->material, "the material's JSON file")->required();
   command->add_option("PATH", options->path, "CSV (time,F11,F12,...,F33), or prescribed-deformation text")->required();
-  command->add_option("--set", options->assignments, "POINTER=VALUE: replace a value of the material, may be repeated")
-      ->allow_extra_args(false);
+  add_assignments(*command, options->assignments, "material");
   command->add_option("--increment", options->increment, "largest strain of an increment")
       ->check(is_from_to(1e-9, 0.1));
-  command->add_option("--out", options->out, "write to this file");
+  command->add_option("--out", options->out, "write to this file")->type_name("FILE");
   CLI::Option* summary =
-      command->add_option("--summary", options->summary, "write what the updates cost to this file, as JSON");
+      command->add_option("--summary", options->summary, "write what the updates cost to this file, as JSON")
+          ->type_name("FILE");
   command->add_option("--repeat", options->repeat, "rounds that the updates are timed in for --summary, by default 5")
       ->check(is_from_to(1, 1000))
       ->needs(summary);
+  command->footer(examples(
+      {{"tamp drive inputs/materials/concrete-sand/table.json path.csv --out answer.csv", "stresses along the path"},
+       {"tamp drive inputs/materials/concrete-sand/mlp.json path.csv --summary cost.json",
+        "and what an update costs"}}));
   command->callback([options] { drive_point(*options); });
   return command;
 }

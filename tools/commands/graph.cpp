@@ -5,6 +5,8 @@
 #include "runtime/graph/dump.hpp"
 #include "runtime/storage/whole_file.hpp"
 #include "tasks/simulation.hpp"
+#include "tools/command_line/assignments.hpp"
+#include "tools/command_line/help_text.hpp"
 #include "tools/commands/commands.hpp"
 #include "tools/commands/option_checks.hpp"
 #include "tools/console.hpp"
@@ -51,12 +53,14 @@ CLI::App* add_graph_command(CLI::App& app)
 {
   CLI::App* command = app.add_subcommand("graph", "Dump the task graph of a scene's time step");
   const auto options = std::make_shared<GraphArguments>();
-  command->add_option("SCENE", options->scene, "the scene's JSON file")->required();
-  command->add_option("--set", options->assignments, "POINTER=VALUE: replace a value of the scene, may be repeated")
-      ->allow_extra_args(false);
-  command->add_option("--format", options->format, "dot, for graphviz, or json")->check(CLI::IsMember({"dot", "json"}));
-  command->add_option("--out", options->out, "write to this file");
+  command->add_option("SCENE", options->scene, "the scene's JSON file")->type_name("FILE")->required();
+  add_assignments(*command, options->assignments, "scene");
+  command->add_option("--format", options->format, "dot, for graphviz, or json")->check(is_one_of({"dot", "json"}));
+  command->add_option("--out", options->out, "write to this file")->type_name("FILE");
   command->add_option("--patch", options->patch, "only this patch and what it touches (dot)")->check(is_whole_from(0));
+  command->footer(examples(
+      {{"tamp graph inputs/punch/quick.json --patch 0 | dot -Tsvg > graph.svg", "what one patch does in a step"},
+       {"tamp graph inputs/punch/quick.json --format json --out graph.json", "for other programs"}}));
   command->callback([options] { dump_graph(*options); });
   return command;
 }

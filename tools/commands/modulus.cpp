@@ -7,6 +7,8 @@
 
 #include "components/materials/tabular_cap.hpp"
 #include "runtime/storage/whole_file.hpp"
+#include "tools/command_line/assignments.hpp"
+#include "tools/command_line/help_text.hpp"
 #include "tools/commands/commands.hpp"
 #include "tools/console.hpp"
 #include "tools/errors.hpp"
@@ -166,25 +168,30 @@ CLI::App* add_modulus_command(CLI::App& app)
                    "a material (JSON), or a model: unloading curves (CSV), a published table or support-vector "
                    "regression (JSON), a Keras network (HDF5)")
       ->required();
-  CLI::Option* at =
-      command
-          ->add_option("--at", options->at,
-                       "EE,EP: elastic and plastic volumetric strain, compression positive, may be repeated")
-          ->allow_extra_args(false);
+  CLI::Option* at = command
+                        ->add_option("--at", options->at,
+                                     "elastic and plastic volumetric strain, compression positive, may be repeated")
+                        ->type_name("EE,EP")
+                        ->allow_extra_args(false);
   CLI::Option* states =
       command
           ->add_option("--states", options->states,
                        "CSV (elastic_volumetric[-],plastic_volumetric[-], with pressure[Pa],bulk_modulus[Pa] where "
                        "measured): answers in the form of the material's elastic_update, and how far they are off")
           ->excludes(at);
-  command->add_option("--out", options->out, "write what --states answers to this file")->needs(states);
+  command->add_option("--out", options->out, "write what --states answers to this file")
+      ->type_name("FILE")
+      ->needs(states);
   command->add_option("--summary", options->summary, "write what an evaluation of --states costs to this file, as JSON")
       ->needs(states);
-  command->add_option("--set", options->assignments, "POINTER=VALUE: replace a value of the material, may be repeated")
-      ->allow_extra_args(false);
+  add_assignments(*command, options->assignments, "material");
   command->add_option("--nu", options->poisson_ratio, "Poisson's ratio; the material's, or 0.189 for a model's file");
   command->add_option("--scaling", options->scaling,
                       "mean_e,sd_e,mean_p,sd_p,mean_K,sd_K: what a network's file was standardised with, if not in it");
+  command->footer(
+      examples({{"tamp modulus inputs/materials/concrete-sand/table.json --at 0.01,0 --at 0.02,0.01", "two states"},
+                {"tamp modulus inputs/materials/concrete-sand/mlp.json --states states.csv --out answers.csv",
+                 "a table of states"}}));
   command->callback([options] { answer(*options); });
   return command;
 }

@@ -1,10 +1,14 @@
 #include "tools/commands/option_checks.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <cstdint>
+
+#include "tools/command_line/suggestions.hpp"
 
 namespace tamp::tools
 {
@@ -47,6 +51,27 @@ CLI::Validator is_from_to(double least, double most)
 {
   return number_check(fmt::format("{} to {}", least, most),
                       [least, most](double value) { return value >= least && value <= most; });
+}
+
+CLI::Validator is_one_of(const std::vector<std::string>& choices)
+{
+  const auto problem = [choices](const std::string& text) -> std::string {
+    if (std::find(choices.begin(), choices.end(), text) != choices.end()) return "";
+    const auto meant = closest(text, choices);
+    return fmt::format("{}; {}", text,
+                       meant ? "did you mean " + *meant + "?" : fmt::format("expected {}", fmt::join(choices, " or ")));
+  };
+  return CLI::Validator(problem, fmt::format("{{{}}}", fmt::join(choices, ",")));
+}
+
+CLI::Validator none_is_zero()
+{
+  return CLI::Validator(
+      [](std::string& text) {
+        if (text == "none") text = "0";
+        return std::string();
+      },
+      "");
 }
 
 CLI::Validator is_not_empty()

@@ -2,6 +2,8 @@
 
 #include <CLI/CLI.hpp>
 #include <cstdint>
+#include <string>
+#include <vector>
 
 /// Checks of what is on the command line, which say in words what they expect. No number may be nan or inf.
 namespace tamp::tools
@@ -13,6 +15,9 @@ CLI::Validator is_above_zero();
 /// Both ends belong to it.
 CLI::Validator is_from_to(double least, double most);
 
+CLI::Validator is_one_of(const std::vector<std::string>& choices);
+/// Reads the word none as 0.
+CLI::Validator none_is_zero();
 /// A name: what a shell makes of a variable that is not set is none.
 CLI::Validator is_not_empty();
 

@@ -5,7 +5,9 @@
 
 #include "runtime/file_error.hpp"
 #include "runtime/profile/report.hpp"
+#include "tools/command_line/help_text.hpp"
 #include "tools/commands/commands.hpp"
+#include "tools/commands/option_checks.hpp"
 #include "tools/console.hpp"
 #include "tools/scene/parse_json.hpp"
 
@@ -41,8 +43,10 @@ CLI::App* add_profile_command(CLI::App& app)
 {
   CLI::App* command = app.add_subcommand("profile", "Show where the time of a run went");
   const auto options = std::make_shared<ProfileArguments>();
-  command->add_option("RUN_DIR", options->folder, "the run's folder")->required();
-  command->add_option("--format", options->format, "text or json")->check(CLI::IsMember({"text", "json"}));
+  command->add_option("RUN_DIR", options->folder, "the run's folder")->type_name("DIR")->required();
+  command->add_option("--format", options->format, "text or json")->check(is_one_of({"text", "json"}));
+  command->footer(examples({{"tamp profile runs/punch", "the tasks, the most expensive first"},
+                            {"tamp profile runs/punch --format json", "as it was written"}}));
   command->callback([options] { print_out("{}", told(*options)); });
   return command;
 }

@@ -1,7 +1,13 @@
 #include "tools/commands/program.hpp"
 
-#include <sstream>
+#include <fmt/format.h>
 
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "tools/command_line/help_text.hpp"
+#include "tools/command_line/suggestions.hpp"
 #include "tools/commands/commands.hpp"
 #include "tools/console.hpp"
 #include "tools/report_failure.hpp"
@@ -15,6 +21,7 @@ int run_program(int argc, char** argv, const runtime::Communicator& ranks)
   CLI::App app("Material point simulations of things driven into sand, on a task graph.", "tamp");
   app.set_version_flag("--version", version_text());
   app.require_subcommand(1);
+  app.formatter(std::make_shared<HelpFormatter>());
   app.option_defaults()->always_capture_default();
   add_run_command(app);
   add_check_command(app);
@@ -26,8 +33,15 @@ int run_program(int argc, char** argv, const runtime::Communicator& ranks)
   add_modulus_command(app);
   add_study_command(app);
   add_bench_command(app);
+  add_help_command(app);
+  add_version_command(app);
+  add_completion_command(app);
+  add_man_command(app);
+  app.footer(examples({{"tamp run inputs/punch/quick.json", "the punch, into runs/quick"},
+                       {"tamp help run", "all that a command takes, with examples"}}));
 
   try {
+    expect_known_words(app, {argv + 1, argv + argc});
     app.parse(argc, argv);
   } catch (const CLI::Success& asked) {  // --help, --version
     if (!runtime::Communicator::world().is_first()) return 0;
@@ -35,6 +49,10 @@ int run_program(int argc, char** argv, const runtime::Communicator& ranks)
     const int code = app.exit(asked, text);
     write_out(text.str());
     return code;
+  } catch (const CLI::RequiredError& missing) {
+    return report_failure(fmt::format("{}; see tamp help {}", missing.what(), argv[1]), ExitCode::bad_input, ranks);
+  } catch (const CLI::ExtrasError& extra) {
+    return report_failure(fmt::format("{}; see tamp help {}", extra.what(), argv[1]), ExitCode::bad_input, ranks);
   } catch (const CLI::ParseError& error) {
     return report_failure(error.what(), ExitCode::bad_input, ranks);
   }

@@ -2,14 +2,17 @@
 
 #include <fmt/core.h>
 
-#include <map>
 #include <memory>
 
+#include "tools/command_line/assignments.hpp"
+#include "tools/command_line/command_text.hpp"
+#include "tools/command_line/help_text.hpp"
 #include "tools/commands/commands.hpp"
 #include "tools/commands/option_checks.hpp"
 #include "tools/console.hpp"
 #include "tools/run/signals.hpp"
 #include "tools/scene/read_scene.hpp"
+#include "tools/shell_word.hpp"
 #include "tools/usable_cores.hpp"
 
 namespace tamp::tools
@@ -84,6 +87,15 @@ void look_at_cores(int n_threads, RunOptions& run)
             run.communicator.size() > 1 ? "; mpirun binds ranks to cores unless told --bind-to none" : "");
 }
 
+/// The command that goes on with what this one leaves.
+std::string command_to_go_on(const CLI::App& command, const std::vector<const CLI::Option*>& without,
+                             const RunOptions& run)
+{
+  const int n_ranks = run.communicator.size();
+  return (n_ranks > 1 ? fmt::format("mpirun -np {} ", n_ranks) : "") + command_text(command, without) + " --restart " +
+         shell_word(run.folder.string());
+}
+
 }  // namespace
 
 CLI::App* add_run_command(CLI::App& app)
@@ -91,19 +103,19 @@ CLI::App* add_run_command(CLI::App& app)
   CLI::App* command = app.add_subcommand("run", "Run a scene and write its folder");
   const auto options = std::make_shared<RunArguments>();
   options->run.communicator = runtime::Communicator::world();
-  command->add_option("SCENE", options->scene, "the scene's JSON file")->required();
+  command->add_option("SCENE", options->scene, "the scene's JSON file")->type_name("FILE")->required();
   CLI::Option* out =
       command->add_option("--out", options->out, "the run's folder; by default runs/ and the scene's name")
+          ->type_name("DIR")
           ->check(is_not_empty());
-  command->add_option("--set", options->assignments, "POINTER=VALUE: replace a value of the scene, may be repeated")
-      ->allow_extra_args(false);
+  add_assignments(*command, options->assignments, "scene");
   command->add_option("--threads", options->n_threads, "threads of each rank")
       ->check(is_from_to(1, 1024))
       ->default_str("its share of the cores");
   command
       ->add_option("--schedule", options->schedule,
                    "parallel; serial: program order on one thread; shuffle:SEED: random orders that the graph allows")
-      ->check(CLI::Validator(schedule_problem, "parallel|serial|shuffle:SEED"));
+      ->check(CLI::Validator(schedule_problem, ""));
   command->add_option("--until", options->run.until, "stop at this simulated time, in seconds")
       ->check(is_above_zero())
       ->default_str("the scene's end");
@@ -114,6 +126,7 @@ CLI::App* add_run_command(CLI::App& app)
       command->add_flag("--force", options->run.force, "replace what an earlier run left in the folder");
   CLI::Option* restart =
       command->add_option("--restart", options->restart, "go on in this run's folder, from its newest checkpoint")
+          ->type_name("DIR")
           ->check(is_not_empty())
           ->excludes(out)
           ->excludes(force);
@@ -135,11 +148,16 @@ CLI::App* add_run_command(CLI::App& app)
       ->add_option("--trace-steps", options->run.n_traced_steps,
                    "steps at the start that trace.json shows task by task, as many as fit into some 30 MB; none: it is "
                    "not written")
-      ->transform(CLI::Transformer(std::map<std::string, std::string>{{"none", "0"}}))
+      ->transform(none_is_zero())
       ->check(is_whole_from(0));
   command->add_flag("--strict", options->run.strict, "let a run that completes with warnings end with exit code 3");
   command->add_flag("--quiet", options->run.quiet, "print no progress and no table");
-  command->callback([options, out, restart] {
+  command->footer(examples(
+      {{"tamp run inputs/punch/quick.json --out runs/punch", "the punch, half a minute on two cores"},
+       {"tamp run inputs/punch/quick.json --set /materials/sand/modulus/type=svr", "with another model of the sand"},
+       {"mpirun -np 2 tamp run inputs/uxo/quick.json", "over two ranks"},
+       {"tamp run inputs/punch/quick.json --restart runs/punch", "go on from its newest checkpoint"}}));
+  command->callback([options, command, out, force, restart] {
     note_early_signals();
     const CheckedScene scene = read_scene(options->scene, options->assignments);
     expect_few_checkpoints(options->run.checkpoints, scene.scene.time.end);
@@ -150,6 +168,7 @@ CLI::App* add_run_command(CLI::App& app)
     if (options->run.communicator.size() > 1) {
       options->run.executor.stall.prefix = fmt::format("rank {}: ", options->run.communicator.rank());
     }
+    options->run.command_to_go_on = command_to_go_on(*command, {out, force, restart}, options->run);
     look_at_cores(options->schedule == "parallel" ? options->n_threads : 1, options->run);
     apply_schedule(options->schedule, options->run);
     run(scene, options->run);

@@ -4,7 +4,9 @@
 #include <memory>
 #include <string>
 
+#include "tools/command_line/help_text.hpp"
 #include "tools/commands/commands.hpp"
+#include "tools/commands/option_checks.hpp"
 #include "tools/console.hpp"
 #include "tools/scene/print_json.hpp"
 #include "tools/scene/schema.hpp"
@@ -17,7 +19,8 @@ CLI::App* add_schema_command(CLI::App& app)
   CLI::App* command = app.add_subcommand("schema", "Print the JSON schema of scenes, for editors and validators");
   const auto format = std::make_shared<std::string>("json");
   command->add_option("--format", *format, "json, or markdown: the keys as the tables of docs/scene.md")
-      ->check(CLI::IsMember({"json", "markdown"}));
+      ->check(is_one_of({"json", "markdown"}));
+  command->footer(examples({{"tamp schema > scene.schema.json", "for an editor that completes and checks scenes"}}));
   command->callback([format] {
     print_out("{}",
               *format == "json" ? printed(scene_schema()) + "\n" : fmt::format("{}", fmt::join(key_tables(), "\n")));

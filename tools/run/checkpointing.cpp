@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <cstdio>
+#include <map>
 
 #include "runtime/ranks/on_all_ranks.hpp"
 #include "tools/console.hpp"
@@ -68,16 +69,26 @@ void expect_same_scene(const runtime::FoundCheckpoint& found, const CheckedScene
                     "changed"});
 }
 
+/// The checkpoints of a folder by their steps, as their names have them.
+std::map<std::int64_t, std::filesystem::path> checkpoints_in(const std::filesystem::path& folder)
+{
+  std::map<std::int64_t, std::filesystem::path> all;
+  std::error_code none;
+  for (const auto& entry : std::filesystem::directory_iterator(folder, none)) {
+    long long step = 0;
+    const bool is_checkpoint = std::sscanf(entry.path().filename().c_str(), "step_%lld.h5", &step) == 1;
+    if (is_checkpoint && entry.path().extension() == ".h5") all[step] = entry.path();
+  }
+  return all;
+}
+
 /// Those that were refused are newer than the one that was found; under their names they would count as kept.
 void set_aside_newer(const std::filesystem::path& found, std::int64_t step)
 {
-  std::vector<std::filesystem::path> newer;
-  for (const auto& entry : std::filesystem::directory_iterator(found.parent_path())) {
-    long long other = 0;
-    const bool is_checkpoint = std::sscanf(entry.path().filename().c_str(), "step_%lld.h5", &other) == 1;
-    if (is_checkpoint && entry.path().extension() == ".h5" && other > step) newer.push_back(entry.path());
+  const auto all = checkpoints_in(found.parent_path());
+  for (auto newer = all.upper_bound(step); newer != all.end(); ++newer) {
+    std::filesystem::rename(newer->second, newer->second.string() + ".damaged");
   }
-  for (const auto& file : newer) std::filesystem::rename(file, file.string() + ".damaged");
 }
 
 }  // namespace
@@ -105,6 +116,13 @@ std::string fingerprint(const CheckedScene& scene)
     if (!input.pointer.empty() && !input.hash.empty()) inputs[input.pointer] = input.hash;
   }
   return Json{{"scene", hash_of(json_text(essence(scene.resolved, scene.inputs)))}, {"inputs", inputs}}.dump();
+}
+
+std::optional<std::int64_t> newest_step(const std::filesystem::path& run_folder)
+{
+  const auto all = checkpoints_in(run_folder / "checkpoints");
+  if (all.empty()) return std::nullopt;
+  return all.rbegin()->first;
 }
 
 runtime::FoundCheckpoint checkpoint_to_restart(const std::filesystem::path& run_folder, const CheckedScene& scene,

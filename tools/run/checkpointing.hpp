@@ -1,6 +1,7 @@
 #pragma once
 
 #include <chrono>
+#include <cstdint>
 #include <filesystem>
 #include <limits>
 #include <optional>
@@ -50,6 +51,10 @@ class CheckpointClock
 /// What of a scene must be the same for a run to go on, as JSON: a hash of all but its title, its end, its limits and
 /// its output, and one of each file that it reads.
 std::string fingerprint(const CheckedScene& scene);
+
+/// The step of the newest checkpoint of a run by its name, if there is one: whether it is whole,
+/// `checkpoint_to_restart` finds out.
+std::optional<std::int64_t> newest_step(const std::filesystem::path& run_folder);
 
 /// The newest whole checkpoint of a run. Says on stderr which were refused, and renames them. Throws InputError if
 /// there is none, or if it is of another scene or other data, and then names what differs. Collective.

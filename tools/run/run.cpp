@@ -132,9 +132,9 @@ class Runner
   {
     try {
       run_to_end();
-    } catch (const runtime::FileError&) {
+    } catch (const runtime::FileError& error) {
       output_.settle();
-      throw;
+      throw runtime::FileError(error.file, error.cause + way_on());
     }
   }
 
@@ -330,8 +330,8 @@ class Runner
   [[noreturn]] void leave(const StopReason& stop)
   {
     write_last_state();
-    const std::string reason = fmt::format("{}, after step {}, time {:.6g} s; to go on: --restart {}", stop.words,
-                                           simulation_->n_steps(), simulation_->time(), options_.folder.string());
+    const std::string reason = fmt::format("{}, after step {}, time {:.6g} s; to go on: {}", stop.words,
+                                           simulation_->n_steps(), simulation_->time(), options_.command_to_go_on);
     finish("interrupted", reason);
     throw Interrupted(reason, stop.signal);
   }
@@ -358,7 +358,15 @@ class Runner
         fmt::format("step {}, time {:.6g} s: {}; the last state is kept in {}", simulation_->n_steps(),
                     simulation_->time(), error.what(), (options_.folder / "fields.h5").string());
     finish("unstable", reason);
-    throw tasks::SimulationError(reason, error.material, -1, {});
+    throw tasks::SimulationError(reason + way_on(), error.material, -1, {});
+  }
+
+  /// After a failure, a line with the command that goes on from the newest checkpoint; nothing if there is none.
+  std::string way_on() const
+  {
+    const auto step = newest_step(options_.folder);
+    if (!step || options_.command_to_go_on.empty()) return "";
+    return fmt::format("\nto go on from step {}: {}", *step, options_.command_to_go_on);
   }
 
   void finish(const std::string& status, const std::string& reason)

@@ -1,0 +1,40 @@
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <string>
+#include <vector>
+
+namespace tamp::tools
+{
+
+/// An option or a positional argument in words, for help, man page and completion.
+struct OptionWords {
+  /// "--threads", or "SCENE".
+  std::string name;
+  /// What stands for its value: "N", "FILE"; empty for a flag.
+  std::string value;
+  bool is_repeated = false;
+  bool is_required = false;
+  std::string meaning;
+  /// Range, default and what it does not go with: "1 to 1024; by default its share of the cores". May be empty.
+  std::string details;
+  /// Where only these may be given.
+  std::vector<std::string> choices;
+
+  /// With what stands for its value: "--threads N", "SCENE", "[NAME...]".
+  std::string usage() const;
+  /// The meaning, with the details.
+  std::string told() const { return details.empty() ? meaning : meaning + " (" + details + ")"; }
+  bool is_positional() const { return !name.starts_with("-"); }
+};
+
+/// Whether it takes no value.
+bool is_flag(const CLI::Option& option);
+
+/// Those of a command, positional arguments first.
+std::vector<OptionWords> options_of(const CLI::App& command);
+
+/// The commands of the program, or of a command, in the order in which they were added.
+std::vector<const CLI::App*> commands_of(const CLI::App& app);
+
+}  // namespace tamp::tools
