@@ -39,12 +39,15 @@ struct ExecArguments {
   std::vector<char*> pointers;
 };
 
+/// Within the limit of this program, which no child may raise.
 rlimit limit_of(double seconds)
 {
-  if (!std::isfinite(seconds)) return {RLIM_INFINITY, RLIM_INFINITY};
+  rlimit own{RLIM_INFINITY, RLIM_INFINITY};
+  getrlimit(RLIMIT_CPU, &own);
+  if (!std::isfinite(seconds)) return own;
   const auto whole = static_cast<rlim_t>(std::clamp(std::ceil(seconds), 1.0, 1e9));
   // Time to write a checkpoint.
-  return {whole, whole + 30};
+  return {std::min(whole, own.rlim_max), std::min(whole + 30, own.rlim_max)};
 }
 
 [[noreturn]] void become(const ExecArguments& arguments, const char* errors, const rlimit& limit, pid_t parent)
@@ -122,6 +125,11 @@ class RunningChildren
 };
 
 }  // namespace
+
+std::string ChildEnd::told() const
+{
+  return signal != 0 ? "signal " + std::to_string(signal) : "exit code " + std::to_string(exit_code);
+}
 
 void run_children(const std::vector<Child>& children, int n_at_once, const AtEnd& at_end)
 {

@@ -20,6 +20,8 @@ struct ChildEnd {
   double user_s = 0;
 
   bool done() const { return exit_code == 0; }
+  /// Such as "signal 9" or "exit code 127".
+  std::string told() const;
 };
 
 /// A process of this program with other arguments, the command first. Its standard output is dropped, and what it says

@@ -30,9 +30,11 @@ std::string reason_of(const Child& run)
   return said;
 }
 
-/// Of its own accord, or, where it did not listen, by the kernel.
+/// Of its own accord, or, where it did not listen, by the kernel. What ran into a limit of the machine's instead would
+/// have had more time from the study.
 bool hit_limit(const ChildEnd& end, double limit)
 {
+  if (!std::isfinite(limit)) return false;
   return end.exit_code == static_cast<int>(ExitCode::signal) + SIGXCPU || end.signal == SIGXCPU ||
          (end.signal == SIGKILL && end.user_s >= limit);
 }
@@ -189,8 +191,7 @@ class PointRunner
       result.end = End::refused;
       result.reason = said;
     } else {
-      throw runtime::FileError(result.folder.string(),
-                               said.empty() ? fmt::format("a run ended with signal {}", end.signal) : said);
+      throw runtime::FileError(result.folder.string(), said.empty() ? "a run ended with " + end.told() : said);
     }
   }
 

@@ -75,7 +75,7 @@ void expect_study(const std::string& name, const Child& child, const ChildEnd& e
   if (end.done()) return;
   if (end.exit_code == static_cast<int>(ExitCode::bad_input)) throw InputError({name, said, ""});
   if (end.exit_code != static_cast<int>(ExitCode::bad_simulation)) {
-    throw runtime::FileError(name, said.empty() ? fmt::format("the study ended with signal {}", end.signal) : said);
+    throw runtime::FileError(name, said.empty() ? "the study ended with " + end.told() : said);
   }
   failures.push_back(name + ": " + said);
 }

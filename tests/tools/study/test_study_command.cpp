@@ -266,6 +266,18 @@ TEST_CASE("points far slower than the fastest end at its limit, and stay ended")
   CHECK(read_text(study.out() / "study.json") == first);
 }
 
+TEST_CASE("a study runs within a limit of processor time that it was started with")
+{
+  const FlightStudy study;
+  const std::string arguments = study.arguments(R"({"sweep": null, "limit_s": 1000})");
+
+  const Outcome outcome = outcome_of("ulimit -t 500; " TAMP_PROGRAM " " + arguments);
+
+  INFO(outcome.err);
+  CHECK(outcome.exit_code == 0);
+  CHECK(study.results()["points"][0]["ended"] == "done");
+}
+
 TEST_CASE("a slow point that was done stays done however its later timings end")
 {
   const FlightStudy study;
