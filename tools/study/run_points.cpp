@@ -161,10 +161,12 @@ class PointRunner
 
   PointResult one_run(const Task& task, const fs::path& folder) const
   {
+    const fs::path errors = cache_ / "errors.txt";
     fs::remove_all(folder);
+    fs::remove_all(errors);  // a pipe would wait for a reader
     fs::create_directories(folder);
     const double limit = limit_of(task);
-    const Child run{command_into(study_, *task.measurement, folder), cache_ / "errors.txt", limit};
+    const Child run{command_into(study_, *task.measurement, folder), errors, limit};
     const ChildEnd end = run_child(run);
     PointResult result{End::done, "", {}, limit, folder};
     if (end.done()) {

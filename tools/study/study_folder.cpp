@@ -75,6 +75,7 @@ StudyFolder::StudyFolder(const fs::path& folder, bool force) : folder_(folder)
       throw InputError({folder.string(), in_use.what(), "expected a folder of its own for each study"});
     }
     expect_own_program(force);
+    if (!fs::is_directory(points())) fs::remove(points());
     fs::create_directories(points());
   } catch (const fs::filesystem_error& error) {
     throw runtime::FileError(folder.string(), error.code().message());

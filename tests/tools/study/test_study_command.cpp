@@ -97,10 +97,14 @@ void removed(const std::filesystem::path& file)
 {
   std::filesystem::remove(file);
 }
+void a_pipe_at(const std::filesystem::path& file)
+{
+  REQUIRE(mkfifo(file.c_str(), 0600) == 0);
+}
 void a_pipe(const std::filesystem::path& file)
 {
   removed(file);
-  REQUIRE(mkfifo(file.c_str(), 0600) == 0);
+  a_pipe_at(file);
 }
 /// The file stays as long as it is.
 void in_the_last_digit(const std::filesystem::path& file)
@@ -345,6 +349,21 @@ TEST_CASE("a kept point whose files are not what was written is run again, and t
   CHECK_THAT(outcome.err, Contains(place) && Contains(said) && Contains("it is run again"));
   CHECK(std::count(outcome.err.begin(), outcome.err.end(), '\n') == 1);
   CHECK(study.run(patch).err.empty());
+}
+
+TEST_CASE("what stands in the way of kept points goes")
+{
+  const FlightStudy study;
+  REQUIRE(study.run().exit_code == 0);
+  std::filesystem::remove_all(study.out() / "points");
+  std::filesystem::create_directory(study.out() / "points");
+  a_pipe_at(study.out() / "points/errors.txt");
+  REQUIRE(study.run().exit_code == 0);
+  std::filesystem::remove_all(study.out() / "points");
+  a_pipe_at(study.out() / "points");
+
+  CHECK(study.run().exit_code == 0);
+  CHECK(study.n_kept() == 3);
 }
 
 TEST_CASE("a kept point under another one's name is run again")
