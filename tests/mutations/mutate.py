@@ -1,18 +1,21 @@
 #!/usr/bin/env python3
-"""Damages scenes, data files and checkpoints at random, and looks at how the program takes it.
+"""Damages scenes, data files, checkpoints and kept points of a study at random, and looks at how the program takes it.
 
     tests/mutations/mutate.py [--tamp build/release/tamp] [--scenes 2500] [--data 1500] [--checkpoints 300]
-                              [--seed 1] [--jobs 2] [--keep FOLDER]
+                              [--studies 400] [--seed 1] [--jobs 2] [--keep FOLDER]
 
 A mutated scene is run for three steps, a mutated data file too, and a run whose newest checkpoint is damaged is gone on
-with. Right is: an exit code of the list (0, 2, 3, 4), at most 20 seconds of work, a message on stderr wherever it is not 0, and
-after a damaged checkpoint the bits of a run that was not interrupted. It prints how many ended how, and the exit code
-is 1 if any was wrong; those are kept in FOLDER."""
+with, as a study some of whose kept points are. Right is: an exit code of the list (0, 2, 3, 4), at most 20 seconds of
+work, a message on stderr wherever it is not 0, after a damaged checkpoint the bits of a run that was not interrupted, and
+after damaged points the values that they had. It prints how many ended how, and the exit code is 1 if any was wrong; of
+those, scenes, data and checkpoints are kept in FOLDER."""
 
 import argparse
 import collections
 import concurrent.futures
+import csv
 import json
+import os
 import pathlib
 import random
 import resource
@@ -113,6 +116,37 @@ def mutate_bytes(content, chance):
         elif chance.random() < 0.2:
             del content[at:]
     return bytes(content)
+
+
+def damage(file, other, chance):
+    """A file damaged, cut off, emptied, gone, another point's, or no file. Whether it is another than it was."""
+    content = file.read_bytes()
+    way = chance.choice(["bytes", "bytes", "byte", "half", "empty", "gone", "other", "pipe", "folder"])
+    if way == "bytes":
+        file.write_bytes(mutate_bytes(content, chance))
+    elif way == "byte":
+        at = chance.randrange(len(content))
+        file.write_bytes(content[:at] + bytes([content[at] ^ 1 << chance.randrange(8)]) + content[at + 1:])
+    elif way == "half":
+        file.write_bytes(content[:chance.randrange(len(content))])
+    elif way == "empty":
+        file.write_bytes(b"")
+    elif way == "other":
+        file.write_bytes(other.read_bytes())
+    else:
+        file.unlink()
+        if way == "pipe":
+            os.mkfifo(file)
+        elif way == "folder":
+            file.mkdir()
+    return not file.is_file() or file.read_bytes() != content
+
+
+def table_without_costs(file):
+    """The cells of a study's points.csv that no noise of the machine touches."""
+    with open(file, newline="") as stream:
+        return [{name: cell for name, cell in row.items() if not name.startswith(("core_s", "front of"))}
+                for row in csv.DictReader(stream)]
 
 
 def published(folder):
@@ -236,6 +270,48 @@ class Mutations:
         shutil.rmtree(folder, ignore_errors=True)
         return verdict
 
+    def prepare_study(self):
+        """A study with four points, of which it asks for columns and fields, and what came out of it."""
+        self.study_file = self.inputs / "punch/study.json"
+        self.study_file.write_text(json.dumps({
+            "measure": {"run": "small.json"}, "repeat": 1,
+            "set": {"/time/end": 2e-4, "/output/history_interval": 2e-5, "/output/fields_interval": 1e-4},
+            "methods": [{"name": name, "set": {"/transfer": name}} for name in ["flip", "affine"]],
+            "sweep": {"/grid/cell_size": [0.1, 0.05]},
+            "quantities": [
+                {"name": "depth", "column": "punch.depth[m]", "take": "greatest", "exact": 1e-3},
+                {"name": "kinetic", "column": "kinetic[J]", "take": "mean", "at": 1e-4, "exact": 1},
+                {"name": "lowest", "take": "quantile", "quantile": 0.1, "field": "position", "component": 1,
+                 "material": "sand", "exact": 0.1}]}))
+        self.study_command = [self.options.tamp, "study", self.study_file, "--quiet", "--out"]
+        os.environ["TAMP_PYTHON"] = "true"  # no pages are drawn
+        code, text = run([*self.study_command, self.place / "study"], self.place)
+        if code != 0:
+            sys.exit(f"the study ended with {code}: {text}")
+        self.table = table_without_costs(self.place / "study/points.csv")
+
+    def study(self, number):
+        chance = random.Random(f"{self.options.seed} study {number}")
+        folder = self.place / f"study_{number}"
+        shutil.copytree(self.place / "study", folder)
+        (folder / "points.csv").unlink()
+        mark = folder / ".tamp-study"
+        files = sorted(folder.glob("points/*/*"))
+        originals = sorted((self.place / "study").glob("points/*/*"))
+        of_mark = chance.random() < 0.1
+        has_changed = False
+        for file in [mark] if of_mark else chance.sample(files, chance.choice([1, 1, 2, 4])):
+            other = chance.choice([one for one in originals if one.name == file.name] or [self.study_file])
+            has_changed |= damage(file, other, chance) and file.name != "result.json"
+        code, text = run([*self.study_command, folder], self.place)
+        verdict = judged("study, its mark" if of_mark else "study, a point", code, text, (0, 2, 4) if of_mark else (0,))
+        if code == 0 and table_without_costs(folder / "points.csv") != self.table:
+            verdict = verdict._replace(wrong=True, text=f"{text}; ended with other values")
+        elif code == 0 and has_changed and not of_mark and "it is run again" not in text:
+            verdict = verdict._replace(wrong=True, text="no word of what was damaged")
+        shutil.rmtree(folder, ignore_errors=True)
+        return verdict
+
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
@@ -243,6 +319,7 @@ def main():
     parser.add_argument("--scenes", type=int, default=2500)
     parser.add_argument("--data", type=int, default=1500)
     parser.add_argument("--checkpoints", type=int, default=300)
+    parser.add_argument("--studies", type=int, default=400)
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--jobs", type=int, default=2)
     parser.add_argument("--keep", type=pathlib.Path)
@@ -251,8 +328,9 @@ def main():
     with tempfile.TemporaryDirectory() as folder, concurrent.futures.ThreadPoolExecutor(options.jobs) as pool:
         mutations = Mutations(options, pathlib.Path(folder))
         mutations.prepare_checkpoints()
+        mutations.prepare_study()
         for work, n in [(mutations.scene, options.scenes), (mutations.data, options.data),
-                        (mutations.checkpoint, options.checkpoints)]:
+                        (mutations.checkpoint, options.checkpoints), (mutations.study, options.studies)]:
             for number, verdict in enumerate(pool.map(work, range(n))):
                 counts[verdict.kind, verdict.code] += 1
                 if verdict.wrong:
