@@ -71,7 +71,8 @@ std::string to_text(const nlohmann::json& profile, int n_rows)
         t.at("share").get<double>() * 100, t.at("imbalance").get<double>(), t.at("wait_s").get<double>() * 1e3);
   }
   text += fmt::format(
-      "step {:.1f} us, critical path {:.1f} us, outside of tasks {:.2f} % of the workers' time, fields {:.1f} MiB\n",
+      "a step takes {:.1f} us in the mean, its longest chain of tasks {:.1f} us; scheduler overhead {:.2f} %; fields "
+      "{:.1f} MiB\n",
       profile.at("step_s").get<double>() * 1e6, profile.at("critical_path_s").get<double>() * 1e6,
       profile.at("overhead").get<double>() * 100, profile.at("memory").at("total").get<double>() / (1024 * 1024));
   if (const auto n = profile.value("messages", std::uint64_t{0}); n > 0) {

@@ -14,6 +14,7 @@
 #include "tools/commands/commands.hpp"
 #include "tools/commands/option_checks.hpp"
 #include "tools/compare/comparison_report.hpp"
+#include "tools/compare/grid_error.hpp"
 #include "tools/compare/peak_memory.hpp"
 #include "tools/console.hpp"
 #include "tools/run/forecast.hpp"
@@ -31,6 +32,7 @@ struct CompareArguments {
   std::vector<std::string> models{"table", "svr", "mlp"};
   std::vector<std::string> assignments;
   std::string out;
+  bool with_grid_error = true;
   compare::Options comparison;
 };
 
@@ -69,10 +71,18 @@ void compare_models(CompareArguments& options)
   const auto scenes = compare::read_model_scenes(options.scene, options.assignments, options.models);
   options.comparison.folder = options.out.empty() ? "compare/" + scenes.front().scene.scene.name : options.out;
   for (const compare::ModelScene& scene : scenes) expect_room(scene.scene, forecast(scene.scene.scene));
-  const auto folders = prepare_folders(options.comparison, scenes);
+  const bool has_differences = options.with_grid_error && scenes.size() > 1;
+  const auto coarser = has_differences ? compare::coarser_scene(options.scene, scenes.front()) : std::nullopt;
+  auto all_scenes = scenes;
+  if (coarser) all_scenes.push_back(*coarser);
+  const auto folders = prepare_folders(options.comparison, all_scenes);
   const auto memory = measure_memory(options, scenes);
 
   compare::Comparison comparison = compare::compare(scenes, options.comparison);
+  if (coarser) {
+    comparison.coarser = compare::run_coarser(*coarser, common_time(comparison), options.comparison.n_threads,
+                                              options.comparison.folder / coarser->name);
+  }
   for (std::size_t m = 0; m < memory.size(); ++m) comparison.models[m].peak_rss_bytes = memory[m];
 
   write(comparison, options.comparison.folder);
@@ -107,6 +117,8 @@ CLI::App* add_compare_command(CLI::App& app)
   command->add_option("--steps", options->comparison.max_steps, "stop each model after so many steps")
       ->check(is_whole_from(1))
       ->default_str("no limit");
+  command->add_flag("!--no-grid-error", options->with_grid_error,
+                    "do not run the first model on cells twice as large, which shows what the grid's error is");
   command->add_flag("--force", options->comparison.force, "replace what an earlier comparison left in the folder");
   command->add_flag("--quiet", options->comparison.quiet, "print no progress and no table");
   command->footer(

@@ -1,6 +1,7 @@
 #include "tools/compare/comparison.hpp"
 
 #include <algorithm>
+#include <limits>
 
 namespace tamp::tools::compare
 {
@@ -17,6 +18,48 @@ std::optional<Quartiles> ratio_to_table(const Comparison& comparison, const Mode
   }
   if (ratios.empty()) return std::nullopt;
   return quartiles(std::move(ratios));
+}
+
+double common_time(const Comparison& comparison)
+{
+  double time = std::numeric_limits<double>::infinity();
+  for (const ModelResult& model : comparison.models) time = std::min(time, model.samples.back().time);
+  return time;
+}
+
+namespace
+{
+
+/// Of what `value(sample)` is.
+template <class Value>
+double value_at(const ModelResult& model, double time, const Value& value)
+{
+  const auto after = std::find_if(model.samples.begin(), model.samples.end(),
+                                  [&](const Sample& sample) { return sample.time >= time; });
+  if (after == model.samples.end()) return std::numeric_limits<double>::quiet_NaN();
+  if (after == model.samples.begin() || after->time == time) return value(*after);
+  const Sample& before = *(after - 1);
+  const double part = (time - before.time) / (after->time - before.time);
+  return value(before) + part * (value(*after) - value(before));
+}
+
+double largest_of(const std::vector<double>& values)
+{
+  return values.empty() ? std::numeric_limits<double>::quiet_NaN() : *std::max_element(values.begin(), values.end());
+}
+
+}  // namespace
+
+double depth_at(const ModelResult& model, double time)
+{
+  return value_at(model, time, [](const Sample& sample) {
+    return sample.depth.empty() ? std::numeric_limits<double>::quiet_NaN() : sample.depth.front();
+  });
+}
+
+double q_at(const ModelResult& model, double time)
+{
+  return value_at(model, time, [](const Sample& sample) { return largest_of(sample.q); });
 }
 
 double largest(const ModelResult& model, std::vector<double> Sample::*kind)

@@ -57,11 +57,21 @@ struct Comparison {
   std::vector<std::string> bodies;  ///< tracked
   std::vector<std::string> sands;
   std::vector<ModelResult> models;
+  /// The first model on cells twice as large, up to the common time.
+  std::optional<ModelResult> coarser{};
 };
 
 /// The cost of a step against that of the first plain table, round by round: noise that lasts for more than a round
 /// divides out. None if there is no table, or no round in which both made steps.
 std::optional<Quartiles> ratio_to_table(const Comparison& comparison, const ModelResult& model);
+
+/// The last time that all models have reached [s]: only up to there can they be compared.
+double common_time(const Comparison& comparison);
+
+/// The depth of the first tracked body, and the largest q of all sands, at a time, straight between samples. NaN where
+/// there is none.
+double depth_at(const ModelResult& model, double time);
+double q_at(const ModelResult& model, double time);
 
 /// The largest value of a kind over all sands, or all bodies, and samples; not below 0.
 double largest(const ModelResult& model, std::vector<double> Sample::*kind);

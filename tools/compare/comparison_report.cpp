@@ -4,6 +4,8 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 
 #include "tools/csv_text.hpp"
 #include "tools/usable_cores.hpp"
@@ -21,6 +23,11 @@ template <class T>
 Json or_null(const std::optional<T>& value)
 {
   return value ? Json(*value) : Json(nullptr);
+}
+
+Json or_null(double value)
+{
+  return std::isfinite(value) ? Json(value) : Json(nullptr);
 }
 
 /// The figures of one model, all of them numbers or text.
@@ -43,6 +50,10 @@ Json figures(const Comparison& comparison, const ModelResult& model)
   json["peak_rss_bytes"] = or_null(model.peak_rss_bytes);
   json["ledger_peak_bytes"] = model.ledger_peak_bytes;
   const std::vector<double>& depth = model.samples.back().depth;
+  const double common = common_time(comparison);
+  json["common_time_s"] = common;
+  json["depth_at_common_time_m"] = or_null(depth_at(model, common));
+  json["q_at_common_time_Pa"] = or_null(q_at(model, common));
   json["depth_m"] = depth.empty() ? Json(nullptr) : Json(depth.front());
   json["depth_max_m"] = depth.empty() ? Json(nullptr) : Json(largest(model, &Sample::depth));
   json["p_max_Pa"] = largest(model, &Sample::pressure);
@@ -80,6 +91,48 @@ Json rounds(const ModelResult& model)
   return json;
 }
 
+/// What a model, or a coarser grid, changes of one value of the first model.
+struct Change {
+  double value;
+  /// The same by cells twice as large; NaN where that is not known.
+  double by_grid;
+
+  std::string text() const
+  {
+    if (!std::isfinite(value)) return "-";
+    const std::string words = fmt::format("{:+.2g} %", 100 * value);
+    if (!std::isfinite(by_grid)) return words;
+    return words +
+           (std::abs(value) <= std::abs(by_grid) ? " (within the grid's error)" : " (more than the grid's error)");
+  }
+};
+
+/// All at the last time that all have reached: models that end at other times, or have failed, are at other depths.
+std::string differences_text(const Comparison& comparison)
+{
+  if (comparison.models.size() < 2) return "";
+  const double time = common_time(comparison), nan = std::numeric_limits<double>::quiet_NaN();
+  const ModelResult& first = comparison.models.front();
+  const auto change = [&](const ModelResult& model, double (*value)(const ModelResult&, double)) {
+    return value(model, time) / value(first, time) - 1;
+  };
+  const double depth_by_grid = comparison.coarser ? change(*comparison.coarser, &depth_at) : nan,
+               q_by_grid = comparison.coarser ? change(*comparison.coarser, &q_at) : nan;
+  std::string text = fmt::format("\nagainst {}:\n{:<16}{:<44}{}\n", first.name, "", "depth", "q");
+  const auto add = [&](const std::string& name, const Change& depth, const Change& q) {
+    text += fmt::format("{:<16}{:<44}{}\n", name, depth.text(), q.text());
+  };
+  for (auto model = comparison.models.begin() + 1; model != comparison.models.end(); ++model) {
+    add(model->name, {change(*model, &depth_at), depth_by_grid}, {change(*model, &q_at), q_by_grid});
+  }
+  if (comparison.coarser) {
+    add("2 x the cells", {depth_by_grid, nan}, {q_by_grid, nan});
+  } else {
+    text += "the grid's error is not known, as cells twice as large were not run\n";
+  }
+  return text;
+}
+
 }  // namespace
 
 Json to_json(const Comparison& comparison)
@@ -99,6 +152,12 @@ Json to_json(const Comparison& comparison)
     one["series"] = series(comparison, model);
     one["rounds"] = rounds(model);
     json["models"].push_back(std::move(one));
+  }
+  json["coarser"] = nullptr;
+  if (comparison.coarser) {
+    const double common = common_time(comparison);
+    json["coarser"] = {{"depth_at_common_time_m", or_null(depth_at(*comparison.coarser, common))},
+                       {"q_at_common_time_Pa", or_null(q_at(*comparison.coarser, common))}};
   }
   return json;
 }
@@ -123,16 +182,18 @@ std::string to_text(const Comparison& comparison)
 {
   std::string text = fmt::format("{:<16}{:>14}{:>10}{:>10}{:>12}{:>14}{:>11}{:>11}\n", "model", "per step [us]",
                                  "to table", "steps", "dt [us]", "modulus [ns]", "depth [m]", "q [MPa]");
+  const double common = common_time(comparison);
   for (const ModelResult& model : comparison.models) {
     const std::optional<Quartiles> ratio = ratio_to_table(comparison, model);
-    const std::vector<double>& depth = model.samples.back().depth;
+    const double depth = depth_at(model, common);
     text += fmt::format("{:<16}{:>14.1f}{:>10}{:>10}{:>12.4g}{:>14}{:>11}{:>11.4g}{}\n", model.name,
                         model.median_step_wall * 1e6, ratio ? fmt::format("{:.2f}", ratio->median) : "-", model.steps,
                         model.mean_step_size() * 1e6, model.modulus_ns ? fmt::format("{:.1f}", *model.modulus_ns) : "-",
-                        depth.empty() ? "-" : fmt::format("{:.4f}", depth.front()), largest(model, &Sample::q) * 1e-6,
+                        std::isfinite(depth) ? fmt::format("{:.4f}", depth) : "-", q_at(model, common) * 1e-6,
                         model.unstable() ? "  unstable" : "");
   }
-  return text;
+  text += fmt::format("depth and q at {:.4g} ms, the last time that all have reached\n", common * 1e3);
+  return text + differences_text(comparison);
 }
 
 }  // namespace tamp::tools::compare

@@ -11,6 +11,7 @@
 #include "components/portable_math.hpp"
 #include "runtime/ranks/on_all_ranks.hpp"
 #include "tasks/set_up/initial_moduli.hpp"
+#include "tools/scene/csv_table.hpp"
 
 namespace tamp::tools
 {
@@ -113,8 +114,18 @@ std::string RunHistory::go_on(const std::filesystem::path& folder, long kept_unt
 {
   runtime::on_first_rank(simulation_.communicator(), [&] {
     csv_ = runtime::CsvWriter::continued(folder / "history.csv", column_names(), kept_until, expected);
+    take_extremes(folder / "history.csv");
   });
   return csv_ ? csv_->notice() : "";
+}
+
+void RunHistory::take_extremes(const std::filesystem::path& file)
+{
+  const auto columns = numbers_by_column(file);
+  constexpr std::size_t time = 1;
+  for (const auto& [name, values] : columns) {
+    for (std::size_t i = 0; i < values.size(); ++i) extremes_[name].take(values[i], columns[time].second[i]);
+  }
 }
 
 template <class Value>
@@ -302,6 +313,11 @@ double RunHistory::depth(std::size_t body) const
   return velocity.norm() > 0 ? moved.dot(velocity.normalized()) : moved.norm();
 }
 
+const Eigen::Vector3d& RunHistory::contact_force(std::size_t body) const
+{
+  return contact_forces_[static_cast<std::size_t>(simulation_.scene().bodies[body].material)].force;
+}
+
 double RunHistory::axis_angle(std::size_t body) const
 {
   const tasks::BodyAxis& axis = *simulation_.scene().bodies[body].axis;
@@ -317,7 +333,10 @@ void RunHistory::write_row()
   contact_forces_ = simulation_.take_contact_forces();
   load_forces_ = simulation_.take_load_forces();
   std::vector<double> row;
-  for (const Column& column : columns_) row.push_back(column.value());
+  for (const Column& column : columns_) {
+    row.push_back(column.value());
+    extremes_[column.name].take(row.back(), simulation_.time());
+  }
   runtime::on_first_rank(simulation_.communicator(), [&] { csv_->write_row(row); });
 }
 

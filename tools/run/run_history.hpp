@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <functional>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -9,6 +10,7 @@
 #include "runtime/storage/csv_writer.hpp"
 #include "tasks/report/report.hpp"
 #include "tasks/simulation.hpp"
+#include "tools/run/extremes.hpp"
 
 namespace tamp::tools
 {
@@ -70,6 +72,9 @@ class RunHistory
   /// A run that goes on has those of the run before.
   const LargestSoFar& largest() const { return largest_; }
   void set_largest(const LargestSoFar& largest) { largest_ = largest; }
+  /// Of the columns of the history, by their names, over the rows so far; those of a run that goes on as well, but only
+  /// on the first rank.
+  const std::map<std::string, Extremes>& extremes() const { return extremes_; }
   const EnergyBalance& energies() const { return energies_; }
   const tasks::ParticleReport& report() const { return report_; }
   const tasks::NoseReport& near_noses() const { return near_noses_; }
@@ -79,6 +84,8 @@ class RunHistory
   /// How far a body's centre of mass has moved along its initial velocity; of one that starts at rest, how far it is
   /// from where it started [m].
   double depth(std::size_t body) const;
+  /// What contact does to a body's material, the mean since the row before the last [N].
+  const Eigen::Vector3d& contact_force(std::size_t body) const;
   /// For a body with a nose, the angle of its axis below the horizontal [degrees], the last axis of the scene being
   /// vertical; 90 points straight down.
   double axis_angle(std::size_t body) const;
@@ -93,6 +100,8 @@ class RunHistory
   /// One for each axis of the scene.
   template <class Value>
   void add_vector(const std::string& name, const std::string& unit, const Value& value);
+  /// Those of rows that are there already.
+  void take_extremes(const std::filesystem::path& file);
   void add_columns();
   void add_body_columns(std::size_t body);
   void add_error_columns(std::size_t body);
@@ -125,6 +134,7 @@ class RunHistory
   std::vector<tasks::ContactForce> contact_forces_;
   std::vector<Eigen::Vector3d> load_forces_;
   std::vector<Column> columns_;
+  std::map<std::string, Extremes> extremes_;
   /// On the first rank only.
   std::optional<runtime::CsvWriter> csv_;
 };

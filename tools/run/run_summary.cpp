@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include "tools/version.hpp"
 
@@ -49,14 +50,52 @@ Json particles(const tasks::Simulation& simulation, const tasks::LostParticles& 
   return counts;
 }
 
+/// The component of the force on a driven body that was largest, with its sign, and the same now.
+Json largest_force(const RunHistory& history, const std::string& body, int dimension, const Eigen::Vector3d& now)
+{
+  Json largest;
+  double most = 0;
+  for (int k = 0; k < dimension; ++k) {
+    const std::string axis(1, "xyz"[k]);
+    const auto found = history.extremes().find(body + ".contact_force_" + axis + "[N]");
+    if (found == history.extremes().end()) continue;
+    const Extremes& e = found->second;
+    const bool upwards = std::abs(e.greatest) >= std::abs(e.least);
+    const double value = upwards ? e.greatest : e.least;
+    if (!(std::abs(value) > most)) continue;
+    most = std::abs(value);
+    largest = {
+        {"axis", axis}, {"value_N", value}, {"time_s", upwards ? e.greatest_time : e.least_time}, {"now_N", now[k]}};
+  }
+  return largest;
+}
+
 Json bodies(const tasks::Simulation& simulation, const RunHistory& history)
 {
   Json all = Json::object();
   for (const std::size_t b : history.tracked_bodies()) {
+    const tasks::SceneBody& body = simulation.scene().bodies[b];
     const tasks::BodySums& sums = history.report().bodies[b];
     const Eigen::Vector3d v = sums.momentum / sums.mass;
-    all[simulation.scene().bodies[b].name] = {
+    Json& told = all[body.name] = {
         {"mass_kg", sums.mass}, {"depth_m", history.depth(b)}, {"velocity_m_per_s", {v[0], v[1], v[2]}}};
+    if (const auto depth = history.extremes().find(body.name + ".depth[m]"); depth != history.extremes().end()) {
+      told["deepest_m"] = depth->second.greatest;
+      told["deepest_at_s"] = depth->second.greatest_time;
+    }
+    if (!body.drive) continue;
+    told["largest_force"] =
+        largest_force(history, body.name, simulation.scene().grid.dimension, history.contact_force(b));
+  }
+  return all;
+}
+
+/// Of each column but step and time.
+Json greatest(const RunHistory& history)
+{
+  Json all = Json::object();
+  for (const auto& [name, e] : history.extremes()) {
+    if (name != "step" && name != "time[s]") all[name] = {{"value", e.greatest}, {"time_s", e.greatest_time}};
   }
   return all;
 }
@@ -149,6 +188,7 @@ Json run_summary(tasks::Simulation& simulation, const RunHistory& history, const
           {"state_digest", simulation.digest()},
           {"bodies", bodies(simulation, history)},
           {"materials", materials(simulation, history)},
+          {"greatest", greatest(history)},
           {"load_balance", rebalances(simulation)},
           {"monitors",
            {{"lost_particles", lost.count},
@@ -162,17 +202,47 @@ Json run_summary(tasks::Simulation& simulation, const RunHistory& history, const
             {"updates_apart", updates.apart}}}};
 }
 
+namespace
+{
+
+/// A time as people say it: "1.8 ms".
+std::string in_words(double seconds)
+{
+  if (seconds == 0 || std::abs(seconds) >= 1) return fmt::format("{:.4g} s", seconds);
+  return std::abs(seconds) >= 1e-3 ? fmt::format("{:.4g} ms", seconds * 1e3) : fmt::format("{:.4g} us", seconds * 1e6);
+}
+
+/// What the scene is about: how deep a body is, or what drives it.
+std::string body_text(const std::string& name, const Json& body)
+{
+  const auto number = [&](const char* key) { return body[key].get<double>(); };
+  const auto v = body["velocity_m_per_s"].get<std::vector<double>>();
+  std::string text = fmt::format("{}: ", name);
+  if (body.contains("deepest_m")) {
+    text += fmt::format("deepest {:.4g} m at {}, now {:.4g} m", number("deepest_m"), in_words(number("deepest_at_s")),
+                        number("depth_m"));
+  } else {
+    text += fmt::format("depth {:.4g} m", number("depth_m"));
+  }
+  text += fmt::format(", {:.4g} m/s", std::hypot(v[0], v[1], v[2]));
+  if (body.contains("largest_force") && !body["largest_force"].is_null()) {
+    const Json& force = body["largest_force"];
+    text += fmt::format("; force along {} at most {:.4g} N at {}, now {:.4g} N", force["axis"].get<std::string>(),
+                        force["value_N"].get<double>(), in_words(force["time_s"].get<double>()),
+                        force["now_N"].get<double>());
+  }
+  return text + "\n";
+}
+
+}  // namespace
+
 std::string summary_text(const Json& summary)
 {
-  std::string text =
-      fmt::format("{}: {} after {} steps, {:.6g} s simulated in {:.1f} s\n", summary["scene"].get<std::string>(),
-                  summary["status"].get<std::string>(), summary["steps"].get<long>(),
-                  summary["simulated_time_s"].get<double>(), summary["wall_s"].get<double>());
-  for (const auto& [name, body] : summary["bodies"].items()) {
-    const auto v = body["velocity_m_per_s"].get<std::vector<double>>();
-    text += fmt::format("  {}: depth {:.4f} m, speed {:.3f} m/s\n", name, body["depth_m"].get<double>(),
-                        std::hypot(v[0], v[1], v[2]));
-  }
+  std::string text;
+  for (const auto& [name, body] : summary["bodies"].items()) text += body_text(name, body);
+  text += fmt::format("{}: {} after {} steps, {} simulated in {:.1f} s\n", summary["scene"].get<std::string>(),
+                      summary["status"].get<std::string>(), summary["steps"].get<long>(),
+                      in_words(summary["simulated_time_s"].get<double>()), summary["wall_s"].get<double>());
   for (const Json& r : summary["load_balance"]) {
     const auto got = r["imbalance_got"].get<double>();
     text += fmt::format("  step {}: patches dealt anew; the busiest rank had {:.2f} of the mean, {:.2f} expected{}\n",
@@ -181,7 +251,7 @@ std::string summary_text(const Json& summary)
   }
   const Json& output = summary["output"];
   const auto seconds = [&](const char* name) { return output[name].get<double>(); };
-  text += fmt::format("  for output the steps stood still for {:.2g} s, {:.2g} s of it for the writer\n",
+  text += fmt::format("  output held the steps up for {:.2g} s, {:.2g} s of it to wait for the writer\n",
                       seconds("history_s") + seconds("fields_s") + seconds("checkpoints_s") + seconds("waited_s"),
                       seconds("waited_s"));
   text += fmt::format(
@@ -193,10 +263,12 @@ std::string summary_text(const Json& summary)
   const auto count = [&](const char* name) { return monitors[name].get<std::size_t>(); };
   if (count("modulus_extrapolations") + count("limited_substeps") + count("failed_updates") > 0) {
     text += fmt::format(
-        "  of {} substeps of materials {} kept an error beyond the tolerance; {} updates ended outside the modulus' "
-        "range, {} "
+        "  {:.2g} % of {} substeps of the materials missed the tolerance; {} updates ended outside the modulus' range, "
+        "{} "
         "failed\n",
-        count("substeps"), count("limited_substeps"), count("modulus_extrapolations"), count("failed_updates"));
+        100.0 * static_cast<double>(count("limited_substeps")) /
+            static_cast<double>(std::max<std::size_t>(count("substeps"), 1)),
+        count("substeps"), count("modulus_extrapolations"), count("failed_updates"));
   }
   return text;
 }

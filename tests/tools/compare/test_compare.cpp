@@ -60,6 +60,22 @@ TEST_CASE("a comparison writes its table, its figures and its page")
   CHECK_FALSE(std::filesystem::exists(out / "table/alone"));
 }
 
+TEST_CASE("a comparison of several models has the first of them on cells twice as large, unless that is not wanted")
+{
+  const test::TemporaryFolder folder;
+  const auto scene = test::write_impact(folder);
+  const auto with = folder.path() / "with", without = folder.path() / "without";
+  const std::string call = scene.string() + " --models table,table --steps 10 --out ";
+
+  REQUIRE(compare_with(folder, call + with.string()).exit_code == 0);
+  REQUIRE(compare_with(folder, call + without.string() + " --no-grid-error").exit_code == 0);
+
+  CHECK(std::filesystem::exists(with / "coarser/history.csv"));
+  CHECK(Json::parse(test::read_text(with / "compare.json"))["coarser"]["depth_at_common_time_m"].is_number());
+  CHECK_FALSE(std::filesystem::exists(without / "coarser"));
+  CHECK(Json::parse(test::read_text(without / "compare.json"))["coarser"].is_null());
+}
+
 TEST_CASE("a comparison's page needs no other file and no network")
 {
   const test::TemporaryFolder folder;

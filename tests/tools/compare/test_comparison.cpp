@@ -62,6 +62,36 @@ TEST_CASE("without a table there is no ratio to it")
   CHECK(json["models"][0]["ratio_to_table"].is_null());
 }
 
+TEST_CASE("models are compared at the last time that all have reached, straight between samples")
+{
+  ModelResult fast = model_of("table", {1, 1, 1}), slow = model_of("svr", {1, 1});
+  fast.samples = {{0, 1e-3, 0, {0}, {0}, {0}}, {2e-3, 1e-3, 0, {0.2}, {4e6}, {2e6}}};
+  slow.samples = {{0, 1e-3, 0, {0}, {0}, {0}}, {1e-3, 1e-3, 0, {0.101}, {2e6}, {1.1e6}}};
+  const Comparison both = comparison_of({fast, slow});
+
+  CHECK(common_time(both) == 1e-3);
+  CHECK(depth_at(both.models[0], 1e-3) == Approx(0.1));
+  CHECK(q_at(both.models[0], 1e-3) == Approx(1e6));
+  CHECK(std::isnan(depth_at(both.models[1], 2e-3)));
+  CHECK_THAT(to_text(both), Contains("0.1000") && Contains("0.1010") && !Contains("0.2000") &&
+                                Contains("the grid's error is not known"));
+}
+
+TEST_CASE("a difference is held against what cells twice as large change")
+{
+  ModelResult table = model_of("table", {1}), svr = model_of("svr", {1}), coarser = model_of("coarser", {1});
+  table.samples = {{1e-3, 1e-3, 0, {0.1}, {2e6}, {1e6}}};
+  svr.samples = {{1e-3, 1e-3, 0, {0.101}, {2e6}, {1.1e6}}};
+  coarser.samples = {{1e-3, 1e-3, 0, {0.097}, {2e6}, {0.95e6}}};
+  Comparison all = comparison_of({table, svr});
+  all.coarser = coarser;
+
+  CHECK_THAT(to_text(all),
+             Contains("+1 % (within the grid's error)") && Contains("+10 % (more than the grid's error)"));
+  CHECK(to_json(all)["coarser"]["depth_at_common_time_m"] == 0.097);
+  CHECK(to_json(all)["models"][1]["depth_at_common_time_m"] == 0.101);
+}
+
 TEST_CASE("a reason with commas and quotes is one cell of the table")
 {
   ModelResult model = model_of("table", {1});

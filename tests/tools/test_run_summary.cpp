@@ -1,0 +1,74 @@
+#include <catch2/catch.hpp>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "tests/tools/program.hpp"
+
+namespace test_run_summary
+{
+
+/// A run ends by saying what its scene is about.
+using namespace tamp::test;
+namespace fs = std::filesystem;
+using Json = nlohmann::json;
+
+namespace
+{
+
+/// A block thrown upwards, which is highest after 0.1 s.
+const char* const thrown = R"({
+  "dimension": 2,
+  "grid": { "upper": [2, 2], "cell_size": 0.25 },
+  "boundaries": { "x-": "open", "x+": "open", "y-": "open", "y+": "open" },
+  "time": { "end": 0.15, "maximum_step": 1e-3 },
+  "gravity": [0, -10],
+  "materials": { "steel": { "type": "hypoelastic", "density": 8000, "bulk_modulus": 1e5, "shear_modulus": 1e5 } },
+  "bodies": {
+    "block": {
+      "material": "steel", "rigid": true, "geometry": { "type": "box", "lower": [0.5, 1], "upper": [1, 1.5] },
+      "velocity": [0, 1]
+    }
+  },
+  "output": { "history_interval": 1e-3 }
+})";
+
+Json summary_of(const fs::path& folder)
+{
+  return Json::parse(read_text(folder / "summary.json"));
+}
+
+}  // namespace
+
+TEST_CASE("the first line of a result is how deep a body was, when, and where it is now")
+{
+  const TemporaryFolder folder;
+  const fs::path out = folder.path() / "run";
+
+  const Outcome outcome = tamp_with("run " + folder.write("thrown.json", thrown).string() + " --out " + out.string());
+
+  REQUIRE(outcome.exit_code == 0);
+  CHECK_THAT(outcome.out, Catch::Contains("\n\nblock: deepest 0.05 m at 100 ms, now 0.0375 m"));
+  CHECK_THAT(outcome.out, Catch::Contains("scheduler overhead"));
+  const Json summary = summary_of(out);
+  CHECK(summary["bodies"]["block"]["deepest_m"].get<double>() == Approx(0.05).epsilon(1e-3));
+  CHECK(summary["bodies"]["block"]["deepest_at_s"].get<double>() == Approx(0.1).margin(2e-3));
+  CHECK(summary["greatest"]["kinetic[J]"]["time_s"] == 0);
+  CHECK_FALSE(summary["greatest"].contains("step"));
+}
+
+TEST_CASE("a run that goes on knows the greatest of the rows before")
+{
+  const TemporaryFolder folder;
+  const std::string scene = folder.write("thrown.json", thrown).string();
+  const fs::path straight = folder.path() / "straight", parted = folder.path() / "parted";
+  REQUIRE(tamp_with("run " + scene + " --quiet --out " + straight.string()).exit_code == 0);
+  REQUIRE(
+      tamp_with("run " + scene + " --quiet --until 0.12 --checkpoint-steps 10 --out " + parted.string()).exit_code ==
+      0);
+
+  REQUIRE(tamp_with("run " + scene + " --quiet --restart " + parted.string()).exit_code == 0);
+
+  CHECK(summary_of(parted)["greatest"] == summary_of(straight)["greatest"]);
+}
+
+}  // namespace test_run_summary
