@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <string>
 
 #include "components/curves/piecewise_linear.hpp"
@@ -179,6 +180,7 @@ void UnloadingTable::make_surface_grid()
   }
 
   for (std::size_t line = 0; line < n_lines; ++line) {
+    check_rises(elastic[line], pressures, plastic_of_line[line]);
     const MonotoneCubic pressure_of_elastic(elastic[line], pressures);
     const PiecewiseLinear by_plastic_of_elastic(elastic[line], by_plastic[line]);
     Node* const node = &nodes_[line * n_elastic_];
@@ -196,19 +198,49 @@ void UnloadingTable::make_surface_grid()
     }
   }
 
-  least_bulk_modulus_ = at(0, 0).bulk_modulus;
-  for (std::size_t line = 0; line + 1 < n_lines; ++line) {
+  find_least_bulk_modulus(plastic_of_line);
+}
+
+void UnloadingTable::check_rises(std::span<const double> elastic, std::span<const double> pressures,
+                                 double plastic) const
+{
+  const auto falls = std::adjacent_find(elastic.begin(), elastic.end(), std::greater_equal<>());
+  if (falls != elastic.end())
+    refuse_between_curves("strain does not rise", pressures[falls - elastic.begin()], plastic);
+}
+
+void UnloadingTable::refuse_between_curves(const std::string& found, double pressure, double plastic) const
+{
+  // Below the first measured curve its shape is kept, and only the next one can bend it.
+  const bool is_copy = curve_row_.size() > 2 && curve_row_[0] == curve_row_[1];
+  const std::size_t k = std::max(curve_below(plastic), is_copy ? std::size_t{1} : std::size_t{0});
+  throw BadValue("near the curves of plastic strain " + std::to_string(curve_plastic_[k]) + " and " +
+                     std::to_string(curve_plastic_[k + 1]) + " " + found + " at pressure " + std::to_string(pressure) +
+                     ", plastic strain " + std::to_string(plastic),
+                 "curves that neither cross nor come close", curve_row_[k + 1]);
+}
+
+void UnloadingTable::find_least_bulk_modulus(std::span<const double> plastic_of_line)
+{
+  const double spacing = last_elastic_ / static_cast<double>(n_elastic_cells);
+  double elastic = 0, plastic = 0;
+  least_bulk_modulus_ = at(elastic, plastic).bulk_modulus;
+  for (std::size_t line = 0; line + 1 < plastic_of_line.size(); ++line) {
     const double half_way = 0.5 * (plastic_of_line[line] + plastic_of_line[line + 1]);
     for (std::size_t i = 0; i < 2 * n_elastic_; ++i) {
       const double e = 0.5 * spacing * static_cast<double>(i);
       for (double ep : {plastic_of_line[line], half_way}) {
-        least_bulk_modulus_ = std::min(least_bulk_modulus_, at(e, ep).bulk_modulus);
+        const double modulus = at(e, ep).bulk_modulus;
+        if (!(modulus < least_bulk_modulus_)) continue;
+        least_bulk_modulus_ = modulus;
+        elastic = e;
+        plastic = ep;
       }
     }
   }
-  if (!(least_bulk_modulus_ > 0)) {
-    throw BadValue("a bulk modulus of " + std::to_string(least_bulk_modulus_), "curves with a positive modulus");
-  }
+  if (least_bulk_modulus_ > 0) return;
+  refuse_between_curves("the bulk modulus is " + std::to_string(least_bulk_modulus_), at(elastic, plastic).pressure,
+                        plastic);
 }
 
 bool UnloadingTable::in_range(double elastic, double plastic) const

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <optional>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "components/curves/monotone_cubic.hpp"
@@ -93,6 +94,9 @@ class UnloadingTable
   void extend_curves();
   void check_curves_do_not_cross() const;
   void make_surface_grid();
+  void check_rises(std::span<const double> elastic, std::span<const double> pressures, double plastic) const;
+  void find_least_bulk_modulus(std::span<const double> plastic_of_line);
+  [[noreturn]] void refuse_between_curves(const std::string& found, double pressure, double plastic) const;
 
   /// Elastic strain at a pressure, and its derivatives, by the definition.
   struct StrainAtPressure {

@@ -164,6 +164,16 @@ TEST_CASE("unloading curves that are out of order, do not start at zero, or cros
   CHECK(crossing.expected == "more total strain on the curve of more plastic strain");
 }
 
+TEST_CASE("unloading curves that run towards each other too fast are refused with their strains and the pressure")
+{
+  const BadValue near =
+      refusal({.1, .1, .1, .2, .2, .2, .2}, {0, .01, .02, 0, .0049, .005, .02}, {0, 1e7, 4e7, 0, 1e5, 2e7, 3e7});
+
+  CHECK_THAT(near.found, Catch::StartsWith("near the curves of plastic strain 0.100000 and 0.200000 ") &&
+                             Catch::Contains(" at pressure "));
+  CHECK(near.row == 3);
+}
+
 TEST_CASE("the modulus' derivative by plastic strain is that of the surface")
 {
   const UnloadingTable& table = concrete_sand::unloading();
