@@ -5,15 +5,17 @@
 
 Debian's python3-matplotlib is used. The same compare.json gives the same page, byte for byte."""
 
-from charts.script import folder_of_arguments
+import inputs
+from charts.script import folder_of_arguments, written_by_tamp
 
 
 def main():
     folder = folder_of_arguments(__doc__)
     from charts import compare_page
 
-    compare_page.write(compare_page.read_comparison(folder), folder)
+    with written_by_tamp(folder / "compare.json"):
+        compare_page.write(compare_page.read_comparison(folder), folder)
 
 
 if __name__ == "__main__":
-    main()
+    inputs.run(main)

@@ -5,15 +5,17 @@
 
 Debian's python3-matplotlib is used. The same study.json gives the same files, byte for byte."""
 
-from charts.script import folder_of_arguments
+import inputs
+from charts.script import folder_of_arguments, written_by_tamp
 
 
 def main():
     folder = folder_of_arguments(__doc__)
     from charts import study, study_page
 
-    study_page.write(study.read_study(folder), folder)
+    with written_by_tamp(folder / "study.json"):
+        study_page.write(study.read_study(folder), folder)
 
 
 if __name__ == "__main__":
-    main()
+    inputs.run(main)

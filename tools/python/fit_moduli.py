@@ -12,17 +12,19 @@ import argparse
 import os
 import pathlib
 
+import inputs
+import tamp_program
+
 # Sums that threads share come out differently from run to run. Before numpy is imported.
 for library in ["OMP", "OPENBLAS", "MKL"]:
     os.environ[f"{library}_NUM_THREADS"] = "1"
 
-from fitting import errors, network, page, support_vectors  # noqa: E402
-from fitting.curves import read_curves, read_table  # noqa: E402
+PACKAGES = {"sklearn": "python3-sklearn", "h5py": "python3-h5py", "matplotlib": "python3-matplotlib"}
 
 
 def layers(text):
     """Neurons of each layer, as 64,32,32."""
-    return tuple(int(number) for number in text.split(","))
+    return tuple(count(number) for number in text.split(","))
 
 
 def arguments():
@@ -30,33 +32,68 @@ def arguments():
     parser.add_argument("folder", type=pathlib.Path, metavar="FOLDER")
     parser.add_argument("--out", type=pathlib.Path, metavar="FOLDER", help="for the files made; by default the same")
     parser.add_argument("--page", type=pathlib.Path, metavar="PAGE.html", help="plots of the fits")
-    parser.add_argument("--c", type=float, default=10, help="SVR: weight of errors (%(default)s)")
-    parser.add_argument("--epsilon", type=float, default=0.001, help="SVR: free error, of the range of p (%(default)s)")
-    parser.add_argument("--layers", type=layers, default=network.LAYERS, help="MLP: neurons of each (64,32,32)")
-    parser.add_argument("--epochs", type=int, default=800, help="MLP (%(default)s)")
-    parser.add_argument("--batch", type=int, default=32, help="MLP (%(default)s)")
-    parser.add_argument("--seed", type=int, default=1, help="MLP (%(default)s)")
+    parser.add_argument("--c", type=weight, default=10, help="SVR: weight of errors (%(default)s)")
+    parser.add_argument("--epsilon", type=part, default=0.001, help="SVR: free error, of the range of p (%(default)s)")
+    parser.add_argument("--layers", type=layers, default="64,32,32", help="MLP: neurons of each (64,32,32)")
+    parser.add_argument("--epochs", type=count, default=800, help="MLP (%(default)s)")
+    parser.add_argument("--batch", type=count, default=32, help="MLP (%(default)s)")
+    parser.add_argument("--seed", type=seed, default=1, help="MLP (%(default)s)")
+    tamp_program.add_option(parser)
     return parser.parse_args()
+
+
+weight = inputs.checked_number(float, lambda value: value > 0, "number above 0")
+part = inputs.checked_number(float, lambda value: 0 <= value < 1, "number from 0 to 1")
+count = inputs.checked_number(int, lambda value: 1 <= value < 2**31, "number of 1 or more")
+seed = inputs.checked_number(int, lambda value: 0 <= value < 2**32, "number from 0 to 4294967295")
+
+
+def check_with_tamp(program, files, curves):
+    """That TAMP takes the files: asked where the curves end."""
+    ends = [(float(curve.end), float(curve.plastic)) for curve in curves]
+    for file in files if program else []:
+        objection = tamp_program.objection(program, file, ends)
+        if objection:
+            raise inputs.Refusal(objection + ", says TAMP")
+
+
+def warn_of_softening(table):
+    for name, least, *_ in table.rows:
+        if float(least) <= 0:
+            inputs.say(f"warning: {name} has a bulk modulus down to {least} GPa; expected one above 0, without which "
+                       "sand has no wave speed (another --c or --seed?)")  # fmt: skip
 
 
 def main():
     options = arguments()
-    curves = read_curves(options.folder / "unloading.csv")
-    hydrostat = read_table(options.folder / "hydrostat.csv")
-    out = options.out or options.folder
-    out.mkdir(parents=True, exist_ok=True)
+    inputs.need(PACKAGES)
+    from fitting import errors, network, page, support_vectors
+    from fitting.curves import read_curves, read_hydrostat
 
-    support_vectors.write(support_vectors.fit(curves, options.c, options.epsilon), out / "support_vectors.json")
-    network.write(*network.fit(curves, options.epochs, options.batch, options.seed, options.layers), out / "network.h5")
+    sources = [options.folder / "unloading.csv", options.folder / "hydrostat.csv"]
+    out = options.out or options.folder
+    outputs = [out / "support_vectors.json", out / "network.h5"]
+    inputs.keep_inputs(sources, outputs + ([options.page] if options.page else []))
+    program = tamp_program.found(options.tamp)
+    curves, hydrostat = read_curves(sources[0]), read_hydrostat(sources[1])
+    check_with_tamp(program, sources[:1], curves)
+
+    out.mkdir(parents=True, exist_ok=True)
+    svr, mlp = map(tamp_program.aside, outputs)
+    support_vectors.write(support_vectors.fit(curves, options.c, options.epsilon), svr)
+    network.write(*network.fit(curves, options.epochs, options.batch, options.seed, options.layers), mlp)
+    check_with_tamp(program, [svr, mlp], curves)
+    tamp_program.put_in_place(outputs)
 
     # What is shown is what the files say.
-    models = [support_vectors.SupportVectors(out / "support_vectors.json"), network.Network(out / "network.h5")]
+    models = [support_vectors.SupportVectors(outputs[0]), network.Network(outputs[1])]
     print(f"support_vectors.json: {len(models[0].vectors)} vectors\n")
     tables = errors.tables(curves, hydrostat, models)
     print("\n\n".join(errors.as_text(table) for table in tables))
+    warn_of_softening(tables[-1])
     if options.page:
         page.write(options.page, curves, hydrostat, models, tables)
 
 
 if __name__ == "__main__":
-    main()
+    inputs.run(main)

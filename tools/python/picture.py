@@ -10,18 +10,29 @@ largest value. Needs Debian's paraview and python3-paraview, and a display (or x
 
 import argparse
 import os
+import pathlib
 
-import numpy
-from paraview import simple
-from vtkmodules.util.numpy_support import numpy_to_vtk, numpy_to_vtkIdTypeArray, vtk_to_numpy
-from vtkmodules.vtkCommonCore import vtkPoints
-from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkCompositeDataSet, vtkPolyData
+import inputs
+
+try:
+    import numpy
+    from paraview import simple
+    from vtkmodules.util.numpy_support import numpy_to_vtk, numpy_to_vtkIdTypeArray, vtk_to_numpy
+    from vtkmodules.vtkCommonCore import vtkPoints
+    from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkCompositeDataSet, vtkPolyData
+except ImportError:
+    simple = None  # said once the command line is read
 
 
 def blocks_of(data):
     """The data set of each named block."""
     names = [data.GetMetaData(i).Get(vtkCompositeDataSet.NAME()) for i in range(data.GetNumberOfBlocks())]
     return {name: data.GetBlock(i) for i, name in enumerate(names)}
+
+
+def check_known(names, name, what, path):
+    if name not in names:
+        raise inputs.Refusal(path, f"no {what} {name}", " or ".join(names) or f"a {what}")
 
 
 def with_lengths(block, field):
@@ -66,26 +77,58 @@ def shown_points(view, block, size):
     return shown
 
 
-def main():
+def arguments():
+    number = inputs.checked_number(float, lambda _: True, "number")
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("run", help="the run's folder")
+    parser.add_argument("run", type=pathlib.Path, help="the run's folder")
     parser.add_argument("--material", default="sand")
     parser.add_argument("--field", default="p", help="a scalar of its particles")
-    parser.add_argument("--time", type=float, default=1e-3, help="seconds")
-    parser.add_argument("--range", type=float, nargs=2, help="of the colours; by default that of the data")
+    parser.add_argument("--time", type=number, default=1e-3, help="seconds")
+    parser.add_argument("--range", type=number, nargs=2, help="of the colours; by default that of the data")
     parser.add_argument("--log", action="store_true", help="a logarithmic scale of colours; needs --range above 0")
-    parser.add_argument("--slab", type=float, nargs=2, metavar=("FROM", "TO"), help="places along y, metres")
+    parser.add_argument("--slab", type=number, nargs=2, metavar=("FROM", "TO"), help="places along y, metres")
     parser.add_argument("--beside", nargs="*", default=[], metavar="MATERIAL", help="others to show, in one colour")
-    parser.add_argument("--point-size", type=float, default=4)
-    parser.add_argument("--out", default="picture.png")
+    parser.add_argument("--point-size", type=number, default=4)
+    parser.add_argument("--out", type=pathlib.Path, default="picture.png", metavar="PICTURE.png")
     options = parser.parse_args()
+    if options.range and not options.range[0] < options.range[1]:
+        parser.error(f"argument --range: {options.range}; expected an ascending pair")
+    if options.log and not (options.range and options.range[0] > 0):
+        parser.error("argument --log: no range above 0; expected --range")
+    if options.out.suffix not in (".png", ".jpg"):
+        parser.error(f"argument --out: {options.out}; expected a name that ends in .png or .jpg")
+    return options
 
-    reader = simple.XDMFReader(FileNames=[os.path.join(options.run, "fields.xdmf")])
+
+def read_blocks(path, time):
+    """(time of the nearest output, its blocks)"""
+    inputs.check_file(path)
+    inputs.check_file(path.with_suffix(".h5"))
+    reader = simple.XDMFReader(FileNames=[str(path)])
     reader.UpdatePipelineInformation()
-    time = min(reader.TimestepValues, key=lambda t: abs(t - options.time))
-    reader.UpdatePipeline(time)
-    blocks = blocks_of(simple.servermanager.Fetch(reader))
-    block = cut(blocks[options.material], options.slab)
+    times = [reader.TimestepValues] if isinstance(reader.TimestepValues, float) else list(reader.TimestepValues or [])
+    if not times:
+        raise inputs.Failure(path, "no outputs", "what a run of TAMP has written")
+    nearest = min(times, key=lambda t: abs(t - time))
+    reader.UpdatePipeline(nearest)
+    return nearest, blocks_of(simple.servermanager.Fetch(reader))
+
+
+def main():
+    options = arguments()
+    if simple is None:
+        raise inputs.Failure("this Python", "has no paraview", "pvpython, of Debian's paraview and python3-paraview")
+    path = options.run / "fields.xdmf"
+    inputs.keep_inputs([path, path.with_suffix(".h5")], [options.out])
+    time, blocks = read_blocks(path, options.time)
+    for name in [options.material, *options.beside]:
+        check_known(blocks, name, "material", path)
+    block = blocks[options.material]
+    fields = [block.GetPointData().GetArrayName(k) for k in range(block.GetPointData().GetNumberOfArrays())]
+    check_known(fields, options.field, "field", path)
+    block = cut(block, options.slab)
+    if block.GetNumberOfPoints() == 0:
+        raise inputs.Refusal(path, f"no particle of {options.material} there", "another --slab or --time")
     field = with_lengths(block, options.field)
     values = block.GetPointData().GetArray(field)
     low, high = options.range or values.GetRange()
@@ -118,8 +161,9 @@ def main():
     if options.slab:
         view.CameraPosition, view.CameraFocalPoint, view.CameraViewUp = [0, -1, 0], [0, 0, 0], [0, 0, 1]
     simple.ResetCamera(view)
-    simple.SaveScreenshot(options.out, view)
+    if not os.access(options.out.parent, os.W_OK) or not simple.SaveScreenshot(str(options.out), view):
+        raise inputs.Failure(options.out, "cannot be written", "a place to write to")
 
 
 if __name__ == "__main__":
-    main()
+    inputs.run(main)

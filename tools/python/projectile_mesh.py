@@ -8,12 +8,15 @@ fins that end with it. The surface is one: the boom is left out within the fins,
 """
 
 import argparse
-import json
 import math
 import struct
 
+import inputs
+
 ARC_IN_FIN, ARC_BETWEEN_FINS = 6, 8
 RINGS = 36
+MOST_FINS = 1000
+LONGEST = 1e6  # metres
 
 
 def end_slope(h0, h1, chord0, chord1):
@@ -101,6 +104,32 @@ def surface(body, ring):
     return triangles
 
 
+def is_meshable(body, ring):
+    """Whether `surface` makes one closed surface of it: a cylinder at the end, with fins that are apart."""
+    along, radii = zip(*body["profile"])
+    across, reach = zip(*ring["of"]["corners"])
+    half, boom, count = ring["of"]["upper"], radii[-1], ring["count"]
+    lengths = [*along, *radii, *across, *reach, half, body["tip_radius"]]
+    if not all(isinstance(length, (int, float)) and abs(length) < LONGEST for length in lengths):
+        return False
+    is_body = len(along) > 2 and all(a < b for a, b in zip(along, along[1:])) and min(radii) >= 0
+    ends_in_boom = is_body and radii[-2] == boom and body["tip_radius"] > 0 and along[-2] <= min(across) < max(across)
+    fins_stand_out = isinstance(count, int) and 1 <= count <= MOST_FINS and 0 < half < boom < max(reach)
+    return ends_in_boom and fins_stand_out and math.asin(half / boom) * count < math.pi
+
+
+def read_projectile(path):
+    """(body of revolution, ring of fins) of a solid's JSON."""
+    try:
+        body, ring = inputs.document(path)["of"]
+        is_sound = is_meshable(body, ring)
+    except (KeyError, TypeError, ValueError, IndexError):
+        is_sound = False
+    if not is_sound:
+        raise inputs.Refusal(path, "another shape", "a revolution that ends in a cylinder, and a ring of fins on it")
+    return body, ring
+
+
 def write_stl(path, triangles):
     with open(path, "wb") as stl:
         stl.write(b"TAMP projectile, mm".ljust(80))
@@ -117,10 +146,9 @@ def main():
     parser.add_argument("solid", help="the projectile's JSON")
     parser.add_argument("stl", help="the file to write")
     arguments = parser.parse_args()
-    with open(arguments.solid, encoding="utf-8") as file:
-        body, ring = json.load(file)["of"]
-    write_stl(arguments.stl, surface(body, ring))
+    inputs.keep_inputs([arguments.solid], [arguments.stl])
+    write_stl(arguments.stl, surface(*read_projectile(arguments.solid)))
 
 
 if __name__ == "__main__":
-    main()
+    inputs.run(main)

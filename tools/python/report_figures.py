@@ -14,6 +14,10 @@ Needs Debian's python3-matplotlib, python3-scipy and python3-h5py."""
 import argparse
 import pathlib
 
+import inputs
+
+inputs.run(lambda: inputs.need({"matplotlib": "python3-matplotlib", "scipy": "python3-scipy", "h5py": "python3-h5py"}))
+
 from report import cost, projectile, projectile_numbers, punch, punch_numbers, sand
 from report.drawing import Album
 from report.numbers import write
@@ -29,15 +33,27 @@ def arguments():
     parser.add_argument("--out", type=pathlib.Path, help="folder of the pictures; by default figures beside the runs")
     parser.add_argument("--only", nargs="+", choices=PARTS, default=PARTS)
     parser.add_argument("--projectile", choices=PROJECTILES, default="rigid", help="which projectile (%(default)s)")
-    parser.add_argument("--stiffer-network", type=float, metavar="PASCALS", help="added to MLP's bulk modulus")
-    parser.add_argument("--threads", type=int, default=2, help="of a run (%(default)s)")
-    parser.add_argument("--set", action="append", default=[], metavar="POINTER=VALUE", help="may be repeated")
+    parser.add_argument("--stiffer-network", type=modulus, metavar="PASCALS", help="added to MLP's bulk modulus")
+    parser.add_argument("--threads", type=count, default=2, help="of a run (%(default)s)")
+    parser.add_argument("--set", type=setting, action="append", default=[], metavar="POINTER=VALUE", help="may be repeated")
     return parser.parse_args()
+
+
+def setting(text):
+    pointer, _, value = text.partition("=")
+    if not value:
+        raise argparse.ArgumentTypeError(f"{text}; expected POINTER=VALUE")
+    return pointer, value
+
+
+modulus = inputs.checked_number(float, lambda _: True, "number of pascals")
+count = inputs.checked_number(int, lambda value: value >= 1, "number of 1 or more")
 
 
 def main():
     options = arguments()
-    settings = dict(setting.split("=", 1) for setting in options.set)
+    settings = dict(options.set)
+    inputs.check_file(options.tamp)
     name = "figures-stiffer" if options.stiffer_network else "figures"
     album, numbers = Album(options.out or options.runs / name), []
     punches = punch_runs(options.runs, settings)
@@ -70,4 +86,4 @@ def main():
 
 
 if __name__ == "__main__":
-    main()
+    inputs.run(main)

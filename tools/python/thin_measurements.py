@@ -9,10 +9,13 @@ few points as hold each curve within 0.1 %. Only the standard library is used.
 """
 
 import argparse
-import json
+import math
 import pathlib
 
-import unloading_from_tests as tests
+import inputs
+import tamp_program
+import unloading_from_tests as curves
+from laboratory.curves import ascending, thinned
 
 SOURCE = [
     "Dry, poorly graded concrete sand: Fox et al. (2014), tested at the University of Maryland;",
@@ -24,45 +27,55 @@ SOURCE = [
 
 
 def vaango_table(path, x, y):
-    data = json.loads(path.read_text())["Vaango_tabular_data"]["Data"]
-    return tests.ascending(list(zip(data[x], data[y])))
+    """The points of a published table, in order of x."""
+    try:
+        data = inputs.document(path)["Vaango_tabular_data"]["Data"]
+        points = ascending((float(a), float(b)) for a, b in zip(data[x], data[y], strict=True))
+    except (KeyError, TypeError, ValueError):
+        points = []
+    if len(points) < 2 or not all(map(math.isfinite, sum(points, ()))):
+        raise inputs.Refusal(path, "no such table", f"Vaango_tabular_data/Data with numbers {x} and {y} that ascend")
+    return points
 
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("raw", type=pathlib.Path, metavar="RAW_FOLDER")
     parser.add_argument("out", type=pathlib.Path, metavar="OUTPUT_FOLDER", nargs="?",
-                        default="inputs/materials/concrete-sand")
+                        default=pathlib.Path("inputs/materials/concrete-sand"))  # fmt: skip
+    tamp_program.add_option(parser)
     options = parser.parse_args()
     raw, out = options.raw, options.out
-    out.mkdir(parents=True, exist_ok=True)
-
-    def write(name, title, header, rows):
-        tests.write(out / name, [title, *SOURCE], header, rows)
+    program = tamp_program.found(options.tamp)
 
     paths = sorted((raw / "measured").glob("DrySand_LoadUnload_*.csv"))
+    published = [raw / "vaango" / "DrySand_HydrostaticCapData.json", raw / "vaango" / "DrySand_YieldData.json"]
+    outputs = [out / f"{name}.csv" for name in ["hydrostat", "unloading", "crush_curve", "yield", "yield_sqrt_J2"]]
+    hydrostat, unloading = outputs[:2]
     if not paths:
-        parser.error(f"no measured/DrySand_LoadUnload_*.csv in {raw}")
-    measured = [tests.measured(path, 100, 1e6) for path in paths]
+        raise inputs.Refusal(raw, "no measured/DrySand_LoadUnload_*.csv", "the raw measurements")
+    inputs.keep_inputs([*paths, *published], outputs)
+    tests = curves.read_tests(paths, "percent", "MPa")
+    crush = thinned(vaango_table(published[0], "PlasticStrainVol", "Pressure"))
+    strength = thinned(vaango_table(published[1], "Pressure", "SqrtJ2"))
 
-    # The loading branch of the test to 45.20 %: the published hydrostat before its strains were cut to 0.01 %.
-    loading = tests.thinned(tests.loading_branch(measured[-1]))
-    write("hydrostat.csv", "Hydrostatic loading.", tests.HYDROSTAT_HEADER, loading)
-
-    title = "Hydrostatic unloading, each curve from its own plastic strain."
-    write("unloading.csv", title, tests.UNLOADING_HEADER, tests.unloading_rows(measured))
-
-    header = "plastic_volumetric[-],pressure[Pa]"
-    published = vaango_table(raw / "vaango" / "DrySand_HydrostaticCapData.json", "PlasticStrainVol", "Pressure")
-    title = "Hydrostatic strength (crush curve), the published one."
-    write("crush_curve.csv", title, header, tests.thinned(published))
-
-    strength = vaango_table(raw / "vaango" / "DrySand_YieldData.json", "Pressure", "SqrtJ2")
-    title = "Yield in triaxial compression; the first row is the tension vertex."
+    out.mkdir(parents=True, exist_ok=True)
     # Measured is a "deviatoric yield stress", which is q; the published code reads the same numbers as sqrt(J2).
-    write("yield.csv", title, "pressure[Pa],q[Pa]", tests.thinned(strength))
-    write("yield_sqrt_J2.csv", title, "pressure[Pa],sqrt_J2[Pa]", tests.thinned(strength))
+    yield_title = "Yield in triaxial compression; the first row is the tension vertex."
+    tables = [
+        # The loading branch of the test to 45.20 %: the published hydrostat before its strains were cut to 0.01 %.
+        ("Hydrostatic loading.", curves.HYDROSTAT_HEADER, curves.hydrostat_rows(tests)),
+        ("Hydrostatic unloading, each curve from its own plastic strain.", curves.UNLOADING_HEADER,
+         curves.unloading_rows(tests)),
+        ("Hydrostatic strength (crush curve), the published one.", "plastic_volumetric[-],pressure[Pa]", crush),
+        (yield_title, "pressure[Pa],q[Pa]", strength),
+        (yield_title, "pressure[Pa],sqrt_J2[Pa]", strength),
+    ]  # fmt: skip
+    for path, (title, header, rows) in zip(outputs, tables):
+        curves.write(path, [title, *SOURCE], header, rows)
+    curves.check_with_tamp(program, tamp_program.aside(hydrostat), tamp_program.aside(unloading), tests)
+    tamp_program.put_in_place(outputs)
 
 
 if __name__ == "__main__":
-    main()
+    inputs.run(main)

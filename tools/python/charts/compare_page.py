@@ -1,8 +1,9 @@
 """The page of a comparison: the figures of the models in a table, and their plots over simulated time."""
 
-import json
 import math
 from typing import Callable, NamedTuple
+
+import inputs
 
 from charts import over_time, page
 from charts.over_time import Line, Plot
@@ -19,7 +20,7 @@ first steps of this model only; <em>fields only</em> counts the arrays of partic
 
 
 def read_comparison(folder):
-    return plain(json.loads((folder / "compare.json").read_text(encoding="utf-8")))
+    return plain(inputs.document(folder / "compare.json"))
 
 
 def write(comparison, folder):

@@ -1,9 +1,12 @@
 """What the scripts that draw have in common."""
 
 import argparse
+import contextlib
 import importlib.util
 import pathlib
 import sys
+
+import inputs
 
 NO_MATPLOTLIB = 3  # an exit code that the program knows
 
@@ -17,3 +20,12 @@ def folder_of_arguments(description):
         print(f"{sys.executable} has no matplotlib; Debian's package is python3-matplotlib", file=sys.stderr)
         sys.exit(NO_MATPLOTLIB)
     return folder
+
+
+@contextlib.contextmanager
+def written_by_tamp(path):
+    """What is done with a file of TAMP's own, which may be damaged."""
+    try:
+        yield
+    except (AttributeError, IndexError, KeyError, TypeError, ValueError) as error:
+        raise inputs.Failure(path, f"damaged: {error!r}", "what TAMP has written") from None

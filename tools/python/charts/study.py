@@ -3,6 +3,8 @@
 import json
 from typing import NamedTuple
 
+import inputs
+
 from charts.theme import styles_of_methods
 from charts.words import is_number, number_text, percent_text, plain, si_text
 
@@ -122,7 +124,7 @@ class Study:
 
 
 def read_study(folder):
-    return Study(json.loads((folder / "study.json").read_text(encoding="utf-8")))
+    return Study(inputs.document(folder / "study.json"))
 
 
 def number_or_none(value):

@@ -1,11 +1,15 @@
 """Measured unloading curves, and the surface that the table model spans between them. SI, compression positive."""
 
 import dataclasses
-import sys
 
+import inputs
 import numpy as np
+from laboratory.checks import LEAST_ROWS, check_stiffness
+from laboratory.curves import crossing
 from scipy.interpolate import PchipInterpolator
 
+UNLOADING_COLUMNS = ["plastic_volumetric[-]", "elastic_volumetric[-]", "pressure[Pa]"]
+HYDROSTAT_COLUMNS = ["total_volumetric[-]", "pressure[Pa]"]
 N_PRESSURES = 4001  # where curves are inverted
 
 
@@ -25,27 +29,42 @@ class Curve:
     def end(self):
         return self.elastic[-1]
 
+    def points(self):
+        """(elastic strain, pressure) as measured."""
+        return list(zip(self.elastic, self.pressure))
 
-def read_table(path):
-    try:
-        lines = [line for line in path.read_text().splitlines() if line.strip() and not line.startswith("#")]
-        return np.array([[float(value) for value in line.split(",")] for line in lines[1:]])
-    except (OSError, ValueError) as error:
-        sys.exit(f"{path}: {error}; expected a heading and rows of numbers")
+
+def read_hydrostat(path):
+    """Rows of (total strain, pressure)."""
+    rows = np.array(inputs.table(path, HYDROSTAT_COLUMNS))
+    if np.any(np.diff(rows, axis=0) <= 0):
+        raise inputs.Refusal(path, "strains or pressures that do not rise", "both to rise from row to row")
+    return rows
 
 
 def read_curves(path):
     """The curves of an unloading.csv, in order of plastic strain."""
-    rows = read_table(path)
-    curves = []
-    for plastic in np.unique(rows[:, 0]):
-        _, elastic, pressure = rows[rows[:, 0] == plastic].T
-        if elastic[0] != 0 or pressure[0] != 0 or np.any(np.diff(elastic) <= 0) or np.any(np.diff(pressure) <= 0):
-            sys.exit(f"{path}: curve of plastic strain {plastic:g}; expected to rise from elastic strain 0, pressure 0")
-        curves.append(Curve(plastic, elastic, pressure))
+    rows = np.array(inputs.table(path, UNLOADING_COLUMNS))
+    curves = [read_curve(path, rows, plastic) for plastic in np.unique(rows[:, 0])]
     if len(curves) < 2:
-        sys.exit(f"{path}: {len(curves)} curves; expected two or more")
+        raise inputs.Refusal(path, "one curve", "two or more")
+    for curve, next_curve in zip(curves, curves[1:]):
+        pressure = crossing((curve.plastic, curve.points()), (next_curve.plastic, next_curve.points()))
+        if pressure is not None:
+            raise inputs.Refusal(path, f"the curves of plastic strain {curve.plastic:g} and {next_curve.plastic:g} "
+                                 f"meet or cross at {pressure:g} Pa", "curves apart")  # fmt: skip
     return curves
+
+
+def read_curve(path, rows, plastic):
+    place = f"{path}: curve of plastic strain {plastic:g}"
+    _, elastic, pressure = rows[rows[:, 0] == plastic].T
+    if len(elastic) < LEAST_ROWS:
+        raise inputs.Refusal(place, f"{len(elastic)} rows", f"{LEAST_ROWS} or more")
+    if plastic < 0 or elastic[0] != 0 or pressure[0] != 0 or np.any(np.diff([elastic, pressure]) <= 0):
+        raise inputs.Refusal(place, "another course", "to rise from elastic strain 0, pressure 0")
+    check_stiffness(place, elastic[-1], pressure[-1])
+    return Curve(plastic, elastic, pressure)
 
 
 def with_zero_plastic(curves):

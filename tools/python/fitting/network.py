@@ -4,6 +4,7 @@ import json
 import warnings
 
 import h5py
+import inputs
 import numpy as np
 from sklearn.exceptions import ConvergenceWarning
 from sklearn.neural_network import MLPRegressor
@@ -20,22 +21,22 @@ def points(curves):
     """([elastic, plastic], bulk modulus) on the curves, and on lines between them and beyond them as in the table."""
     surface = Surface(curves)
     most_elastic = surface.ends.max()
-    inputs, outputs = [], []
+    strains, outputs = [], []
     for low, high in zip(surface.plastic[:-1], surface.plastic[1:]):
         lines = np.linspace(low, high, N_LINES_BETWEEN + 2)
         for plastic in lines if high == surface.plastic[-1] else lines[:-1]:
             end = surface.measured_end(plastic)
             beyond = np.linspace(end, most_elastic, N_BEYOND + 1)[1:] if end < most_elastic else []
             elastic = np.concatenate([np.linspace(0, end, N_WITHIN), beyond])
-            inputs.append(np.column_stack([elastic, np.full_like(elastic, plastic)]))
+            strains.append(np.column_stack([elastic, np.full_like(elastic, plastic)]))
             outputs.append(surface.at(elastic, plastic)[1])
-    return np.concatenate(inputs), np.concatenate(outputs)
+    return np.concatenate(strains), np.concatenate(outputs)
 
 
 def fit(curves, epochs, batch, seed, layers=LAYERS):
     """(kernels and biases, scaling, range) of the file."""
-    inputs, output = points(curves)
-    x_mean, x_deviation, y_mean, y_deviation = inputs.mean(axis=0), inputs.std(axis=0), output.mean(), output.std()
+    strains, output = points(curves)
+    x_mean, x_deviation, y_mean, y_deviation = strains.mean(axis=0), strains.std(axis=0), output.mean(), output.std()
     # Patience as long as the training: all epochs are run.
     model = MLPRegressor(
         layers, activation="relu", solver="adam", alpha=0, batch_size=batch, max_iter=epochs,
@@ -43,10 +44,13 @@ def fit(curves, epochs, batch, seed, layers=LAYERS):
     )  # fmt: skip
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", ConvergenceWarning)
-        model.fit((inputs - x_mean) / x_deviation, (output - y_mean) / y_deviation)
+        try:
+            model.fit((strains - x_mean) / x_deviation, (output - y_mean) / y_deviation)
+        except ValueError as error:
+            raise inputs.Refusal("the network", error, "a training that converges (another --seed?)") from None
 
     scaling = [x_mean[0], x_deviation[0], x_mean[1], x_deviation[1], y_mean, y_deviation]
-    bounds = [inputs[:, 0].min(), inputs[:, 0].max(), inputs[:, 1].min(), inputs[:, 1].max()]
+    bounds = [strains[:, 0].min(), strains[:, 0].max(), strains[:, 1].min(), strains[:, 1].max()]
     return list(zip(model.coefs_, model.intercepts_)), scaling, bounds
 
 
@@ -66,6 +70,13 @@ def model_config(weights):
 
 
 def write(weights, scaling, bounds, path):
+    try:
+        write_file(weights, scaling, bounds, path)
+    except (OSError, RuntimeError):  # HDF5's own words are long
+        raise inputs.Failure(path, "cannot be written", "a place to write to") from None
+
+
+def write_file(weights, scaling, bounds, path):
     with h5py.File(path, "w") as file:
         file.attrs["model_config"] = json.dumps(model_config(weights))
         file.attrs["scaling"] = np.array(scaling, dtype="<f8")

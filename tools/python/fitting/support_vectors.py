@@ -2,6 +2,7 @@
 
 import json
 
+import inputs
 import numpy as np
 from sklearn.svm import SVR
 
@@ -16,7 +17,7 @@ STRAIN_UNIT, PRESSURE_UNIT = 0.01, 1e6  # percent, MPa
 def points(curves):
     """([total, plastic] in %, pressure in MPa): every curve, and straight on from it into tension."""
     top = max(curve.pressure[-1] for curve in curves)
-    inputs, outputs = [], []
+    strains, outputs = [], []
     for curve in with_zero_plastic(curves):
         elastic = np.linspace(0, curve.end, round(curve.end / COMPRESSION_STEP) + 1)
         modulus = curve.modulus_at(0)
@@ -24,21 +25,23 @@ def points(curves):
         tension = np.linspace(least, 0, round(-least / TENSION_STEP), endpoint=False)
         pressure = np.concatenate([modulus * tension, curve.pressure_at(elastic)])
         total = np.concatenate([tension, elastic]) + curve.plastic
-        inputs.append(np.column_stack([total, np.full_like(total, curve.plastic)]) / STRAIN_UNIT)
+        strains.append(np.column_stack([total, np.full_like(total, curve.plastic)]) / STRAIN_UNIT)
         outputs.append(pressure / PRESSURE_UNIT)
-    return np.concatenate(inputs), np.concatenate(outputs)
+    return np.concatenate(strains), np.concatenate(outputs)
 
 
 def fit(curves, c, epsilon):
     """The fit, as its file has it. `epsilon` is of the range of pressures."""
-    inputs, output = points(curves)
-    x_min, x_max, y_min, y_max = inputs.min(axis=0), inputs.max(axis=0), output.min(), output.max()
+    strains, output = points(curves)
+    x_min, x_max, y_min, y_max = strains.min(axis=0), strains.max(axis=0), output.min(), output.max()
     x_scale, y_scale = 1 / (x_max - x_min), 1 / (y_max - y_min)
-    scaled = (inputs - x_min) * x_scale
+    scaled = (strains - x_min) * x_scale
 
     gamma = 1 / (2 * scaled.var())  # what scikit-learn calls gamma="scale"
     model = SVR(kernel="rbf", gamma=gamma, C=c, epsilon=epsilon, tol=1e-6)
     model.fit(scaled, (output - y_min) * y_scale)
+    if not len(model.support_):
+        raise inputs.Refusal("the support vectors", "none", "a smaller --epsilon")
     return {
         "X_var": ["Total volumetric strain (%)", "Plastic volumetric strain (%)"],
         "y_var": "Pressure (MPa)",

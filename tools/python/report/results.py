@@ -1,10 +1,9 @@
 """What a run has written, as arrays: history.csv, machine.csv and fields.h5. Units are SI, compression is positive."""
 
-import csv
-import json
 import os
 from typing import NamedTuple
 
+import inputs
 import numpy as np
 
 os.environ.setdefault("HDF5_USE_FILE_LOCKING", "FALSE")
@@ -13,11 +12,9 @@ SHARES = (0.001, 0.01, 0.05)
 
 def read_columns(path):
     """The columns of a CSV by their names without units; numbers that are missing are nan."""
-    with open(path, newline="") as file:
-        rows = [row for row in csv.reader(file) if row and not row[0].startswith("#")]
-    numbers = np.array([[float(value or "nan") for value in row] for row in rows[1:]])
-    numbers = numbers.reshape(len(rows) - 1, len(rows[0]))
-    return {name.split("[")[0]: numbers[:, k] for k, name in enumerate(rows[0])}
+    names, rows = inputs.written_table(path)
+    numbers = np.array(rows).reshape(len(rows), len(names))
+    return {name.split("[")[0]: numbers[:, k] for k, name in enumerate(names)}
 
 
 def history(run):
@@ -31,7 +28,7 @@ def machine(run):
 
 
 def summary(run):
-    return json.loads((run.folder / "summary.json").read_text())
+    return inputs.document(run.folder / "summary.json")
 
 
 def at(columns, name, time):

@@ -1,10 +1,11 @@
 """The runs that the figures are drawn from. What is finished is kept, so that the work can go on where it stopped."""
 
-import json
 import pathlib
 import shutil
 import subprocess
 from typing import NamedTuple
+
+import inputs
 
 ROOT = pathlib.Path(__file__).resolve().parents[3]
 MODELS = ("table", "svr", "mlp")
@@ -38,7 +39,7 @@ class Run(NamedTuple):
     @property
     def is_finished(self):
         summary = self.folder / "summary.json"
-        return summary.exists() and json.loads(summary.read_text())["status"].startswith("completed")
+        return summary.exists() and inputs.document(summary).get("status", "").startswith("completed")
 
 
 def told(about, settings):
@@ -101,4 +102,4 @@ def finish(tamp, runs, threads):
         run.folder.parent.mkdir(parents=True, exist_ok=True)
         done = subprocess.run(command(tamp, run, threads), capture_output=True, text=True)
         if done.returncode != 0:
-            raise SystemExit(f"{run.folder.name}: exit code {done.returncode}: {done.stderr}")
+            raise inputs.Failure(run.folder, f"exit code {done.returncode}: {done.stderr.strip()}")

@@ -5,6 +5,7 @@ import pathlib
 import subprocess
 import tempfile
 
+import inputs
 import numpy as np
 
 from charts import theme
@@ -37,7 +38,9 @@ def asked(tamp, file, elastic, plastic):
             rows = [[repr(float(strain)), repr(float(plastic))] for strain in elastic]
             csv.writer(made).writerows([["elastic_volumetric[-]", "plastic_volumetric[-]"], *rows])
         words = [tamp, "modulus", file, "--states", states, "--out", answers]
-        subprocess.run([str(word) for word in words], check=True, capture_output=True)
+        answer = subprocess.run([str(word) for word in words], capture_output=True, text=True)
+        if answer.returncode != 0:
+            raise inputs.Failure(file, answer.stderr.strip())
         columns = read_columns(answers)
     names = ("p", "K") if "p" in columns else ("pressure", "bulk_modulus")
     return columns[names[0]], columns[names[1]]
