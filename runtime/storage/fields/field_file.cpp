@@ -4,6 +4,7 @@
 #include <fmt/core.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 
@@ -32,9 +33,21 @@ std::int64_t checked_size(std::span<const ParticleBlock> particles, const std::o
       n_bytes += of_dataset + 8 * n_in_file(column.kind) * place.n_total();
     }
   };
-  for (const ParticleBlock& block : particles) add(block.columns, place_of(block));
+  std::size_t n_vertices = 0;
+  for (const ParticleBlock& block : particles) {
+    add(block.columns, place_of(block));
+    n_vertices = std::max(n_vertices, place_of(block).n_total());
+  }
+  n_bytes += of_dataset + sizeof(std::int64_t) * n_vertices;
   if (nodes) add(nodes->columns, place_of(*nodes));
   return static_cast<std::int64_t>(n_bytes);
+}
+
+std::size_t n_listed(std::span<const XdmfStep> steps)
+{
+  std::size_t n = 0;
+  for (const XdmfStep& step : steps) n = std::max(n, step.vertices ? step.vertices->n : 0);
+  return n;
 }
 
 }  // namespace
@@ -102,7 +115,9 @@ void FieldFile::write_step(std::int64_t step, double time, std::span<const Parti
     const std::int64_t n_bytes = checked_size(particles, nodes);
     if (communicator_.is_first()) reserve_room(hdf5_file_, n_bytes);
   });
-  XdmfStep written = add_step(hdf5_file_, step, time, particles, nodes, communicator_);
+  // Only the first rank knows the steps.
+  const std::size_t n = communicator_.sum(n_listed(steps_));
+  XdmfStep written = add_step(hdf5_file_, step, time, particles, nodes, n, communicator_);
   on_first_rank(communicator_, [&] {
     give_back_room(hdf5_file_, hdf5::used_size(hdf5_file_));
     steps_.push_back(std::move(written));

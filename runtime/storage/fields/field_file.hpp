@@ -17,6 +17,7 @@ namespace tamp::runtime
 ///
 ///     /step_00000012                      attribute "time" [s]
 ///     /step_00000012/particles/NAME/COLUMN
+///     /step_00000012/vertices             0, 1, 2 ... as many as particles; only where no earlier step has so many
 ///     /step_00000012/nodes                attributes "origin" and "spacing" [m]
 ///     /step_00000012/nodes/COLUMN         z, y, x in the order of the dataset's dimensions
 ///

@@ -18,6 +18,7 @@ namespace
 {
 
 constexpr std::string_view prefix_of_steps = "step_";
+constexpr const char* vertices_name = "vertices";
 
 std::string name_of_step(std::int64_t step)
 {
@@ -42,6 +43,7 @@ class StoredStep
   }
 
   const hdf5::Location& group() const { return group_; }
+  std::string dataset(const std::string& name) const { return in_xdmf_ + "/" + name; }
   StoredBlock make(const std::string& path) const { return {group_.make_group(path), in_xdmf_ + "/" + path}; }
   StoredBlock open(const std::string& path) const { return {group_.group(path), in_xdmf_ + "/" + path}; }
 
@@ -76,6 +78,31 @@ XdmfParticles write(const StoredStep& step, const ParticleBlock& block)
   XdmfParticles written{block.name, place.n_total(), {}};
   for (const Column& column : block.columns) written.columns.push_back(write_column(stored, column, place));
   return written;
+}
+
+/// The numbers of the rows of a dataset, of which each rank gives its own.
+XdmfVertices write_vertices(const StoredStep& step, const ItemPlace& place)
+{
+  std::vector<hdf5::Slab> slabs = place.share.slabs;
+  std::sort(slabs.begin(), slabs.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+  std::vector<std::int64_t> rows;
+  for (const hdf5::Slab& slab : slabs) {
+    for (hsize_t k = 0; k < slab.n[0]; ++k) rows.push_back(static_cast<std::int64_t>(slab.first[0] + k));
+  }
+  step.group().write(vertices_name, place.share, hdf5::element_type<std::int64_t>(), rows.data());
+  return {step.dataset(vertices_name), place.n_total()};
+}
+
+/// The block with the most particles, of those that a list of `n_listed` is too short for.
+const ParticleBlock* longest(std::span<const ParticleBlock> particles, std::size_t n_listed)
+{
+  const ParticleBlock* found = nullptr;
+  for (const ParticleBlock& block : particles) {
+    const std::size_t n = place_of(block).n_total();
+    if (n > n_listed) found = &block;
+    n_listed = std::max(n_listed, n);
+  }
+  return found;
 }
 
 XdmfNodes write(const StoredStep& step, const NodeBlock& block)
@@ -124,11 +151,13 @@ class StepReader
   XdmfStep read(std::int64_t step) const
   {
     const StoredStep stored(file_.group(name_of_step(step)), step);
-    XdmfStep read{0, {}, {}};
+    XdmfStep read{0, {}, {}, {}};
     stored.group().read_attribute("time", std::span(&read.time, 1));
     for (const std::string& block : stored.group().members(hdf5::MemberOrder::as_made)) {
       if (block == "nodes") {
         read.nodes = nodes(stored.open(block));
+      } else if (block == vertices_name) {
+        read.vertices = {stored.dataset(block), checked_info(stored.group(), block).dimensions.at(0)};
       } else {
         for (const std::string& name : stored.group().group(block).members(hdf5::MemberOrder::as_made)) {
           read.particles.push_back(particles(stored.open(path_of_particles(name)), name));
@@ -157,14 +186,20 @@ class StepReader
     return read;
   }
 
+  hdf5::DatasetInfo checked_info(const hdf5::Location& group, const std::string& name) const
+  {
+    hdf5::DatasetInfo info = group.info(name);
+    if (info.end > n_bytes_) throw FileError(file_.file().string(), "is cut off");
+    return info;
+  }
+
   /// The columns of items that stand along the first dimensions of each dataset, as many as `n_items` has room for;
   /// what is left are components.
   std::vector<XdmfColumn> columns(const StoredBlock& block, std::span<hsize_t> n_items) const
   {
     std::vector<XdmfColumn> all;
     for (const std::string& name : block.group.members(hdf5::MemberOrder::as_made)) {
-      const hdf5::DatasetInfo info = block.group.info(name);
-      if (info.end > n_bytes_) throw FileError(file_.file().string(), "is cut off");
+      const hdf5::DatasetInfo info = checked_info(block.group, name);
       const std::vector<hsize_t>& n = info.dimensions;
       if (n.size() != n_items.size() && n.size() != n_items.size() + 1) {
         throw FileError(file_.file().string(), "has a dataset '" + name + "' of another shape");
@@ -202,17 +237,19 @@ std::vector<XdmfStep> cut(const std::filesystem::path& name, std::int64_t last_s
 }  // namespace
 
 XdmfStep add_step(const std::filesystem::path& field_file, std::int64_t step, double time,
-                  std::span<const ParticleBlock> particles, const std::optional<NodeBlock>& nodes,
+                  std::span<const ParticleBlock> particles, const std::optional<NodeBlock>& nodes, std::size_t n_listed,
                   const Communicator& communicator)
 {
   const hdf5::OpenFile file(field_file, hdf5::OpenFile::Access::write, fmt::format("cannot write step {}", step),
                             communicator);
-  XdmfStep written{time, {}, {}};
+  XdmfStep written{time, {}, {}, {}};
   {
     const StoredStep stored(file.make_loose_group(), step);
     stored.group().write_attribute("time", std::span(&time, 1));
     for (const ParticleBlock& block : particles) written.particles.push_back(write(stored, block));
     if (nodes) written.nodes = write(stored, *nodes);
+    const ParticleBlock* const unlisted = longest(particles, n_listed);
+    if (unlisted != nullptr) written.vertices = write_vertices(stored, place_of(*unlisted));
     link_step(file, stored.group(), step);
   }
   file.close();

@@ -2,6 +2,7 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <map>
 #include <vector>
 
@@ -49,11 +50,22 @@ std::string attribute(const XdmfColumn& column, const std::string& items)
                      escaped(column.name), type, data_item(column, items));
 }
 
-std::string content_of(const XdmfParticles& particles)
+/// The first of a list that has as many; of a file without one, which earlier versions wrote, nothing.
+std::string first_of(std::span<const XdmfVertices> lists, std::size_t n)
+{
+  const auto list = std::find_if(lists.begin(), lists.end(), [n](const XdmfVertices& all) { return all.n >= n; });
+  if (list == lists.end()) return "";
+  return fmt::format(R"(<DataItem ItemType="HyperSlab" Dimensions="{0}">)"
+                     R"(<DataItem Dimensions="3 1" NumberType="Int" Format="XML">0 1 {0}</DataItem>{1}</DataItem>)",
+                     n, data_item({"", ColumnKind::scalar, true, list->dataset}, fmt::format("{}", list->n)));
+}
+
+std::string content_of(const XdmfParticles& particles, std::span<const XdmfVertices> lists)
 {
   const std::string n = fmt::format("{}", particles.n);
-  std::string text =
-      fmt::format("        <Topology TopologyType=\"Polyvertex\" NumberOfElements=\"{}\" NodesPerElement=\"1\"/>\n", n);
+  std::string text = fmt::format(
+      "        <Topology TopologyType=\"Polyvertex\" NumberOfElements=\"{}\" NodesPerElement=\"1\">{}</Topology>\n", n,
+      first_of(lists, particles.n));
   for (const XdmfColumn& column : particles.columns) {
     if (column.name == "position") {
       text += fmt::format("        <Geometry GeometryType=\"XYZ\">{}</Geometry>\n", data_item(column, n));
@@ -97,9 +109,11 @@ std::string xdmf_text(std::span<const XdmfStep> steps)
     if (!grids.contains(name)) names.push_back(name);
     grids[name] += grid_at(time, name, grid);
   };
+  std::vector<XdmfVertices> lists;
   for (const XdmfStep& step : steps) {
+    if (step.vertices) lists.push_back(*step.vertices);
     for (const XdmfParticles& particles : step.particles) {
-      if (particles.n > 0) add(particles.name, step.time, content_of(particles));
+      if (particles.n > 0) add(particles.name, step.time, content_of(particles, lists));
     }
     if (step.nodes) add("grid", step.time, content_of(*step.nodes));
   }

@@ -33,16 +33,24 @@ struct XdmfNodes {
   std::vector<XdmfColumn> columns;
 };
 
+/// A dataset of the whole numbers from 0 on.
+struct XdmfVertices {
+  std::string dataset;
+  std::size_t n;
+};
+
 /// What there is to see at one time.
 struct XdmfStep {
   double time;
   std::vector<XdmfParticles> particles;
   std::optional<XdmfNodes> nodes;
+  /// Which particle each point is, where no step before it has as many.
+  std::optional<XdmfVertices> vertices;
 };
 
 /// An XDMF document (version 3): a collection in time of collections in space, of particles as points and of the nodes
 /// as one uniform grid. A plane grid is a space grid of one layer, which readers agree on more than on plane ones.
-/// Blocks without particles are left out.
+/// Blocks without particles are left out. Points name their particle, as some of ParaView's readers show no others.
 std::string xdmf_text(std::span<const XdmfStep> steps);
 
 }  // namespace tamp::runtime

@@ -115,7 +115,30 @@ TEST_CASE("the xdmf file names a dataset that exists for every column of every s
     ++n_datasets;
   }
   H5Fclose(f);
-  CHECK(n_datasets == 8);
+  CHECK(n_datasets == 10);
+}
+
+TEST_CASE(
+    "each point of the xdmf file names its particle, in one list that is written again only where it is too short")
+{
+  const TemporaryFolder folder;
+  const std::vector<double> position{1, 2, 3, 4, 5, 6, 7, 8};
+  const auto block = [&](std::size_t n) {
+    return std::vector{ParticleBlock{"a", n, {{"position", ColumnKind::vector, std::span(position).first(2 * n)}}}};
+  };
+  FieldFile file(folder.path);
+
+  for (const std::size_t n : {3, 2, 4}) file.write_step(static_cast<std::int64_t>(10 - n), 0.1, block(n));
+
+  const std::string text = read_text(folder.path / "fields.xdmf");
+  CHECK(count(text,
+              ">0 1 3</DataItem><DataItem Dimensions=\"3\" NumberType=\"Int\" Precision=\"8\" Format=\"HDF\">"
+              "fields.h5:/step_00000007/vertices<") == 1);
+  CHECK(count(text, ">0 1 2</DataItem><DataItem Dimensions=\"3\"") == 1);
+  CHECK(count(text, "fields.h5:/step_00000006/vertices<") == 1);
+  CHECK(count(text, "/vertices<") == 3);
+  CHECK(read_dataset(folder.path / "fields.h5", "/step_00000007/vertices").values == std::vector<double>{0, 1, 2});
+  CHECK(read_dataset(folder.path / "fields.h5", "/step_00000006/vertices").values == std::vector<double>{0, 1, 2, 3});
 }
 
 TEST_CASE("the fields of the steps so far can be read while the field file is still in use")
