@@ -17,7 +17,7 @@ const ObjectKeys& modulus_keys()
 {
   const std::string file =
       "the model's file: unloading curves with the columns `plastic_volumetric[-]`, `elastic_volumetric[-]`, "
-      "`pressure[Pa]` or a published tabular JSON; a published SVR JSON; a Keras HDF5 file";
+      "`pressure[Pa]` or a published tabular JSON; a published SVR JSON; a Keras HDF5 file of dense layers in a chain";
   const std::string numbers =
       "of an mlp: `[mean_e, sd_e, mean_p, sd_p, mean_K, sd_K]`, `[e_lower, e_upper, p_lower, p_upper]` for elastic (e) "
       "and plastic (p) strain";

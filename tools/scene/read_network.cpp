@@ -47,13 +47,16 @@ class KerasReader
     read_config();
     layer_names_ = input_.texts(weights_group, "layer_names");
     const JsonPointer pointer = layers_pointer();
-    const Json& layers = config_[pointer];
-    for (std::size_t i = 0; i < layers.size(); ++i) {
-      const std::string class_name = text(pointer / i / "class_name");
+    for (const JsonPointer& layer : is_sequential() ? listed(pointer) : chained(pointer)) {
+      const std::string class_name = text(layer / "class_name");
       if (is_idle(class_name)) continue;
-      if (class_name != "Dense") fail(pointer / i / "class_name", class_name, "expected Dense");
-      network.layers.push_back(read_layer(pointer / i / "config"));
-      check_chain(network.layers, pointer / i / "config");
+      if (class_name == "Activation") {
+        activate(network.layers, layer / "config" / "activation");
+        continue;
+      }
+      if (class_name != "Dense") fail(layer / "class_name", class_name, "expected Dense or Activation");
+      network.layers.push_back(read_layer(layer / "config"));
+      check_chain(network.layers, layer / "config");
     }
     if (network.layers.empty()) fail(pointer, "no layers", "expected Dense layers");
     if (network.layers.back().n_outputs != 1) {
@@ -100,7 +103,68 @@ class KerasReader
     config_ = json_of(texts.empty() ? "" : texts.front()).value_or(nullptr);
     if (!config_.is_object()) fail(JsonPointer(), "no JSON object", "expected the model's description");
     const JsonPointer class_name = JsonPointer() / "class_name";
-    if (text(class_name) != "Sequential") fail(class_name, text(class_name), "expected Sequential");
+    const std::string kind = text(class_name);
+    if (kind != "Sequential" && kind != "Functional" && kind != "Model") {
+      fail(class_name, kind, "expected Sequential, or a Functional model that is a chain");
+    }
+  }
+
+  bool is_sequential() const { return text(JsonPointer() / "class_name") == "Sequential"; }
+
+  std::vector<JsonPointer> listed(const JsonPointer& layers) const
+  {
+    std::vector<JsonPointer> all;
+    for (std::size_t i = 0; i < config_[layers].size(); ++i) all.push_back(layers / i);
+    return all;
+  }
+
+  /// The layers of a functional model in the order in which they follow each other; refused if they do not all.
+  std::vector<JsonPointer> chained(const JsonPointer& layers) const
+  {
+    std::vector<JsonPointer> left = listed(layers), chain;
+    std::vector<std::string> before;
+    while (!left.empty()) {
+      const auto next = std::find_if(left.begin(), left.end(), [&](const auto& l) { return inputs_of(l) == before; });
+      if (next == left.end()) {
+        fail(left.front() / "inbound_nodes", fmt::format("[{}]", fmt::join(inputs_of(left.front()), ", ")),
+             "expected one input, and each layer after one other in a chain");
+      }
+      before = {text(*next / "config" / "name")};
+      chain.push_back(*next);
+      left.erase(next);
+    }
+    return chain;
+  }
+
+  std::vector<std::string> inputs_of(const JsonPointer& layer) const
+  {
+    std::vector<std::string> names;
+    const JsonPointer nodes = layer / "inbound_nodes";
+    if (config_.contains(nodes)) collect_inputs(config_[nodes], names);
+    return names;
+  }
+
+  /// A layer stands there as ["name", 0, 0, {}], since Keras 3 under "keras_history".
+  static void collect_inputs(const Json& node, std::vector<std::string>& names)
+  {
+    if (node.is_array() && !node.empty() && node.front().is_string()) {
+      names.push_back(node.front().get<std::string>());
+    } else if (node.is_object() && node.contains("keras_history")) {
+      collect_inputs(node["keras_history"], names);
+    } else if (node.is_structured()) {
+      for (const Json& inner : node) collect_inputs(inner, names);
+    }
+  }
+
+  /// A layer that is an activation alone acts on the one before it.
+  void activate(std::vector<DenseLayer>& layers, const JsonPointer& pointer) const
+  {
+    const Activation own = activation(pointer);
+    if (own == Activation::linear) return;
+    if (layers.empty() || layers.back().activation != Activation::linear) {
+      fail(pointer, text(pointer), "expected it after a Dense layer whose own activation is linear");
+    }
+    layers.back().activation = own;
   }
 
   /// The list of layers stands under "layers" since Keras 2.2.3, before that directly.

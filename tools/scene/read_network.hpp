@@ -10,9 +10,10 @@
 namespace tamp::tools
 {
 
-/// What a Keras HDF5 file holds: a Sequential model of Dense layers (linear, relu, sigmoid, tanh) from elastic and
-/// plastic volumetric strain to the bulk modulus, and, where its maker added them as attributes of the root, what the
-/// three were standardised with and the strains it was fitted over.
+/// What a Keras HDF5 file holds: a Sequential model, or a Functional one that is a chain, of Dense layers (linear,
+/// relu, sigmoid, tanh, also as Activation layers of their own) from elastic and plastic volumetric strain to the bulk
+/// modulus, and, where its maker added them as attributes of the root, what the three were standardised with and the
+/// strains it was fitted over.
 struct NetworkFile {
   std::vector<components::DenseLayer> layers;
   /// Attribute `scaling`: mean and deviation of the elastic strain, of the plastic strain, and of K.

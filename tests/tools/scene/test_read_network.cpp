@@ -68,6 +68,77 @@ TEST_CASE("a Keras file is read, layer by layer")
   }
 }
 
+namespace
+{
+
+/// The small network as a functional model, its layers named in the way of a Keras of that version.
+nlohmann::json functional(int version)
+{
+  nlohmann::json config = keras_config(small_network.layers);
+  config["class_name"] = version < 3 ? "Model" : "Functional";
+  nlohmann::json& layers = config["config"]["layers"];
+  std::string before = "input_1";
+  for (nlohmann::json& layer : layers) {
+    const nlohmann::json history{before, 0, 0};
+    const nlohmann::json tensor{{"class_name", "__keras_tensor__"}, {"config", {{"keras_history", history}}}};
+    layer["inbound_nodes"] = version < 3 ? nlohmann::json{{{before, 0, 0, nlohmann::json::object()}}}
+                                         : nlohmann::json{{{"args", {tensor}}, {"kwargs", nlohmann::json::object()}}};
+    before = layer["config"]["name"];
+  }
+  const nlohmann::json input{
+      {"class_name", "InputLayer"}, {"config", {{"name", "input_1"}}}, {"inbound_nodes", nlohmann::json::array()}};
+  // Their order in the file says nothing.
+  layers.push_back(input);
+  std::swap(layers[0], layers[2]);
+  return config;
+}
+
+}  // namespace
+
+TEST_CASE("a functional model that is a chain is read as the sequential one")
+{
+  const int version = GENERATE(2, 3);
+  const TemporaryFolder folder;
+  write_keras(folder.path() / "n.h5", small_network, functional(version).dump());
+
+  const tools::NetworkFile network = read_network_file(folder.path() / "n.h5");
+
+  REQUIRE(network.layers.size() == 4);
+  for (std::size_t i = 0; i < 4; ++i) CHECK(network.layers[i].kernel == small_network.layers[i].kernel);
+  CHECK(network.layers[2].activation == Activation::tanh);
+}
+
+TEST_CASE("a functional model that is no chain is refused with the layer that is beside it")
+{
+  nlohmann::json config = functional(2);
+  // Two layers after the same one.
+  config["config"]["layers"][3]["inbound_nodes"] = config["config"]["layers"][1]["inbound_nodes"];
+
+  CHECK_THAT(problems_of_network(small_network, config.dump()),
+             Catch::Contains("/inbound_nodes: [") &&
+                 Catch::Contains("]; expected one input, and each layer after one other in a chain"));
+}
+
+TEST_CASE("an activation that is a layer of its own acts on the layer before it")
+{
+  nlohmann::json config = keras_config(small_network.layers);
+  nlohmann::json& layers = config["config"]["layers"];
+  const auto layer = [](const char* name) {
+    return nlohmann::json{{"class_name", "Activation"}, {"config", {{"name", "a"}, {"activation", name}}}};
+  };
+  layers[0]["config"]["activation"] = "linear";
+  layers.insert(layers.begin() + 1, layer("relu"));
+  const TemporaryFolder folder;
+  write_keras(folder.path() / "n.h5", small_network, config.dump());
+
+  CHECK(read_network_file(folder.path() / "n.h5").layers[0].activation == Activation::relu);
+
+  layers.insert(layers.begin() + 2, layer("tanh"));
+  CHECK(problems_of_network(small_network, config.dump()) ==
+        "n.h5#/model_config/config/layers/2/config/activation: tanh; expected it after a Dense layer whose own "
+        "activation is linear");
+}
+
 TEST_CASE("a Keras file without scaling and range is read, and says so")
 {
   const TemporaryFolder folder;
@@ -149,11 +220,11 @@ TEST_CASE("a configuration that is none is told with its place")
 {
   CHECK(problems_of_network(small_network, "{") ==
         "n.h5#/model_config: no JSON object; expected the model's description");
-  CHECK(problems_with_config("/class_name", "Functional") ==
-        "n.h5#/model_config/class_name: Functional; expected Sequential");
+  CHECK(problems_with_config("/class_name", "Mine") ==
+        "n.h5#/model_config/class_name: Mine; expected Sequential, or a Functional model that is a chain");
   CHECK(problems_with_config("/config", 3) == "n.h5#/model_config/config/layers: missing; expected a list of layers");
   CHECK(problems_with_config("/config/layers/1/class_name", "Conv2D") ==
-        "n.h5#/model_config/config/layers/1/class_name: Conv2D; expected Dense");
+        "n.h5#/model_config/config/layers/1/class_name: Conv2D; expected Dense or Activation");
   CHECK(problems_with_config("/config/layers/0/config/activation", "swish") ==
         "n.h5#/model_config/config/layers/0/config/activation: swish; expected one of linear, relu, sigmoid, tanh");
   CHECK(problems_with_config("/config/layers/1/config/units", 0) ==
