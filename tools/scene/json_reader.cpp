@@ -269,9 +269,11 @@ bool JsonReader::is_object(const std::string& key) const
   return value != nullptr && value->is_object();
 }
 
-std::string JsonReader::one_of(const std::string& key, const std::vector<std::string>& words) const
+std::string JsonReader::one_of(const std::string& key, const std::vector<std::string>& words,
+                               const std::string& also) const
 {
-  const std::string expected = (words.size() == 1 ? "expected " : "expected one of ") + joined(words);
+  const std::string expected =
+      (words.size() == 1 ? "expected " : "expected one of ") + joined(words) + (also.empty() ? "" : ", " + also);
   const Json* value = require(key, expected);
   if (value == nullptr) return {};
   if (value->is_string()) {
@@ -287,7 +289,8 @@ std::string JsonReader::one_of(const std::string& key, const std::vector<std::st
 std::string JsonReader::word(const std::string& key)
 {
   write_default(key);
-  return one_of(key, declared_as<Choice>(key).words);
+  const auto& choice = declared_as<Choice>(key);
+  return one_of(key, choice.words, choice.shown_instead);
 }
 
 int JsonReader::value_of_word(const std::string& key)

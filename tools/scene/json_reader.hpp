@@ -100,7 +100,8 @@ class JsonReader
   const Json* require(const std::string& key, const std::string& expected) const;
   void write(const std::string& key, Json value);
   void write_default(const std::string& key, std::size_t n_entries = 0);
-  std::string one_of(const std::string& key, const std::vector<std::string>& words) const;
+  /// `also` is what else a message names.
+  std::string one_of(const std::string& key, const std::vector<std::string>& words, const std::string& also = "") const;
   int value_of_word(const std::string& key);
   template <class T>
   std::vector<T> list(const std::string& key, std::size_t n, const std::string& expected, bool (*fits)(const Json&));

@@ -79,6 +79,8 @@ struct Choice {
   std::vector<int> values{};
   /// The keys of an object that may stand there instead of a word.
   KeysOf instead = nullptr;
+  /// That object, as a message shows it.
+  std::string shown_instead{};
 };
 struct Object {
   KeysOf keys;
@@ -139,9 +141,9 @@ struct ObjectKeys {
 /// A key whose words stand for values of an enumeration.
 template <class Enum>
 Key choice(std::string name, Enum default_value, const std::vector<std::pair<std::string, Enum>>& words,
-           std::string meaning, KeysOf instead = nullptr)
+           std::string meaning, KeysOf instead = nullptr, std::string shown_instead = "")
 {
-  Choice choice{.words = {}, .instead = instead};
+  Choice choice{.words = {}, .instead = instead, .shown_instead = std::move(shown_instead)};
   Default left_out;
   for (const auto& [word, value] : words) {
     choice.words.push_back(word);

@@ -48,7 +48,7 @@ const ObjectKeys& boundary_keys()
             "wall that rubs, and that what touches it may leave, not where a centrifuge turns the grid; `\"no_slip\"`: "
             "a wall to which what touches it sticks; `\"open\"`: what crosses leaves the simulation; `\"periodic\"`, "
             "on both faces of an axis or on neither: what leaves at one enters at the other, see below",
-            wall_keys));
+            wall_keys, R"({"friction": MU})"));
         faces.keys.back().only_in = axis == 'z' ? 3 : 0;
       }
     }

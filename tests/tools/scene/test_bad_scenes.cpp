@@ -395,7 +395,7 @@ TEST_CASE("a wall has a word or a coefficient of friction, which no turning grid
   CHECK(problems_with({R"(/boundaries/y-="no_slip")"}) == "");
   CHECK(problems_with({R"(/boundaries/y-={"friction":0.4})"}) == "");
   CHECK(problems_with({R"(/boundaries/y-="rough")"}) ==
-        "--set#/boundaries/y-: \"rough\"; expected one of symmetry, open, no_slip, periodic");
+        "--set#/boundaries/y-: \"rough\"; expected one of symmetry, open, no_slip, periodic, {\"friction\": MU}");
   CHECK_THAT(problems_with({R"(/boundaries/y-={"friction":-0.4})"}),
              Catch::StartsWith("--set#/boundaries/y-/friction: -0.4; expected a number"));
   CHECK_THAT(problems_with({R"(/boundaries/y-={})"}), Catch::Contains("#/boundaries/y-/friction: missing"));
@@ -583,7 +583,7 @@ TEST_CASE("a name that is none of the choices is told with the choices")
         "--set#/transfer: \"mpm\"; expected one of flip, pic, blend, affine, apic, tpic, xpic, fmpm, did you mean "
         "\"fmpm\"?");
   CHECK(problems_with({"/boundaries/x-=wall"}) ==
-        "--set#/boundaries/x-: \"wall\"; expected one of symmetry, open, no_slip, periodic");
+        "--set#/boundaries/x-: \"wall\"; expected one of symmetry, open, no_slip, periodic, {\"friction\": MU}");
   CHECK(problems_with({"/bodies/block/material=stel"}) ==
         "--set#/bodies/block/material: \"stel\"; expected steel, did you mean \"steel\"?");
 }
