@@ -37,6 +37,20 @@ std::vector<double> row(const Outcome& outcome, int n)
 
 }  // namespace
 
+TEST_CASE("a mark of the bytes' order before a table or a material is passed over")
+{
+  const TemporaryFolder folder;
+  write_sand(folder);
+  const Outcome plain = modulus(folder.path() / "sand.json", "--at 0.001,0.05");
+  for (const char* name : {"sand.json", "tables/unloading.csv", "tables/yield.csv"}) {
+    folder.write(name, "\xef\xbb\xbf" + read_text(folder.path() / name));
+  }
+
+  CHECK(plain.exit_code == 0);
+  CHECK(modulus(folder.path() / "sand.json", "--at 0.001,0.05").out == plain.out);
+  CHECK(modulus(folder.path() / "tables/unloading.csv", "--at 0.001,0.05").exit_code == 0);
+}
+
 TEST_CASE("a material is asked for pressure and moduli, as rows of numbers")
 {
   const TemporaryFolder folder;

@@ -35,7 +35,7 @@ bool is_data(const std::string& line)
 
 std::vector<std::string> lines_of(const std::filesystem::path& file)
 {
-  std::istringstream stream(read_input_file(file));
+  std::istringstream stream(read_input_text(file));
   std::vector<std::string> lines;
   for (std::string line; std::getline(stream, line);) lines.push_back(line);
   return lines;

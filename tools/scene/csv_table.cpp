@@ -143,7 +143,7 @@ class TableReader
 template <class UseRow>
 void for_each_row(const std::filesystem::path& file, const UseRow& use_row)
 {
-  std::istringstream stream(read_input_file(file));
+  std::istringstream stream(read_input_text(file));
   int number = 0;
   for (std::string line; std::getline(stream, line);) {
     ++number;
@@ -188,7 +188,7 @@ std::vector<std::pair<std::string, double>> greatest_of_columns(const std::files
 std::pair<Table, std::size_t> read_csv_table(const std::filesystem::path& file,
                                              const std::vector<std::vector<std::string>>& headings)
 {
-  std::istringstream stream(read_input_file(file));
+  std::istringstream stream(read_input_text(file));
   TableReader reader(file, headings);
   for (std::string line; std::getline(stream, line);) reader.read(line);
   return reader.finished();

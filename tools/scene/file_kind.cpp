@@ -19,7 +19,7 @@ FileKind file_kind(const std::filesystem::path& file)
 
   std::array<char, 64> buffer{};
   stream.read(buffer.data(), buffer.size());
-  const std::string_view start(buffer.data(), static_cast<std::size_t>(stream.gcount()));
+  const std::string_view start = without_byte_order_mark({buffer.data(), static_cast<std::size_t>(stream.gcount())});
   if (start.starts_with("\x89HDF\r\n\x1a\n")) return FileKind::hdf5;
   const std::size_t first = start.find_first_not_of(" \t\r\n");
   return first != std::string_view::npos && start[first] == '{' ? FileKind::json : FileKind::text;

@@ -94,6 +94,17 @@ std::string read_input_file(const std::filesystem::path& file)
   return text;
 }
 
+std::string read_input_text(const std::filesystem::path& file)
+{
+  return std::string(without_byte_order_mark(read_input_file(file)));
+}
+
+std::string_view without_byte_order_mark(std::string_view text)
+{
+  constexpr std::string_view mark = "\xef\xbb\xbf";
+  return text.starts_with(mark) ? text.substr(mark.size()) : text;
+}
+
 std::string hash_of(const std::string& text)
 {
   return fmt::format("{:016x}", runtime::checksum(std::as_bytes(std::span(text))));

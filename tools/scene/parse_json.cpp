@@ -105,7 +105,7 @@ Json parsed(const std::string& text, KeyWatch& watch)
 
 Json parse_json(const std::filesystem::path& file)
 {
-  const std::string text = read_input_file(file);
+  const std::string text = read_input_text(file);
   KeyWatch watch;
   Json value;
   try {
