@@ -51,6 +51,21 @@ TEST_CASE("a mark of the bytes' order before a table or a material is passed ove
   CHECK(modulus(folder.path() / "tables/unloading.csv", "--at 0.001,0.05").exit_code == 0);
 }
 
+TEST_CASE("a model whose answers are no numbers is refused")
+{
+  const TemporaryFolder folder;
+  const auto curves = folder.write("curves.csv",
+                                   "plastic_volumetric[-],elastic_volumetric[-],pressure[Pa]\n"
+                                   "0.05,0,0\n0.05,1e-10,1e300\n0.05,2e-10,1e301\n"
+                                   "0.1,0,0\n0.1,1e-10,2e300\n0.1,2e-10,2e301\n");
+
+  const Outcome outcome = modulus(curves, "--at 1e-10,0.05");
+
+  CHECK(outcome.exit_code == 2);
+  CHECK_THAT(outcome.out, !Catch::Contains("inf") && !Catch::Contains("nan"));
+  CHECK_THAT(outcome.err, Catch::StartsWith("tamp: " + curves.string()));
+}
+
 TEST_CASE("a material is asked for pressure and moduli, as rows of numbers")
 {
   const TemporaryFolder folder;

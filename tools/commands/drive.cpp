@@ -1,6 +1,8 @@
 #include <fmt/core.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
+#include <cmath>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -16,6 +18,7 @@
 #include "tools/drive/drive.hpp"
 #include "tools/drive/drive_costs.hpp"
 #include "tools/drive/read_path.hpp"
+#include "tools/errors.hpp"
 #include "tools/output_file.hpp"
 #include "tools/scene/print_json.hpp"
 #include "tools/scene/read_material.hpp"
@@ -48,6 +51,15 @@ void write_summary(const DriveCosts& costs, const std::filesystem::path& file)
   runtime::write_whole_file(file, json_text(summary, 2) + "\n");
 }
 
+void check_finite(const DriveArguments& options, const tasks::MaterialModel& model, const std::vector<double>& values)
+{
+  const auto wrong = std::find_if(values.begin(), values.end(), [](double value) { return !std::isfinite(value); });
+  if (wrong == values.end()) return;
+  const std::string column = drive_columns(model)[static_cast<std::size_t>(wrong - values.begin())];
+  throw InputError({options.material, fmt::format("{} is {} at time {}", column, *wrong, values.front()),
+                    "expected constants and a path that give numbers"});
+}
+
 void drive_point(const DriveArguments& options)
 {
   const tasks::SceneMaterial material = read_material_file(options.material, options.assignments);
@@ -63,6 +75,7 @@ void drive_point(const DriveArguments& options)
   drive(material, path, options.increment, [&](double time, const MaterialPoint& point) {
     if (!options.summary.empty()) points.push_back(point);
     const std::vector<double> values = drive_values(material.model, time, point);
+    check_finite(options, material.model, values);
     if (file) {
       file->write_row(values);
     } else {

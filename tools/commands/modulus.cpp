@@ -112,6 +112,16 @@ AskedModel asked_model(const ModulusArguments& options)
   return model;
 }
 
+void check_finite(const ModulusArguments& options, const std::string& at, const ModulusAnswer& answer)
+{
+  for (const auto& [name, value] : {std::pair{"p", answer.pressure}, std::pair{"K", answer.bulk_modulus},
+                                    std::pair{"dK_dplastic", answer.modulus_by_plastic}}) {
+    if (std::isfinite(value)) continue;
+    throw InputError(
+        {options.file, fmt::format("{} is {} at {}", name, value, at), "expected a model of finite values"});
+  }
+}
+
 void print_moduli(const ModulusArguments& options)
 {
   std::vector<std::vector<double>> states;
@@ -122,6 +132,7 @@ void print_moduli(const ModulusArguments& options)
   print_out("{}\n", modulus_header());
   for (const std::vector<double>& state : states) {
     const ModulusAnswer answer = answer_at(model.modulus, components::ElasticUpdate::state, state[0], state[1]);
+    check_finite(options, fmt::format("{},{}", state[0], state[1]), answer);
     print_out("{}\n", modulus_row(state[0], state[1], answer, model.shear_ratio()));
   }
 }

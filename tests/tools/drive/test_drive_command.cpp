@@ -55,6 +55,25 @@ TEST_CASE("drive names its columns with units and begins with the initial state"
   CHECK_THAT(outcome.out, Catch::Contains("\n1,0.99,0,0,0,1,0,0,0,1,0.01005"));
 }
 
+TEST_CASE(
+    "a constant that is too large to calculate with is refused with its key, and a path's mark of bytes passed over")
+{
+  const TemporaryFolder folder;
+  const std::string path = folder.write("path.csv", "\xef\xbb\xbf" + compression).string();
+  const auto drive_with = [&](const std::string& bulk_modulus) {
+    const std::string text = R"({"type": "neo_hookean", "density": 1000, "shear_modulus": 1e6, "bulk_modulus": )";
+    return tamp_with("drive " + folder.write("rock.json", text + bulk_modulus + "}").string() + " " + path);
+  };
+
+  const Outcome huge = drive_with("1e300");
+
+  CHECK(huge.exit_code == 2);
+  CHECK(huge.out.empty());
+  CHECK(huge.err == "tamp: " + (folder.path() / "rock.json").string() +
+                        "#/bulk_modulus: 1e+300; expected a number of at most 1e+50\n");
+  CHECK(drive_with("1e9").exit_code == 0);
+}
+
 TEST_CASE("drive writes the same to a file, and leaves stdout empty")
 {
   const TemporaryFolder folder;
