@@ -11,9 +11,11 @@
 #include <CGAL/Side_of_triangle_mesh.h>
 #include <CGAL/Surface_mesh.h>
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
 #include <limits>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -95,6 +97,31 @@ void require_no_crossing(const Triangles& mesh)
                  expected_surface);
 }
 
+Vector<3> normal(const Triangles& mesh, Triangles::Face_index face)
+{
+  const auto edge = mesh.halfedge(face);
+  const Vector<3> tip = vector(mesh.point(mesh.source(edge)));
+  return (vector(mesh.point(mesh.target(edge))) - tip).cross(vector(mesh.point(mesh.target(mesh.next(edge)))) - tip);
+}
+
+/// A shell in another bounds a void if it faces into it. If both face the same way, a part that overlaps may be meant
+/// as well. `oriented` is the mesh once its shells and voids all face away from what is filled.
+void require_voids_to_face_in(Triangles& mesh, const Triangles& oriented)
+{
+  const auto volume = mesh.add_property_map<Triangles::Face_index, std::size_t>("f:volume", 0).first;
+  const std::size_t n =
+      processing::volume_connected_components(mesh, volume, CGAL::parameters::do_orientation_tests(false));
+  std::vector<std::optional<bool>> turned(n);
+  for (const auto face : mesh.faces()) {
+    const bool is_turned = normal(mesh, face).dot(normal(oriented, face)) < 0;
+    if (turned[volume[face]].value_or(is_turned) != is_turned) {
+      throw BadValue("a shell within another that faces the same way, one of them about " + middle(mesh, face),
+                     "a shell that bounds a void to face into it, and none in what is filled");
+    }
+    turned[volume[face]] = is_turned;
+  }
+}
+
 }  // namespace
 
 const bool ClosedMesh::is_available = true;
@@ -112,8 +139,10 @@ ClosedMesh::ClosedMesh(std::istream& stl, double scale)
   Triangles mesh = read(stl, scale);
   require_closed(mesh);
   require_no_crossing(mesh);
-  processing::orient_to_bound_a_volume(mesh);
-  surface_ = std::make_shared<const Surface>(std::move(mesh));
+  Triangles oriented = mesh;
+  processing::orient_to_bound_a_volume(oriented);
+  require_voids_to_face_in(mesh, oriented);
+  surface_ = std::make_shared<const Surface>(std::move(oriented));
   require_positive(volume().value, "volume");
 }
 

@@ -19,8 +19,9 @@ class ClosedMesh
   static const bool is_available;
 
   /// Reads STL, binary or text, whose coordinates are multiplied by `scale` to be metres. Points that are equal are one
-  /// and the sense of the triangles does not matter. Throws BadValue for text that is no STL, and for a surface that
-  /// is open, crosses itself or holds nothing.
+  /// and the sense of the triangles does not matter, but for a surface in another, which has to face the other way, as
+  /// that of a void does. Throws BadValue for text that is no STL, and for a surface that is open, crosses itself or
+  /// holds nothing.
   ClosedMesh(std::istream& stl, double scale);
 
   bool contains(const Vector<3>& x) const;

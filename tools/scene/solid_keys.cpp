@@ -77,7 +77,7 @@ const ObjectKeys& solid_keys()
            {"mesh",
             {{"stl", File{}, "", compulsory, "a file"}, {"scale", Number{above_zero}, "", {1.0}, ""}},
             "within the triangles of an STL file, binary or text, whose coordinates times `scale` are metres; the "
-            "surface must be closed and not cross itself",
+            "surface must be closed and not cross itself, and one in another face the other way, into the void",
             3},
            {"union", {solids}, "what at least one of them holds"},
            {"intersection", {solids}, "what all of them hold"},

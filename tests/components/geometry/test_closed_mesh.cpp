@@ -114,6 +114,29 @@ TEST_CASE("a mesh of two parts holds both")
   CHECK_FALSE(solid.contains({1.5, 0.5, 0.5}));
 }
 
+TEST_CASE("a mesh within another is a void where it faces into it, and refused where both face the same way")
+{
+  if (!ClosedMesh::is_available) return;
+  std::vector<Triangle> small = cube({1, 1, 1}), large = cube({0, 0, 0});
+  for (Triangle& triangle : large) {
+    for (Vector<3>& p : triangle) p *= 3;
+  }
+  std::vector<Triangle> inward = small, large_inward = large;
+  for (Triangle& triangle : inward) std::swap(triangle[0], triangle[1]);
+  for (Triangle& triangle : large_inward) std::swap(triangle[0], triangle[1]);
+
+  for (const auto& hollow : {joined(large, inward), joined(large_inward, small)}) {
+    const Solid<3> solid = mesh(stl(hollow));
+    CHECK(solid.volume().value == Approx(26));
+    CHECK_FALSE(solid.contains({1.5, 1.5, 1.5}));
+    CHECK(solid.contains({0.5, 1.5, 1.5}));
+  }
+  for (const auto& doubtful : {joined(large, small), joined(large_inward, inward), joined(small, large)}) {
+    CHECK_THAT(fault(stl(doubtful)), Catch::StartsWith("a shell within another that faces the same way, one of them "));
+  }
+  CHECK(fault(stl(joined(joined(large, inward), cube({5, 0, 0})))).empty());
+}
+
 TEST_CASE("an open mesh is refused with its first open edge")
 {
   if (!ClosedMesh::is_available) return;
