@@ -22,6 +22,16 @@ struct ProfileArguments {
   std::string format = "text";
 };
 
+/// What is wrong with a profile that is JSON, for the library's own text.
+std::string damage(const nlohmann::json::exception& error)
+{
+  constexpr int key_not_found = 403;
+  const std::string text = error.what();
+  const std::size_t begin = text.find('\''), end = text.rfind('\'');
+  if (error.id != key_not_found || begin == end) return "a value is not what it was written as";
+  return fmt::format("the key \"{}\" is missing", text.substr(begin + 1, end - begin - 1));
+}
+
 /// The profile of a run, as it was written or as text.
 std::string told(const ProfileArguments& options)
 {
@@ -33,7 +43,7 @@ std::string told(const ProfileArguments& options)
   } catch (const InputError& error) {
     throw runtime::FileError(file, std::string("is damaged: ") + error.what());
   } catch (const nlohmann::json::exception& error) {
-    throw runtime::FileError(file, std::string("is damaged: ") + error.what());
+    throw runtime::FileError(file, "is damaged: " + damage(error) + "; expected what a run has written");
   }
 }
 
