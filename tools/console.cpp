@@ -24,7 +24,30 @@ void expect_written(bool written)
   if (cause != EPIPE) throw runtime::FileError("standard output", std::strerror(cause));
 }
 
+bool is_control(unsigned char c)
+{
+  return (c < 0x20 && c != '\n') || c == 0x7f;
+}
+
 }  // namespace
+
+std::string without_controls(std::string_view text)
+{
+  std::string shown;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const auto c = static_cast<unsigned char>(text[i]);
+    const auto next = static_cast<unsigned char>(i + 1 < text.size() ? text[i + 1] : 0);
+    if (is_control(c)) {
+      shown += fmt::format("\\x{:02x}", c);
+    } else if (c == 0xc2 && next >= 0x80 && next < 0xa0) {  // those of eight bits, in UTF-8
+      shown += fmt::format("\\x{:02x}", next);
+      ++i;
+    } else {
+      shown += text[i];
+    }
+  }
+  return shown;
+}
 
 void guard_console()
 {

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <string>
 #include <string_view>
 #include <utility>
 
@@ -20,6 +21,10 @@ void flush_out();
 /// Writes on stderr at once. What cannot be written there cannot be told anywhere.
 void write_err(std::string_view text);
 
+/// A text that leaves a terminal as it is: control characters but the ends of lines are written out, such as \x1b.
+/// Names of files and keys may hold any.
+std::string without_controls(std::string_view text);
+
 template <class... Args>
 void print_out(fmt::format_string<Args...> format, Args&&... args)
 {
@@ -29,7 +34,7 @@ void print_out(fmt::format_string<Args...> format, Args&&... args)
 template <class... Args>
 void print_err(fmt::format_string<Args...> format, Args&&... args)
 {
-  write_err(fmt::format(format, std::forward<Args>(args)...));
+  write_err(without_controls(fmt::format(format, std::forward<Args>(args)...)));
 }
 
 }  // namespace tamp::tools

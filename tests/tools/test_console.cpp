@@ -50,4 +50,27 @@ TEST_CASE("a command that prints ends quietly when its reader has gone, and with
   CHECK_THAT(full.err, Catch::Contains("tamp: standard output: No space left on device"));
 }
 
+TEST_CASE("what would steer a terminal is written out in messages")
+{
+  const TemporaryFolder folder;
+  const std::string scene = folder.write("small.json", small_scene).string();
+  const std::string table = folder
+                                .write("curves.csv",
+                                       "a\x1b[2J\x07,\xc2\x9b"
+                                       "31m\n1,2\n")
+                                .string();
+
+  const Outcome key = tamp_with("check " + scene + " --set '/grid/\x1b[31m=1'");
+  const Outcome name = tamp_with("check '" + folder.path().string() + "/\x1b]0;x\x07.json'");
+  const Outcome cell = tamp_with("modulus " + table + " --at 0,0");
+
+  for (const Outcome& outcome : {key, name, cell}) {
+    CHECK(outcome.exit_code != 0);
+    CHECK_THAT(outcome.err, !Catch::Contains("\x1b") && !Catch::Contains("\x07") && !Catch::Contains("\xc2\x9b"));
+  }
+  CHECK_THAT(key.err, Catch::Contains("\\x1b[31m"));
+  CHECK_THAT(name.err, Catch::Contains("/\\x1b]0;x\\x07.json"));
+  CHECK_THAT(cell.err, Catch::Contains("columns a\\x1b[2J\\x07,\\x9b31m"));
+}
+
 }  // namespace test_console

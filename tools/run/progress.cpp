@@ -29,8 +29,8 @@ void Progress::show(long step, double time, double step_size)
   const double rate = n_particles_ * static_cast<double>(step - steps_shown_) / since;
   const double done = std::max(time / end_, static_cast<double>(step) / static_cast<double>(max_steps_));
   const double left = std::chrono::duration<double>(now - start_).count() * (1 - done) / done;
-  print_err("{}step {}  time {:.4e} s  dt {:.3e} s  {:.3g} particle updates/s  {:.0f} s left{}",
-            terminal_ ? "\r\033[K" : "", step, time, step_size, rate, left, terminal_ ? "" : "\n");
+  write_err(fmt::format("{}step {}  time {:.4e} s  dt {:.3e} s  {:.3g} particle updates/s  {:.0f} s left{}",
+                        terminal_ ? "\r\033[K" : "", step, time, step_size, rate, left, terminal_ ? "" : "\n"));
   std::fflush(stderr);
   shown_ = now;
   steps_shown_ = step;
