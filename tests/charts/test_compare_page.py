@@ -33,6 +33,7 @@ def model(name, **changes):
         "ratio_to_table_upper_quartile": 1.4, "dt_mean_s": 5e-4, "modulus_evaluations": 5_670_000,
         "modulus_ns_per_eval": 19.8,
         "peak_rss_bytes": 36.5 * 2**20, "ledger_peak_bytes": 3 * 2**20, "depth_m": 0.15, "depth_max_m": 0.198,
+        "depth_at_common_time_m": 0.2, "q_at_common_time_Pa": 2e8,
         "p_max_Pa": 2.5e8, "q_max_Pa": 4e8, "state_digest": "0",
         "series": {"time_s": [0, 1e-3, 2e-3, 3e-3], "dt_s": [0, 5e-4, 6e-4, 1e-9], "wall_s": [0, 2, 4, 6],
                    "punch.depth_m": [0, 0.1, 0.2, 0.15], "sand.p_max_Pa": [0, 1e8, 2e8, 2.5e8], "sand.q_max_Pa": [0, 1e8, 2e8, 4e8]},
@@ -41,7 +42,7 @@ def model(name, **changes):
 
 def comparison(*models):
     return {"scene": "punch", "title": "A <punch> & sand", "version": "0.1.0", "program": "tamp 0.1.0\nEigen 3.4.0", "cores": 2,
-            "threads": 1, "particles": 5600, "bodies": ["punch"], "sands": ["sand"],
+            "threads": 1, "particles": 5600, "bodies": ["punch"], "sands": ["sand"], "common_time_s": 2e-3,
             "models": list(models) or [model("table"), model("svr")]}  # fmt: skip
 
 

@@ -272,6 +272,19 @@ TEST_CASE("a damaged checkpoint is refused with its reason, and the one before i
   CHECK(summary_of(run)["state_digest"] == straight().digest);
 }
 
+TEST_CASE("a run of which no checkpoint can be read is damaged, and ends with 4")
+{
+  const TemporaryFolder folder;
+  const auto run = folder.path() / "run";
+  REQUIRE(tamp_with(run_of(run, "--steps 10 --checkpoint-steps 10")).exit_code == 0);
+  flip_a_byte(run / "checkpoints/step_00000010.h5");
+
+  const Outcome outcome = tamp_with(restart_of(run, "--steps 20"));
+
+  CHECK(outcome.exit_code == 4);
+  CHECK_THAT(outcome.err, Catch::Contains("checksum") && Catch::Contains("none of its checkpoints can be read"));
+}
+
 TEST_CASE("a folder without a whole checkpoint, or of another scene, cannot be gone on with")
 {
   const TemporaryFolder folder;

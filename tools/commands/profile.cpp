@@ -36,7 +36,7 @@ std::string damage(const nlohmann::json::exception& error)
 std::string told(const ProfileArguments& options)
 {
   const std::filesystem::path file = std::filesystem::path(options.folder) / "profile.json";
-  if (!std::filesystem::exists(file)) throw runtime::FileError(file, "no such file; is this the folder of a run?");
+  if (!std::filesystem::exists(file)) throw InputError({file.string(), "no such file", "expected the folder of a run"});
   try {
     const nlohmann::json profile = parse_json(file);
     return options.format == "json" ? profile.dump(1) + "\n" : runtime::to_text(profile);

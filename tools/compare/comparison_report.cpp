@@ -51,7 +51,6 @@ Json figures(const Comparison& comparison, const ModelResult& model)
   json["ledger_peak_bytes"] = model.ledger_peak_bytes;
   const std::vector<double>& depth = model.samples.back().depth;
   const double common = common_time(comparison);
-  json["common_time_s"] = common;
   json["depth_at_common_time_m"] = or_null(depth_at(model, common));
   json["q_at_common_time_Pa"] = or_null(q_at(model, common));
   json["depth_m"] = depth.empty() ? Json(nullptr) : Json(depth.front());
@@ -146,6 +145,7 @@ Json to_json(const Comparison& comparison)
                {"particles", comparison.n_particles},
                {"bodies", comparison.bodies},
                {"sands", comparison.sands},
+               {"common_time_s", common_time(comparison)},
                {"models", Json::array()}};
   for (const ModelResult& model : comparison.models) {
     Json one = figures(comparison, model);

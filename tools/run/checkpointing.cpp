@@ -7,6 +7,7 @@
 #include <cstdio>
 #include <map>
 
+#include "runtime/file_error.hpp"
 #include "runtime/ranks/on_all_ranks.hpp"
 #include "tools/console.hpp"
 #include "tools/errors.hpp"
@@ -133,6 +134,9 @@ runtime::FoundCheckpoint checkpoint_to_restart(const std::filesystem::path& run_
   auto found = runtime::newest_checkpoint(folder, refused, communicator);
   if (communicator.is_first()) {
     for (const std::string& line : refused) print_err("tamp: refused a checkpoint: {}\n", line);
+  }
+  if (!found && !refused.empty()) {
+    throw runtime::FileError(folder.string(), "none of its checkpoints can be read, for the reasons above");
   }
   if (!found) {
     throw InputError({folder.string(), "no whole checkpoint", "expected the folder of a run that has written one"});

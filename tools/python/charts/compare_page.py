@@ -37,7 +37,12 @@ def whole_page(comparison):
 
 def lead(comparison):
     return (f"Scene {escaped(comparison['scene'])}: {counted(comparison['particles'], 'particle')}, "
-            f"{counted(comparison['threads'], 'thread')}, {counted(comparison['cores'], 'core')}.")  # fmt: skip
+            f"{counted(comparison['threads'], 'thread')}, {counted(comparison['cores'], 'core')}. "
+            f"All models have reached {common_time(comparison)}: up to there they can be compared.")  # fmt: skip
+
+
+def common_time(comparison):
+    return si_text(comparison["common_time_s"], "s")
 
 
 # --- the table ---
@@ -71,6 +76,10 @@ def rows(comparison):
     ]
     if comparison["bodies"]:
         made.append(Row("Greatest depth", of("depth_max_m", "m")))
+    at = f" at {common_time(comparison)}"
+    if comparison["bodies"]:
+        made.append(Row(f"Depth{at}", of("depth_at_common_time_m", "m")))
+    made.append(Row(f"q{at}", of("q_at_common_time_Pa", "Pa")))
     for body in comparison["bodies"]:
         named = f" of {escaped(body)}" if len(comparison["bodies"]) > 1 else ""
         made.append(Row(f"Depth{named} at the end", depth_at_end(body)))
