@@ -57,7 +57,7 @@ TEST_CASE("a field file has all fields unless some are chosen")
   CHECK(written_with("") == std::set<std::string>{"nodes", "nodes/density", "nodes/velocity", "particles",
                                                   "particles/steel", steel + "id", steel + "position",
                                                   steel + "velocity", steel + "stress", steel + "p", steel + "q",
-                                                  steel + "density", steel + "J"});
+                                                  steel + "density", steel + "J", "vertices"});
 }
 
 TEST_CASE("a field file has the chosen fields, ids and positions, and nothing else")
@@ -65,9 +65,9 @@ TEST_CASE("a field file has the chosen fields, ids and positions, and nothing el
   const std::string steel = "particles/steel/";
   CHECK(written_with(R"( --set '/output/fields=["q","nodes/velocity"]')") ==
         std::set<std::string>{"nodes", "nodes/velocity", "particles", "particles/steel", steel + "id",
-                              steel + "position", steel + "q"});
+                              steel + "position", steel + "q", "vertices"});
   CHECK(written_with(" --set '/output/fields=[]'") ==
-        std::set<std::string>{"particles", "particles/steel", steel + "id", steel + "position"});
+        std::set<std::string>{"particles", "particles/steel", steel + "id", steel + "position", "vertices"});
 }
 
 TEST_CASE("the size of a field file is forecast from the fields in it")
