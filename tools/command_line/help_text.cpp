@@ -50,7 +50,7 @@ std::string usage_of(const CLI::App& app)
 {
   std::string name = app.get_name();
   for (const CLI::App* above = app.get_parent(); above != nullptr; above = above->get_parent()) {
-    name = above->get_name() + " " + name;
+    name.insert(0, above->get_name() + " ");
   }
   std::string usage = "Usage: " + name;
   const auto commands = commands_of(app);

@@ -41,7 +41,7 @@ std::string details_of(const CLI::Option& option)
     details.push_back(fmt::format("{}", fmt::join(choices, ", ")));
   }
   const std::string by_default = option.get_default_str();
-  if (!by_default.empty() && by_default != "[]" && value_of(option) != "") {
+  if (!by_default.empty() && by_default != "[]" && !value_of(option).empty()) {
     details.push_back("by default " + by_default);
   }
   for (const CLI::Option* other : option.get_excludes()) details.push_back("not with " + other->get_name());

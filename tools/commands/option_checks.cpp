@@ -57,9 +57,7 @@ CLI::Validator is_one_of(const std::vector<std::string>& choices)
 {
   const auto problem = [choices](const std::string& text) -> std::string {
     if (std::find(choices.begin(), choices.end(), text) != choices.end()) return "";
-    const auto meant = closest(text, choices);
-    return fmt::format("{}; {}", text,
-                       meant ? "did you mean " + *meant + "?" : fmt::format("expected {}", fmt::join(choices, " or ")));
+    return fmt::format("{}; {}", text, meant_or(text, choices, fmt::format("expected {}", fmt::join(choices, " or "))));
   };
   return CLI::Validator(problem, fmt::format("{{{}}}", fmt::join(choices, ",")));
 }

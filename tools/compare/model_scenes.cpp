@@ -5,6 +5,8 @@
 
 #include <algorithm>
 
+#include "tools/command_line/suggestions.hpp"
+
 namespace tamp::tools::compare
 {
 
@@ -24,7 +26,8 @@ void check_model(const std::string& name)
 {
   const std::vector<std::string>& known = model_names();
   if (std::find(known.begin(), known.end(), name) != known.end()) return;
-  throw InputError({"--models", "\"" + name + "\"", fmt::format("expected some of {}", fmt::join(known, ", "))});
+  throw InputError({"--models", "\"" + name + "\"",
+                    meant_or(name, known, fmt::format("expected some of {}", fmt::join(known, ", ")))});
 }
 
 std::vector<std::string> sand_names(const tasks::Scene& scene)

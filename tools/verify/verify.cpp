@@ -10,6 +10,7 @@
 #include "runtime/storage/whole_file.hpp"
 #include "tasks/simulation_error.hpp"
 #include "tools/child_process.hpp"
+#include "tools/command_line/suggestions.hpp"
 #include "tools/console.hpp"
 #include "tools/errors.hpp"
 #include "tools/machine.hpp"
@@ -48,8 +49,8 @@ std::vector<fs::path> chosen_studies(const std::vector<std::string>& names)
   for (const std::string& name : names) {
     const auto at = std::find(known.begin(), known.end(), name);
     if (at == known.end()) {
-      throw InputError(
-          {name, "no study of inputs/verification", fmt::format("expected one of {}", fmt::join(known, ", "))});
+      throw InputError({name, "no study of inputs/verification",
+                        meant_or(name, known, fmt::format("expected one of {}", fmt::join(known, ", ")))});
     }
     const fs::path& file = all[static_cast<std::size_t>(at - known.begin())];
     // One named twice runs once: both would write into one folder.

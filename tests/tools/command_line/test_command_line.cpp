@@ -4,12 +4,10 @@
 #include <sstream>
 
 #include "tests/tools/program.hpp"
-#include "tools/command_line/suggestions.hpp"
 
 namespace test_command_line
 {
 
-using namespace tamp;
 using namespace tamp::test;
 namespace fs = std::filesystem;
 
@@ -32,17 +30,6 @@ std::string bash_offers(const std::string& line)
 
 }  // namespace
 
-TEST_CASE("the word that was meant is the closest, if few letters differ")
-{
-  const std::vector<std::string> known{"run", "check", "graph"};
-
-  CHECK(tools::closest("rnu", known) == "run");
-  CHECK(tools::closest("chekc", known) == "check");
-  CHECK(tools::closest("grpah", known) == "graph");
-  CHECK_FALSE(tools::closest("modulus", known));
-  CHECK_FALSE(tools::closest("run", {}));
-}
-
 TEST_CASE("a word that is not known is told before what is missing, with what was meant")
 {
   const std::vector<std::array<std::string, 2>> all{
@@ -57,7 +44,11 @@ TEST_CASE("a word that is not known is told before what is missing, with what wa
       {"check --something-else", "--something-else: no option of check; see tamp help check"},
       {"run", "SCENE is required; see tamp help run"},
       {"graph a.json --format jsn", "--format: jsn; did you mean json?"},
-      {"completion fish", "SHELL: fish; expected bash or zsh"}};
+      {"completion csh", "SHELL: csh; did you mean zsh?"},
+      {"completion powershell", "SHELL: powershell; expected bash or zsh"},
+      {"bench verify bra", "bra: no study of inputs/verification; did you mean bar?"},
+      {"compare " TAMP_SOURCE_DIR "/inputs/punch/quick.json --models tabel",
+       "--models: \"tabel\"; did you mean table?"}};
   for (const auto& [arguments, said] : all) {
     INFO(arguments);
     const Outcome outcome = tamp_with(arguments);
