@@ -34,6 +34,7 @@ CLI::App* add_help_command(CLI::App& app)
 CLI::App* add_version_command(CLI::App& app)
 {
   CLI::App* command = app.add_subcommand("version", "Print the version, the build, and that of every library");
+  command->footer(examples({{"tamp version", "the same as tamp --version"}}));
   command->callback([] { print_out("{}\n", version_text()); });
   return command;
 }

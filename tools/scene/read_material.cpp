@@ -1,5 +1,7 @@
 #include "tools/scene/read_material.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
