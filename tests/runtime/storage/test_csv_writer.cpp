@@ -1,8 +1,9 @@
 #include <sys/stat.h>
-#include <array>
 
+#include <array>
 #include <catch2/catch.hpp>
 #include <filesystem>
+#include <thread>
 
 #include "runtime/file_error.hpp"
 #include "runtime/storage/csv_writer.hpp"
