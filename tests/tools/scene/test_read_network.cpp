@@ -108,6 +108,21 @@ TEST_CASE("a functional model that is a chain is read as the sequential one")
   CHECK(network.layers[2].activation == Activation::tanh);
 }
 
+TEST_CASE("a file whose heap of texts has an object without a size is refused, in which HDF5 would stay for ever")
+{
+  const std::string sound = read_text(TAMP_SOURCE_DIR "/inputs/materials/concrete-sand/network.h5");
+  const std::size_t heap = sound.find("GCOL");
+  REQUIRE(heap != std::string::npos);
+  // The first object begins behind the header of 16 bytes; it becomes free space of size 0.
+  std::string damaged = sound;
+  damaged.replace(heap + 16, 2, 2, '\0');
+  damaged.replace(heap + 24, 8, 8, '\0');
+  const TemporaryFolder folder;
+  const auto file = folder.write("network.h5", damaged);
+
+  CHECK_THROWS_WITH(read_network_file(file), Catch::Contains("its heap of texts does not add up"));
+}
+
 TEST_CASE("a functional model that is no chain is refused with the layer that is beside it")
 {
   nlohmann::json config = functional(2);
