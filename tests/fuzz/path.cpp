@@ -1,0 +1,7 @@
+#include "tests/fuzz/readers.hpp"
+#include "tools/drive/read_path.hpp"
+
+void tamp::fuzz::path(const std::filesystem::path& file)
+{
+  tools::read_path(file);
+}
