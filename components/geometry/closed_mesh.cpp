@@ -14,6 +14,9 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
+#include <cstdint>
+#include <cstring>
+#include <iterator>
 #include <limits>
 #include <optional>
 #include <string>
@@ -49,9 +52,36 @@ std::string middle(const Triangles& mesh, Triangles::Face_index face)
   return text<3>(sum / 3);
 }
 
+/// Throws for a corner of a binary file that has no place: CGAL joins points that compare as equal, and with NaN any
+/// do.
+void require_places(std::istream& stl)
+{
+  constexpr std::size_t of_header = 80, of_facet = 50, of_normal = 3 * sizeof(float), of_corner = 3 * sizeof(float);
+  const std::string bytes{std::istreambuf_iterator<char>(stl), {}};
+  stl.clear();
+  stl.seekg(0);
+  std::uint32_t n_facets = 0;
+  const std::size_t start = of_header + sizeof n_facets;
+  if (bytes.size() < start) return;
+  std::memcpy(&n_facets, bytes.data() + of_header, sizeof n_facets);
+  if (n_facets > (bytes.size() - start) / of_facet) return;  // text, or cut off
+  for (std::size_t i = 0; i < 3 * std::size_t{n_facets}; ++i) {
+    std::array<float, 3> corner{};
+    std::memcpy(corner.data(), bytes.data() + start + i / 3 * of_facet + of_normal + i % 3 * of_corner, of_corner);
+    require_finite<3>({corner[0], corner[1], corner[2]}, "corner");
+  }
+}
+
+/// Such a triangle covers nothing, and CGAL takes none.
+bool has_equal_corners(const Facet& facet)
+{
+  return facet[0] == facet[1] || facet[1] == facet[2] || facet[2] == facet[0];
+}
+
 /// The triangles of the file, joined where their points are equal.
 Triangles read(std::istream& stl, double scale)
 {
+  require_places(stl);
   std::vector<Point> points;
   std::vector<Facet> facets;
   if (!CGAL::IO::read_STL(stl, points, facets) || facets.empty()) {
@@ -61,9 +91,11 @@ Triangles read(std::istream& stl, double scale)
     p = Point(scale * p.x(), scale * p.y(), scale * p.z());
     require_finite<3>(vector(p), "corner");
   }
+  processing::merge_duplicate_points_in_polygon_soup(points, facets);
+  std::erase_if(facets, has_equal_corners);
   processing::repair_polygon_soup(points, facets);
   processing::orient_polygon_soup(points, facets);
-  if (!processing::is_polygon_soup_a_polygon_mesh(facets)) {
+  if (facets.empty() || !processing::is_polygon_soup_a_polygon_mesh(facets)) {
     throw BadValue("triangles that do not make a surface", expected_surface);
   }
   Triangles mesh;

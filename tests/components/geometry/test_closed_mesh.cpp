@@ -1,6 +1,9 @@
 #include <catch2/catch.hpp>
 
 #include <array>
+#include <cmath>
+#include <cstdint>
+#include <limits>
 #include <random>
 #include <sstream>
 #include <vector>
@@ -46,6 +49,19 @@ std::string stl(const std::vector<Triangle>& triangles)
   }
   out << "endsolid test\n";
   return out.str();
+}
+
+std::string binary_stl(const std::vector<Triangle>& triangles)
+{
+  std::string bytes(80, ' ');
+  const auto add = [&](const auto& value) { bytes.append(reinterpret_cast<const char*>(&value), sizeof value); };
+  add(static_cast<std::uint32_t>(triangles.size()));
+  for (const Triangle& triangle : triangles) {
+    add(std::array<float, 3>{});
+    for (const Vector<3>& p : triangle) add(Eigen::Vector3f(p.cast<float>()));
+    add(std::uint16_t{0});
+  }
+  return bytes;
 }
 
 Solid<3> mesh(const std::string& text, double scale = 1)
@@ -165,6 +181,30 @@ TEST_CASE("text that is no STL, or is cut short, is refused")
   CHECK(fault("solid empty\nendsolid empty\n") != "");
   CHECK(fault(whole.substr(0, whole.size() / 2)) != "");
   CHECK(fault(whole) == "");
+}
+
+TEST_CASE("a corner of a binary mesh that is NaN or infinite is refused, though all but that is another corner's")
+{
+  if (!ClosedMesh::is_available) return;
+  std::vector<Triangle> triangles = cube({0, 0, 0});
+  CHECK(fault(binary_stl(triangles)) == "");
+
+  for (const double odd : {std::nan(""), std::numeric_limits<double>::infinity()}) {
+    triangles.back()[2].x() = odd;
+    CHECK_THAT(fault(binary_stl(triangles)), Catch::StartsWith("corner ["));
+  }
+}
+
+TEST_CASE("a triangle of a mesh with two equal corners is no part of its surface")
+{
+  if (!ClosedMesh::is_available) return;
+  std::vector<Triangle> triangles = cube({0, 0, 0});
+
+  triangles.push_back({triangles[0][0], triangles[0][1], triangles[0][1]});
+
+  CHECK(fault(stl(triangles)) == "");
+  CHECK(mesh(stl(triangles)).volume().value == Approx(1));
+  CHECK(fault(stl({triangles.back()})) == "triangles that do not make a surface");
 }
 
 }  // namespace test_closed_mesh
