@@ -106,6 +106,10 @@ void read_own(const CheckpointReader& reader, const fs::path& file, Warehouse& w
 {
   for (std::size_t t = 0; t < tables.size(); ++t) {
     const CheckpointTable& stored = reader.tables()[t];
+    if (stored.entries.size() != tables[t].patches.size()) {
+      throw FileError(file.string(), fmt::format("is of another scene: {} patches in {}, expected {}",
+                                                 stored.entries.size(), stored.path, tables[t].patches.size()));
+    }
     for (std::size_t p = 0; p < tables[t].patches.size(); ++p) {
       const PatchState& state = tables[t].patches[p];
       if (state.field == nullptr) continue;

@@ -175,9 +175,24 @@ std::vector<CheckpointTable> CheckpointReader::read_contents() const
   CheckpointTable table;
   while (lines >> table.value_bytes && lines.ignore() && std::getline(lines, table.path)) {
     table.entries = read_entries("by_patch/" + table.path);
+    expect_rows(table);
     tables.push_back(table);
   }
   return tables;
+}
+
+void CheckpointReader::expect_rows(const CheckpointTable& table) const
+{
+  const std::vector<hsize_t> rows = file_.info(table.path).dimensions;
+  bool fit = rows.size() == 2 && rows[1] == RowLayout(table.value_bytes).n_columns;
+  hsize_t n_left = fit ? rows[0] : 0;
+  for (const PatchEntry& entry : table.entries) {
+    fit = fit && entry.n_values <= n_left;
+    n_left -= fit ? entry.n_values : 0;
+  }
+  if (!fit || n_left > 0) {
+    throw FileError(file_.file().string(), fmt::format("is damaged in how many values {} has", table.path));
+  }
 }
 
 std::vector<PatchEntry> CheckpointReader::read_entries(const std::string& path) const

@@ -118,6 +118,18 @@ TEST_CASE("a checkpoint that was damaged on its way from memory to the file is r
   CHECK_THAT(damaged.find().second, Catch::EndsWith("is damaged in particles/sand/number of patch 1"));
 }
 
+TEST_CASE("a checkpoint that claims more or fewer values than it has is refused before memory is taken for them")
+{
+  for (const std::int64_t n : {std::int64_t{0}, std::int64_t{1} << 40, std::int64_t{1} << 60}) {
+    const Damaged damaged;
+
+    tamper(damaged.file(), "by_patch/particles/clay/place", n);
+
+    CHECK(damaged.find().first == 10);
+    CHECK_THAT(damaged.find().second, Catch::EndsWith("is damaged in how many values particles/clay/place has"));
+  }
+}
+
 TEST_CASE("a checkpoint of another format is refused with both versions")
 {
   const Damaged damaged;
