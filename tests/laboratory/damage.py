@@ -64,8 +64,8 @@ def damaged_text(text, chance):
 
 
 def damaged_bytes(text, chance):
-    content = bytearray(text.encode(chance.choice(["utf-8", "utf-8-sig", "latin-1", "utf-16"])))
-    for _ in range(chance.choice([0, 0, 1, 1, 5])):
+    content = bytearray(text.encode(chance.choice(["utf-8", "utf-8-sig", "latin-1", "utf-16"]), errors="replace"))
+    for _ in range(chance.choice([0, 0, 1, 1, 5]) if content else 0):
         content[chance.randrange(len(content))] = chance.randrange(256)
     return bytes(content)
 
@@ -144,7 +144,8 @@ def unusual_calls(folder, tamp):
         yield "picture.py", [strange, "--out", folder / "x.png"]
         yield "draw_study.py", [strange]
         yield "draw_compare.py", [strange]
-    for out in [tests[0], "/dev/full", "/dev/null/x", "/proc/x", "", folder / ("y" * 300)]:
+    yield "unloading_from_tests.py", [*units, "--out", tests[0], *tests]
+    for out in ["/dev/full", "/dev/null/x", "/proc/x", "", folder / ("y" * 300)]:
         yield "unloading_from_tests.py", [*units, "--out", out, *tests]
         yield "projectile_mesh.py", [sand.ROOT / "inputs/uxo/projectile.json", out]
     for words in [[], ["--help"], ["--strain"], ["--strain", "per mille"], [*units], [*units, "--out", folder / "o"],

@@ -1,6 +1,7 @@
 """A sand whose tests can be written down, and calls of the scripts that read them."""
 
 import pathlib
+import resource
 import subprocess
 import sys
 from typing import NamedTuple
@@ -8,6 +9,8 @@ from typing import NamedTuple
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 TOOLS = ROOT / "tools/python"
 SCRIPT = TOOLS / "unloading_from_tests.py"
+LIMIT = 120  # seconds
+MEMORY = 4 * 2**30  # bytes of a call, so that it cannot take all that others have
 PEAKS = (16, 24)  # percent
 N = 50  # rows of a branch
 PLASTIC = 0.75  # of the strain at the peak
@@ -36,14 +39,21 @@ def test_text(peak, row="{:.4f},{:.5f}", heading="strain [%],p [MPa]\n"):
 
 
 class Answer(NamedTuple):
-    code: int
+    code: int  # None of one that took too long
     out: str
     err: str
 
 
 def call(script, *words, folder=None, interpreter=sys.executable):
     words = [interpreter, str(TOOLS / script), *map(str, words)]
-    done = subprocess.run(words, cwd=folder, capture_output=True, timeout=120)
+
+    def limit():
+        resource.setrlimit(resource.RLIMIT_AS, (MEMORY, MEMORY))
+
+    try:
+        done = subprocess.run(words, cwd=folder, capture_output=True, timeout=LIMIT, preexec_fn=limit)
+    except subprocess.TimeoutExpired:
+        return Answer(None, "", "took too long")
     return Answer(done.returncode, done.stdout.decode(errors="replace"), done.stderr.decode(errors="replace"))
 
 

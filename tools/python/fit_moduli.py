@@ -19,12 +19,13 @@ import tamp_program
 for library in ["OMP", "OPENBLAS", "MKL"]:
     os.environ[f"{library}_NUM_THREADS"] = "1"
 
+MOST_NEURONS = 4096  # of a layer; the published network has 64
 PACKAGES = {"sklearn": "python3-sklearn", "h5py": "python3-h5py", "matplotlib": "python3-matplotlib"}
 
 
 def layers(text):
     """Neurons of each layer, as 64,32,32."""
-    return tuple(count(number) for number in text.split(","))
+    return tuple(neurons(number) for number in text.split(","))
 
 
 def arguments():
@@ -45,6 +46,7 @@ def arguments():
 weight = inputs.checked_number(float, lambda value: value > 0, "number above 0")
 part = inputs.checked_number(float, lambda value: 0 <= value < 1, "number from 0 to 1")
 count = inputs.checked_number(int, lambda value: 1 <= value < 2**31, "number of 1 or more")
+neurons = inputs.checked_number(int, lambda value: 1 <= value <= MOST_NEURONS, "number of neurons")
 seed = inputs.checked_number(int, lambda value: 0 <= value < 2**32, "number from 0 to 4294967295")
 
 
