@@ -18,7 +18,7 @@ void history(const std::filesystem::path& file);
 /// The `result.json` of a study's point, in a folder of its own. Its checksum is mended before it is read, or none but
 /// that of the seed would ever be read further.
 void result(const std::filesystem::path& file);
-/// The `run.lock` of a folder.
+/// The `run.lock` of a folder, touched now and two minutes ago.
 void run_lock(const std::filesystem::path& file);
 
 /// Tables, in text or published.
