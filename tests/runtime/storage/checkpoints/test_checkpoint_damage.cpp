@@ -67,9 +67,10 @@ void tamper(const std::filesystem::path& file, const char* name, std::int64_t va
 TEST_CASE("a checkpoint in which a byte has changed is refused, wherever it is, and the one before is used")
 {
   const Damaged damaged;
+  constexpr std::size_t stride = TAMP_SANITIZED ? 7 : 1;
 
   std::size_t n_refused = 0, n_tried = 0;
-  for (std::size_t at = 0; at < damaged.whole.size(); at += at < 640 ? 1 : 61) {
+  for (std::size_t at = 0; at < damaged.whole.size(); at += at < 640 ? stride : 61 * stride) {
     std::string flipped = damaged.whole;
     flipped[at] = static_cast<char>(flipped[at] ^ 0x10);
     write_text(damaged.file(), flipped);
@@ -78,7 +79,7 @@ TEST_CASE("a checkpoint in which a byte has changed is refused, wherever it is, 
     ++n_tried;
   }
 
-  CHECK(n_tried > 700);
+  CHECK(n_tried > 700 / stride);
   CHECK(n_refused == n_tried);
 }
 
