@@ -4,9 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <string_view>
 
 #include "tools/errors.hpp"
+#include "tools/scene/hdf5_heaps.hpp"
 #include "tools/scene/input_file.hpp"
 
 namespace tamp::tools
@@ -94,42 +94,11 @@ std::vector<std::string> read_fixed_texts(hid_t attribute, hid_t type, std::size
   return texts;
 }
 
-/// The number of `n` bytes that begins here, the lowest byte first.
-std::size_t number_at(std::string_view bytes, std::size_t at, std::size_t n)
-{
-  std::size_t number = 0;
-  for (std::size_t k = n; k-- > 0;) number = number << 8U | static_cast<unsigned char>(bytes[at + k]);
-  return number;
-}
-
-/// HDF5 goes through the objects of a collection of its global heap, where texts are, by their sizes: one of size 0
-/// keeps version 1.10 there for ever. See "Disk Format: Level 1E - Global Heap" of its file format.
-bool has_sound_heaps(std::string_view bytes)
-{
-  constexpr std::size_t header = 16;  // of a collection, and of an object in it
-  const std::string_view mark("GCOL\x01", 5);
-  for (std::size_t begin = bytes.find(mark); begin != std::string_view::npos; begin = bytes.find(mark, begin + 1)) {
-    if (bytes.size() - begin < header) return false;
-    const std::size_t size = number_at(bytes, begin + 8, 8);
-    if (size > bytes.size() - begin) return false;
-    const std::size_t end = begin + size;
-    for (std::size_t at = begin + header; at + header <= end;) {
-      const bool is_free = number_at(bytes, at, 2) == 0;  // its size has the header in it
-      const std::size_t n = number_at(bytes, at + 8, 8);
-      if (n > end - at || (is_free && n < header)) return false;
-      at += is_free ? n : header + (n + 7) / 8 * 8;
-    }
-  }
-  return true;
-}
-
 hid_t opened(const std::filesystem::path& file)
 {
-  if (!has_sound_heaps(read_input_file(file))) {
-    throw InputError(
-        {file.string(), "a damaged HDF5 file: its heap of texts does not add up", "expected an HDF5 file"});
-  }
+  expect_input_file(file);
   const bool is_hdf5 = H5Fis_hdf5(file.c_str()) > 0;
+  if (is_hdf5) expect_heaps_that_end(file);
   return sound(H5Fopen(file.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), file.string(),
                is_hdf5 ? "a damaged or truncated HDF5 file" : "no HDF5 file", "expected an HDF5 file");
 }
