@@ -58,6 +58,7 @@ void write_trace(const Trace& trace, const std::function<void(std::string_view)>
   write("]}\n");
 }
 
+/// Counts are read as what a damaged file may have there, which need not fit into a whole number.
 std::string to_text(const nlohmann::json& profile, int n_rows)
 {
   std::string text = fmt::format("{:<36} {:>9} {:>10} {:>10} {:>7} {:>9} {:>10}\n", "task", "count", "mean us",
@@ -66,8 +67,8 @@ std::string to_text(const nlohmann::json& profile, int n_rows)
   for (const nlohmann::json& t : profile.at("tasks")) {
     if (n_rows > 0 && row++ == n_rows) break;
     text += fmt::format(
-        "{:<36} {:>9} {:>10.2f} {:>10.2f} {:>6.2f}% {:>9.3f} {:>10.2f}\n", t.at("name").get<std::string>(),
-        t.at("count").get<std::uint64_t>(), t.at("mean_s").get<double>() * 1e6, t.at("p95_s").get<double>() * 1e6,
+        "{:<36} {:>9.0f} {:>10.2f} {:>10.2f} {:>6.2f}% {:>9.3f} {:>10.2f}\n", t.at("name").get<std::string>(),
+        t.at("count").get<double>(), t.at("mean_s").get<double>() * 1e6, t.at("p95_s").get<double>() * 1e6,
         t.at("share").get<double>() * 100, t.at("imbalance").get<double>(), t.at("wait_s").get<double>() * 1e3);
   }
   text += fmt::format(
@@ -75,12 +76,12 @@ std::string to_text(const nlohmann::json& profile, int n_rows)
       "{:.1f} MiB\n",
       profile.at("step_s").get<double>() * 1e6, profile.at("critical_path_s").get<double>() * 1e6,
       profile.at("overhead").get<double>() * 100, profile.at("memory").at("total").get<double>() / (1024 * 1024));
-  if (const auto n = profile.value("messages", std::uint64_t{0}); n > 0) {
+  if (const auto n = profile.value("messages", 0.0); n > 0) {
     const double under_way = profile.at("message_s").get<double>();
-    text +=
-        fmt::format("{} messages between ranks, {:.1f} MiB, {:.1f} us on their way, {:.0f} % of that behind tasks\n", n,
-                    profile.at("message_bytes").get<double>() / (1024 * 1024), under_way / static_cast<double>(n) * 1e6,
-                    100 * (1 - profile.at("message_wait_s").get<double>() / under_way));
+    text += fmt::format(
+        "{:.0f} messages between ranks, {:.1f} MiB, {:.1f} us on their way, {:.0f} % of that behind tasks\n", n,
+        profile.at("message_bytes").get<double>() / (1024 * 1024), under_way / n * 1e6,
+        100 * (1 - profile.at("message_wait_s").get<double>() / under_way));
   }
   return text;
 }
