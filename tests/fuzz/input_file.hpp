@@ -6,7 +6,7 @@
 #include <string>
 
 #include "runtime/file_error.hpp"
-#include "tools/errors.hpp"
+#include "tools/system/errors.hpp"
 
 namespace tamp::fuzz
 {

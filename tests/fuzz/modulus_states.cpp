@@ -1,4 +1,4 @@
-#include "tools/modulus/modulus_states.hpp"
+#include "tools/run/modulus/modulus_states.hpp"
 
 #include "tests/fuzz/readers.hpp"
 

@@ -1,5 +1,5 @@
 #include "tests/fuzz/readers.hpp"
-#include "tools/drive/read_path.hpp"
+#include "tools/run/drive/read_path.hpp"
 
 void tamp::fuzz::path(const std::filesystem::path& file)
 {

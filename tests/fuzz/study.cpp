@@ -1,6 +1,6 @@
 #include "tools/study/study.hpp"
 #include "tests/fuzz/readers.hpp"
-#include "tools/errors.hpp"
+#include "tools/system/errors.hpp"
 
 void tamp::fuzz::study(const std::filesystem::path& file)
 {

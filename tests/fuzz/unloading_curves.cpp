@@ -3,7 +3,7 @@
 #include "components/errors.hpp"
 #include "components/moduli/unloading_table.hpp"
 #include "tests/fuzz/readers.hpp"
-#include "tools/errors.hpp"
+#include "tools/system/errors.hpp"
 
 void tamp::fuzz::unloading_curves(const std::filesystem::path& file)
 {

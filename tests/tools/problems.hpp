@@ -3,7 +3,7 @@
 #include <string>
 
 #include "tests/tools/temporary_folder.hpp"
-#include "tools/errors.hpp"
+#include "tools/system/errors.hpp"
 
 namespace tamp::test
 {

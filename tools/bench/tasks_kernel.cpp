@@ -8,7 +8,7 @@
 #include <thread>
 #include <vector>
 
-#include "tools/statistics.hpp"
+#include "tools/system/statistics.hpp"
 
 namespace tamp::tools::bench
 {

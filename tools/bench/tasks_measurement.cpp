@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "tools/bench/tasks_kernel.hpp"
-#include "tools/statistics.hpp"
+#include "tools/system/statistics.hpp"
 
 namespace tamp::tools::bench
 {

@@ -3,7 +3,7 @@
 #include "runtime/execute/bound_graph.hpp"
 #include "runtime/execute/executor.hpp"
 #include "tools/bench/tasks_ranks_contestants.hpp"
-#include "tools/usable_cores.hpp"
+#include "tools/system/usable_cores.hpp"
 
 namespace tamp::tools::bench
 {

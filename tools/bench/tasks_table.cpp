@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "tools/statistics.hpp"
+#include "tools/system/statistics.hpp"
 
 namespace tamp::tools::bench
 {

@@ -15,7 +15,7 @@
 #include "tools/bench/peak_rate.hpp"
 #include "tools/bench/triad.hpp"
 #include "tools/scene/read_scene.hpp"
-#include "tools/statistics.hpp"
+#include "tools/system/statistics.hpp"
 
 namespace tamp::tools::bench
 {

@@ -8,16 +8,16 @@
 
 #include "runtime/ranks/communicator.hpp"
 #include "runtime/storage/whole_file.hpp"
-#include "tools/command_line/help_text.hpp"
+#include "tools/commands/command_line/help_text.hpp"
+#include "tools/commands/command_line/option_checks.hpp"
 #include "tools/commands/commands.hpp"
-#include "tools/commands/option_checks.hpp"
-#include "tools/console.hpp"
-#include "tools/errors.hpp"
-#include "tools/output_file.hpp"
 #include "tools/scene/input_file.hpp"
+#include "tools/scene/output_file.hpp"
 #include "tools/scene/print_json.hpp"
-#include "tools/shipped_inputs.hpp"
-#include "tools/verify/verify.hpp"
+#include "tools/study/verification/verify.hpp"
+#include "tools/system/console.hpp"
+#include "tools/system/errors.hpp"
+#include "tools/system/shipped_inputs.hpp"
 
 namespace tamp::tools
 {

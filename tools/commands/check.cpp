@@ -5,15 +5,15 @@
 #include <variant>
 
 #include "tasks/set_up/body_sites.hpp"
-#include "tools/command_line/assignments.hpp"
-#include "tools/command_line/help_text.hpp"
+#include "tools/commands/command_line/assignments.hpp"
+#include "tools/commands/command_line/help_text.hpp"
 #include "tools/commands/commands.hpp"
-#include "tools/console.hpp"
 #include "tools/run/forecast.hpp"
 #include "tools/scene/compiled_moduli.hpp"
 #include "tools/scene/plausibility.hpp"
 #include "tools/scene/print_json.hpp"
 #include "tools/scene/read_scene.hpp"
+#include "tools/system/console.hpp"
 
 namespace tamp::tools
 {

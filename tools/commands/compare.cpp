@@ -1,4 +1,4 @@
-#include "tools/compare/compare.hpp"
+#include "tools/study/compare/compare.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -8,18 +8,18 @@
 
 #include "runtime/storage/whole_file.hpp"
 #include "tasks/simulation_error.hpp"
-#include "tools/charts.hpp"
-#include "tools/command_line/assignments.hpp"
-#include "tools/command_line/help_text.hpp"
+#include "tools/commands/command_line/assignments.hpp"
+#include "tools/commands/command_line/help_text.hpp"
+#include "tools/commands/command_line/option_checks.hpp"
 #include "tools/commands/commands.hpp"
-#include "tools/commands/option_checks.hpp"
-#include "tools/compare/comparison_report.hpp"
-#include "tools/compare/grid_error.hpp"
-#include "tools/compare/peak_memory.hpp"
-#include "tools/console.hpp"
 #include "tools/run/forecast.hpp"
 #include "tools/scene/print_json.hpp"
-#include "tools/usable_cores.hpp"
+#include "tools/study/compare/comparison_report.hpp"
+#include "tools/study/compare/grid_error.hpp"
+#include "tools/study/compare/peak_memory.hpp"
+#include "tools/system/charts.hpp"
+#include "tools/system/console.hpp"
+#include "tools/system/usable_cores.hpp"
 
 namespace tamp::tools
 {

@@ -5,14 +5,14 @@
 #include "runtime/graph/dump.hpp"
 #include "runtime/storage/whole_file.hpp"
 #include "tasks/simulation.hpp"
-#include "tools/command_line/assignments.hpp"
-#include "tools/command_line/help_text.hpp"
+#include "tools/commands/command_line/assignments.hpp"
+#include "tools/commands/command_line/help_text.hpp"
+#include "tools/commands/command_line/option_checks.hpp"
 #include "tools/commands/commands.hpp"
-#include "tools/commands/option_checks.hpp"
-#include "tools/console.hpp"
-#include "tools/errors.hpp"
-#include "tools/output_file.hpp"
+#include "tools/scene/output_file.hpp"
 #include "tools/scene/read_scene.hpp"
+#include "tools/system/console.hpp"
+#include "tools/system/errors.hpp"
 
 namespace tamp::tools
 {

@@ -2,15 +2,15 @@
 #include <string>
 #include <vector>
 
-#include "tools/command_line/completion.hpp"
-#include "tools/command_line/help_text.hpp"
-#include "tools/command_line/man_page.hpp"
-#include "tools/command_line/option_words.hpp"
-#include "tools/command_line/suggestions.hpp"
+#include "tools/commands/command_line/completion.hpp"
+#include "tools/commands/command_line/help_text.hpp"
+#include "tools/commands/command_line/known_words.hpp"
+#include "tools/commands/command_line/man_page.hpp"
+#include "tools/commands/command_line/option_checks.hpp"
+#include "tools/commands/command_line/option_words.hpp"
 #include "tools/commands/commands.hpp"
-#include "tools/commands/option_checks.hpp"
-#include "tools/console.hpp"
-#include "tools/version.hpp"
+#include "tools/system/console.hpp"
+#include "tools/system/version.hpp"
 
 namespace tamp::tools
 {

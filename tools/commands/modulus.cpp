@@ -7,19 +7,19 @@
 
 #include "components/materials/tabular_cap.hpp"
 #include "runtime/storage/whole_file.hpp"
-#include "tools/command_line/assignments.hpp"
-#include "tools/command_line/help_text.hpp"
+#include "tools/commands/command_line/assignments.hpp"
+#include "tools/commands/command_line/help_text.hpp"
 #include "tools/commands/commands.hpp"
-#include "tools/console.hpp"
-#include "tools/errors.hpp"
-#include "tools/modulus/modulus_states.hpp"
-#include "tools/output_file.hpp"
+#include "tools/run/modulus/modulus_states.hpp"
 #include "tools/scene/file_kind.hpp"
+#include "tools/scene/output_file.hpp"
 #include "tools/scene/parse_json.hpp"
 #include "tools/scene/print_json.hpp"
 #include "tools/scene/read_material.hpp"
 #include "tools/scene/read_modulus.hpp"
 #include "tools/scene/read_network.hpp"
+#include "tools/system/console.hpp"
+#include "tools/system/errors.hpp"
 
 namespace tamp::tools
 {

@@ -3,11 +3,11 @@
 #include <filesystem>
 #include <memory>
 
-#include "tools/command_line/help_text.hpp"
+#include "tools/commands/command_line/help_text.hpp"
+#include "tools/commands/command_line/option_checks.hpp"
 #include "tools/commands/commands.hpp"
-#include "tools/commands/option_checks.hpp"
-#include "tools/console.hpp"
 #include "tools/run/profile_text.hpp"
+#include "tools/system/console.hpp"
 
 namespace tamp::tools
 {

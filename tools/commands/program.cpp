@@ -6,12 +6,12 @@
 #include <string>
 #include <vector>
 
-#include "tools/command_line/help_text.hpp"
-#include "tools/command_line/suggestions.hpp"
+#include "tools/commands/command_line/help_text.hpp"
+#include "tools/commands/command_line/known_words.hpp"
 #include "tools/commands/commands.hpp"
-#include "tools/console.hpp"
-#include "tools/report_failure.hpp"
-#include "tools/version.hpp"
+#include "tools/system/console.hpp"
+#include "tools/system/report_failure.hpp"
+#include "tools/system/version.hpp"
 
 namespace tamp::tools
 {

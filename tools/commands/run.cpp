@@ -4,16 +4,16 @@
 
 #include <memory>
 
-#include "tools/command_line/assignments.hpp"
-#include "tools/command_line/command_text.hpp"
-#include "tools/command_line/help_text.hpp"
+#include "tools/commands/command_line/assignments.hpp"
+#include "tools/commands/command_line/command_text.hpp"
+#include "tools/commands/command_line/help_text.hpp"
+#include "tools/commands/command_line/option_checks.hpp"
 #include "tools/commands/commands.hpp"
-#include "tools/commands/option_checks.hpp"
-#include "tools/console.hpp"
-#include "tools/run/signals.hpp"
 #include "tools/scene/read_scene.hpp"
-#include "tools/shell_word.hpp"
-#include "tools/usable_cores.hpp"
+#include "tools/system/console.hpp"
+#include "tools/system/shell_word.hpp"
+#include "tools/system/signals.hpp"
+#include "tools/system/usable_cores.hpp"
 
 namespace tamp::tools
 {

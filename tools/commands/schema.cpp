@@ -4,12 +4,12 @@
 #include <memory>
 #include <string>
 
-#include "tools/command_line/help_text.hpp"
+#include "tools/commands/command_line/help_text.hpp"
+#include "tools/commands/command_line/option_checks.hpp"
 #include "tools/commands/commands.hpp"
-#include "tools/commands/option_checks.hpp"
-#include "tools/console.hpp"
 #include "tools/scene/print_json.hpp"
 #include "tools/scene/schema.hpp"
+#include "tools/system/console.hpp"
 
 namespace tamp::tools
 {

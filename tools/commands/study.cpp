@@ -2,7 +2,7 @@
 
 #include <memory>
 
-#include "tools/command_line/help_text.hpp"
+#include "tools/commands/command_line/help_text.hpp"
 #include "tools/commands/commands.hpp"
 
 namespace tamp::tools

@@ -9,10 +9,10 @@
 
 #include "runtime/file_error.hpp"
 #include "runtime/ranks/on_all_ranks.hpp"
-#include "tools/console.hpp"
-#include "tools/errors.hpp"
 #include "tools/scene/parse_json.hpp"
 #include "tools/scene/print_json.hpp"
+#include "tools/system/console.hpp"
+#include "tools/system/errors.hpp"
 
 namespace tamp::tools
 {

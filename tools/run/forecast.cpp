@@ -5,8 +5,8 @@
 #include <cmath>
 
 #include "tasks/forecast/demand.hpp"
-#include "tools/errors.hpp"
-#include "tools/machine_room.hpp"
+#include "tools/system/capacity.hpp"
+#include "tools/system/errors.hpp"
 
 namespace tamp::tools
 {
@@ -46,7 +46,7 @@ Forecast forecast(const tasks::Scene& scene, int n_ranks)
 void expect_room(const CheckedScene& checked, const Forecast& forecast, int n_ranks, int ranks_here)
 {
   const tasks::Scene& scene = checked.scene;
-  const MemoryRoom room = memory_room(ranks_here);
+  const FreeMemory room = free_memory(ranks_here);
   const double needed = forecast.memory * ranks_here / n_ranks;
   if (needed <= room.bytes) return;
   constexpr double a_little_more = 1.05;
@@ -61,7 +61,7 @@ void expect_room(const CheckedScene& checked, const Forecast& forecast, int n_ra
 void add_copies(Forecast& forecast, int n_ranks, int ranks_here)
 {
   const double without = forecast.memory * ranks_here / n_ranks;
-  forecast.in_background = without + forecast.copies <= memory_room(ranks_here).bytes;
+  forecast.in_background = without + forecast.copies <= free_memory(ranks_here).bytes;
   if (forecast.in_background) forecast.memory += forecast.copies;
 }
 

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "runtime/ranks/on_all_ranks.hpp"
-#include "tools/machine_room.hpp"
 #include "tools/scene/csv_table.hpp"
+#include "tools/system/capacity.hpp"
 
 namespace tamp::tools
 {

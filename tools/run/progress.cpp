@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cstdio>
 
-#include "tools/console.hpp"
+#include "tools/system/console.hpp"
 
 namespace tamp::tools
 {

@@ -15,9 +15,6 @@
 #include "runtime/storage/whole_file.hpp"
 #include "tasks/simulation.hpp"
 #include "tasks/simulation_error.hpp"
-#include "tools/console.hpp"
-#include "tools/errors.hpp"
-#include "tools/machine_room.hpp"
 #include "tools/run/forecast.hpp"
 #include "tools/run/machine_history.hpp"
 #include "tools/run/output_times.hpp"
@@ -26,12 +23,15 @@
 #include "tools/run/run_history.hpp"
 #include "tools/run/run_output.hpp"
 #include "tools/run/run_summary.hpp"
-#include "tools/run/signals.hpp"
 #include "tools/scene/compiled_moduli.hpp"
 #include "tools/scene/plausibility.hpp"
 #include "tools/scene/print_json.hpp"
-#include "tools/statistics.hpp"
-#include "tools/usable_cores.hpp"
+#include "tools/system/capacity.hpp"
+#include "tools/system/console.hpp"
+#include "tools/system/errors.hpp"
+#include "tools/system/signals.hpp"
+#include "tools/system/statistics.hpp"
+#include "tools/system/usable_cores.hpp"
 
 namespace tamp::tools
 {
@@ -435,7 +435,7 @@ void run(const CheckedScene& scene, const RunOptions& options)
     expected = forecast(scene.scene, options.communicator.size());
     expect_room(scene, expected, options.communicator.size(), ranks_here);
     add_copies(expected, options.communicator.size(), ranks_here);
-    const double free = disk_room(options.folder);
+    const double free = free_disk(options.folder);
     if (expected.disk > free) {
       print_err("tamp: the run writes about {} by its end, and the disk has {} free\n", in_bytes(expected.disk),
                 in_bytes(free));

@@ -8,7 +8,7 @@
 
 #include "runtime/file_error.hpp"
 #include "runtime/storage/whole_file.hpp"
-#include "tools/errors.hpp"
+#include "tools/system/errors.hpp"
 
 namespace tamp::tools
 {

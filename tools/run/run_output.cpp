@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "runtime/ranks/on_all_ranks.hpp"
-#include "tools/errors.hpp"
+#include "tools/system/errors.hpp"
 
 namespace tamp::tools
 {

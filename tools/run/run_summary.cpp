@@ -7,7 +7,7 @@
 #include <cmath>
 #include <vector>
 
-#include "tools/version.hpp"
+#include "tools/system/version.hpp"
 
 namespace tamp::tools
 {

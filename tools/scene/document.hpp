@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "tools/errors.hpp"
 #include "tools/scene/input_file.hpp"
+#include "tools/system/errors.hpp"
 
 namespace tamp::tools
 {

@@ -5,8 +5,8 @@
 #include <string>
 #include <string_view>
 
-#include "tools/errors.hpp"
 #include "tools/scene/input_file.hpp"
+#include "tools/system/errors.hpp"
 
 namespace tamp::tools
 {

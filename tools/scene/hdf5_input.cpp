@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "tools/errors.hpp"
 #include "tools/scene/hdf5_heaps.hpp"
 #include "tools/scene/input_file.hpp"
+#include "tools/system/errors.hpp"
 
 namespace tamp::tools
 {

@@ -13,7 +13,7 @@
 
 #include "runtime/file_error.hpp"
 #include "runtime/storage/checksum.hpp"
-#include "tools/errors.hpp"
+#include "tools/system/errors.hpp"
 
 namespace tamp::tools
 {

@@ -10,11 +10,11 @@
 #include "tasks/method.hpp"
 #include "tasks/set_up/body_sites.hpp"
 #include "tasks/set_up/settled_sand.hpp"
-#include "tools/machine_room.hpp"
 #include "tools/scene/place_text.hpp"
 #include "tools/scene/read_pressure.hpp"
 #include "tools/scene/read_problem.hpp"
 #include "tools/scene/read_solid.hpp"
+#include "tools/system/capacity.hpp"
 
 namespace tamp::tools
 {
@@ -101,7 +101,7 @@ bool has_room_for(const components::Solid<D>& solid, const tasks::Scene& scene, 
   // A particle takes two to four times as much in the run, of which the forecast tells; this is what surely is too
   // much.
   constexpr double least_bytes_of_particle = 400;
-  const MemoryRoom room = memory_room();
+  const FreeMemory room = free_memory();
   const components::Box<D> box = solid.bounding_box();
   const double bytes_of_volume = least_bytes_of_particle / tasks::lattice_of<D>(scene, material).particle_volume();
   // Usually the box around it will do; the volume of a set of solids takes time to find.

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "components/errors.hpp"
-#include "tools/errors.hpp"
+#include "tools/system/errors.hpp"
 
 namespace tamp::tools
 {

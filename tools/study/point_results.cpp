@@ -16,7 +16,7 @@
 #include "tools/scene/csv_table.hpp"
 #include "tools/scene/parse_json.hpp"
 #include "tools/scene/print_json.hpp"
-#include "tools/statistics.hpp"
+#include "tools/system/statistics.hpp"
 
 namespace tamp::tools::study
 {

@@ -9,7 +9,7 @@
 
 #include "runtime/file_error.hpp"
 #include "runtime/storage/hdf5.hpp"
-#include "tools/errors.hpp"
+#include "tools/system/errors.hpp"
 
 namespace tamp::tools::study
 {

@@ -9,10 +9,10 @@
 #include <memory>
 
 #include "runtime/file_error.hpp"
-#include "tools/child_process.hpp"
-#include "tools/console.hpp"
-#include "tools/errors.hpp"
 #include "tools/study/quantities.hpp"
+#include "tools/system/child_process.hpp"
+#include "tools/system/console.hpp"
+#include "tools/system/errors.hpp"
 
 namespace tamp::tools::study
 {

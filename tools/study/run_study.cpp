@@ -4,13 +4,13 @@
 
 #include "runtime/storage/whole_file.hpp"
 #include "tasks/simulation_error.hpp"
-#include "tools/charts.hpp"
-#include "tools/console.hpp"
 #include "tools/scene/print_json.hpp"
-#include "tools/shell_word.hpp"
 #include "tools/study/run_points.hpp"
 #include "tools/study/study_folder.hpp"
 #include "tools/study/study_report.hpp"
+#include "tools/system/charts.hpp"
+#include "tools/system/console.hpp"
+#include "tools/system/shell_word.hpp"
 
 namespace tamp::tools::study
 {

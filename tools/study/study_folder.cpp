@@ -4,12 +4,12 @@
 
 #include "runtime/file_error.hpp"
 #include "runtime/storage/whole_file.hpp"
-#include "tools/errors.hpp"
-#include "tools/machine.hpp"
 #include "tools/scene/document.hpp"
 #include "tools/scene/input_file.hpp"
 #include "tools/scene/parse_json.hpp"
-#include "tools/version.hpp"
+#include "tools/system/errors.hpp"
+#include "tools/system/machine.hpp"
+#include "tools/system/version.hpp"
 
 namespace tamp::tools::study
 {

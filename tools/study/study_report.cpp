@@ -7,10 +7,10 @@
 #include <array>
 #include <set>
 
-#include "tools/csv_text.hpp"
-#include "tools/machine.hpp"
-#include "tools/shell_word.hpp"
-#include "tools/version.hpp"
+#include "tools/scene/csv_text.hpp"
+#include "tools/system/machine.hpp"
+#include "tools/system/shell_word.hpp"
+#include "tools/system/version.hpp"
 
 namespace tamp::tools::study
 {

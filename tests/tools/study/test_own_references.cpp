@@ -1,8 +1,8 @@
 #include <catch2/catch.hpp>
 
 #include "tests/tools/temporary_folder.hpp"
-#include "tools/errors.hpp"
 #include "tools/study/findings.hpp"
+#include "tools/system/errors.hpp"
 
 namespace test_own_references
 {

@@ -1,0 +1,86 @@
+#include <catch2/catch.hpp>
+#include <numbers>
+
+#include "runtime/file_error.hpp"
+#include "tests/tools/temporary_folder.hpp"
+#include "tools/run/drive/read_path.hpp"
+#include "tools/system/errors.hpp"
+
+namespace test_read_path
+{
+
+using namespace tamp;
+using tools::read_path;
+
+namespace
+{
+
+const std::string at_rest = "0 1 0 0 0 1 0 0 0 1 0 0 0 1\n";
+
+/// What is said of a path that cannot be read, without the folder's name.
+std::string complaint(const std::string& text)
+{
+  const test::TemporaryFolder folder;
+  const std::string file = folder.write("path", text).string();
+  try {
+    read_path(file);
+  } catch (const tools::InputError& error) {
+    std::string said = error.what();
+    for (std::size_t at = said.find(file); at != std::string::npos; at = said.find(file))
+      said.replace(at, file.size(), "P");
+    return said;
+  }
+  return "";
+}
+
+}  // namespace
+
+TEST_CASE("a path in CSV is read by the names of its columns")
+{
+  const test::TemporaryFolder folder;
+
+  const auto path = read_path(folder.write("path.csv",
+                                           "# shear\ntime,F11,F21,F12,F13,F22,F23,F31,F32,F33\n"
+                                           "0,1,0,0,0,1,0,0,0,1\n\n2,1.5,0.7,0.8,0,1,0,0,0,100\n"));
+
+  REQUIRE(path.rows().size() == 2);
+  CHECK(path.rows()[1].time == 2);
+  CHECK(path.rows()[1].deformation_gradient == (Matrix<3>() << 1.5, 0.8, 0, 0.7, 1, 0, 0, 0, 100).finished());
+  CHECK(path.rows()[1].angle == 0);
+}
+
+TEST_CASE("prescribed deformation is read row by row, with its rotation in degrees")
+{
+  const test::TemporaryFolder folder;
+
+  const auto path = read_path(folder.write("path.inp", at_rest + "1.\t1 .5 0  0 1 0  0 0 2   90 0 3 0\r\n"));
+
+  REQUIRE(path.rows().size() == 2);
+  CHECK(path.rows()[1].deformation_gradient == (Matrix<3>() << 1, 0.5, 0, 0, 1, 0, 0, 0, 2).finished());
+  CHECK(path.rows()[1].angle == Approx(std::numbers::pi / 2));
+  CHECK(path.rows()[1].axis == Vector<3>(0, 3, 0));
+}
+
+TEST_CASE("a path that cannot be used is refused with file and line")
+{
+  CHECK(complaint("") == "P: an empty path; expected two or more rows");
+  CHECK(complaint("# only\n" + at_rest) == "P: 1 rows; expected two or more");
+  CHECK(complaint("time,F11\n0,1\n1,1\n") ==
+        "P:1: columns time,F11; expected time,F11,F12,F13,F21,F22,F23,F31,F32,F33");
+  CHECK(complaint(at_rest + "1 1 0 0 0 1 0 0 0 1\n") ==
+        "P:2: 10 values; expected 14: time, F row by row, angle in degrees, axis");
+  CHECK(complaint(at_rest + "1 1 0 0 0 1,0 0 0 0 nan 1e999 0 0 1\n") ==
+        "P:2: \"1,0\"; expected a finite number\nP:2: \"nan\"; expected a finite number\n"
+        "P:2: \"1e999\"; expected a finite number");
+  CHECK(complaint("# a comment\n" + at_rest + at_rest) == "P:3: time 0 after 0; expected times that rise");
+  CHECK(complaint(at_rest + "1 -1 0 0 0 1 0 0 0 1 0 0 0 1\n") == "P:2: det F = -1; expected a determinant above 0");
+  CHECK(complaint(at_rest + "1 1 0 0 0 1 0 0 0 1 30 0 0 0\n") ==
+        "P:2: a rotation about the axis 0 0 0; expected an axis");
+}
+
+TEST_CASE("a path that is not there is an error of the input")
+{
+  CHECK_THROWS_AS(read_path("/no/such/path.csv"), tools::InputError);
+}
+
+}  // namespace test_read_path

@@ -1,0 +1,80 @@
+#include "tools/commands/command_line/option_checks.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <cstdint>
+
+#include "tools/system/suggestion.hpp"
+
+namespace tamp::tools
+{
+
+namespace
+{
+
+template <class IsRight>
+CLI::Validator number_check(const std::string& expected, const IsRight& is_right)
+{
+  const auto problem = [expected, is_right](const std::string& text) {
+    double value = NAN;
+    const bool is_number = CLI::detail::lexical_cast(text, value);
+    return is_number && std::isfinite(value) && is_right(value) ? "" : fmt::format("{}; expected {}", text, expected);
+  };
+  return CLI::Validator(problem, expected);
+}
+
+}  // namespace
+
+CLI::Validator is_whole_from(std::int64_t least)
+{
+  const std::string expected = fmt::format("a whole number, at least {}", least);
+  const auto problem = [expected, least](const std::string& text) {
+    std::int64_t value = 0;
+    const char* const end = text.data() + text.size();
+    const auto [at, error] = std::from_chars(text.data(), end, value);
+    const bool is_right = error == std::errc() && at == end && value >= least;
+    return is_right ? "" : fmt::format("{}; expected {}", text, expected);
+  };
+  return CLI::Validator(problem, expected);
+}
+
+CLI::Validator is_above_zero()
+{
+  return number_check("above 0", [](double value) { return value > 0; });
+}
+
+CLI::Validator is_from_to(double least, double most)
+{
+  return number_check(fmt::format("{} to {}", least, most),
+                      [least, most](double value) { return value >= least && value <= most; });
+}
+
+CLI::Validator is_one_of(const std::vector<std::string>& choices)
+{
+  const auto problem = [choices](const std::string& text) -> std::string {
+    if (std::find(choices.begin(), choices.end(), text) != choices.end()) return "";
+    return fmt::format("{}; {}", text, meant_or(text, choices, fmt::format("expected {}", fmt::join(choices, " or "))));
+  };
+  return CLI::Validator(problem, fmt::format("{{{}}}", fmt::join(choices, ",")));
+}
+
+CLI::Validator none_is_zero()
+{
+  return CLI::Validator(
+      [](std::string& text) {
+        if (text == "none") text = "0";
+        return std::string();
+      },
+      "");
+}
+
+CLI::Validator is_not_empty()
+{
+  return CLI::Validator([](const std::string& text) { return text.empty() ? "nothing; expected a name" : ""; }, "");
+}
+
+}  // namespace tamp::tools

@@ -1,0 +1,227 @@
+#include "tools/study/verification/verification_table.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace tamp::tools::verify
+{
+
+namespace
+{
+
+using Cells = std::vector<std::string>;
+
+bool is_known_to_miss(const Json& gate)
+{
+  return !gate["missed"].get<std::string>().empty();
+}
+
+bool is_failure(const Json& gate)
+{
+  return gate["holds"] == false && !is_known_to_miss(gate);
+}
+
+bool is_known_miss(const Json& gate)
+{
+  return gate["holds"] == false && is_known_to_miss(gate);
+}
+
+/// What was found of those that are asked for, and what was expected, with the reason under a key.
+template <class IsAskedFor>
+std::vector<std::string> lines_of(const Json& study, const IsAskedFor& is_asked_for, const char* key_of_reason)
+{
+  std::vector<std::string> lines;
+  for (const Json& gate : study["gates"]) {
+    if (!is_asked_for(gate)) continue;
+    const std::string reason = gate[key_of_reason];
+    lines.push_back(fmt::format("{}, {}: {}, expected {}{}", gate["label"].get<std::string>(),
+                                gate["quantity"].get<std::string>(), gate["note"].get<std::string>(),
+                                gate["expected"].get<std::string>(), reason.empty() ? "" : " (" + reason + ")"));
+  }
+  return lines;
+}
+
+/// Rows as wide as their widest cells, so that they can be read as they are too.
+std::string table_text(const std::vector<Cells>& rows)
+{
+  std::vector<std::size_t> widths(rows.front().size(), 3);
+  for (const Cells& row : rows) {
+    for (std::size_t k = 0; k < row.size(); ++k) widths[k] = std::max(widths[k], row[k].size());
+  }
+  const auto line = [&](const Cells& row) {
+    std::string text = "|";
+    for (std::size_t k = 0; k < row.size(); ++k) text += fmt::format(" {:<{}} |", row[k], widths[k]);
+    return text + "\n";
+  };
+  std::string text = line(rows.front()) + "|";
+  for (const std::size_t width : widths) text += " " + std::string(width, '-') + " |";
+  text += "\n";
+  for (std::size_t r = 1; r < rows.size(); ++r) text += line(rows[r]);
+  return text;
+}
+
+/// A quantity of a study, with its points by method and refined setting.
+class QuantityTable
+{
+ public:
+  QuantityTable(const Json& study, const Json& quantity) : study_(study), quantity_(quantity)
+  {
+    for (const Json& point : study["points"]) {
+      if (point["refine"].is_number()) spacings_.push_back(point["refine"]);
+    }
+    std::sort(spacings_.rbegin(), spacings_.rend());
+    spacings_.erase(std::unique(spacings_.begin(), spacings_.end()), spacings_.end());
+  }
+
+  std::string text() const
+  {
+    std::vector<Cells> rows{head()};
+    for (const Json& method : study_["methods"]) {
+      if (!points_of(method["name"]).empty()) rows.push_back(row(method["name"]));
+    }
+    return fmt::format("{}, error{}:\n\n{}", quantity_["name"].get<std::string>(),
+                       spacings_.empty() ? "" : " by " + study_["refine"]["name"].get<std::string>(), table_text(rows));
+  }
+
+ private:
+  Cells head() const
+  {
+    Cells cells{"method"};
+    for (const double spacing : spacings_) {
+      cells.push_back(fmt::format("{:.4g} {}", spacing, study_["refine"]["unit"].get<std::string>()));
+    }
+    if (spacings_.empty()) {
+      cells.push_back("error");
+    } else {
+      cells.push_back("order");
+    }
+    cells.insert(cells.end(), {"expected", "holds", "ns a particle-step"});
+    return cells;
+  }
+
+  Cells row(const std::string& method) const
+  {
+    const std::vector<Json> points = points_of(method);
+    Cells cells{method};
+    if (spacings_.empty()) cells.push_back(error_text(points.front()));
+    for (const double spacing : spacings_) {
+      const auto is_there = [&](const Json& point) { return point["refine"] == spacing; };
+      const auto at = std::find_if(points.begin(), points.end(), is_there);
+      cells.push_back(at == points.end() ? "" : error_text(*at));
+    }
+    if (!spacings_.empty()) cells.push_back(order_text(method));
+    cells.push_back(expected_text(method));
+    cells.push_back(verdict(method));
+    cells.push_back(cost_text(points));
+    return cells;
+  }
+
+  std::vector<Json> points_of(const std::string& method) const
+  {
+    std::vector<Json> points;
+    for (const Json& point : study_["points"]) {
+      if (point["method"] == method) points.push_back(point);
+    }
+    return points;
+  }
+
+  std::string error_text(const Json& point) const
+  {
+    if (point["ended"] != "done") return point["ended"];
+    const auto error = point["errors"].find(quantity_["name"].get<std::string>());
+    return error == point["errors"].end() ? "" : fmt::format("{:.2e}", error->get<double>());
+  }
+
+  std::vector<Json> gates_of(const std::string& method) const
+  {
+    std::vector<Json> gates;
+    for (const Json& gate : study_["gates"]) {
+      if (gate["method"] == method && gate["quantity"] == quantity_["name"]) gates.push_back(gate);
+    }
+    return gates;
+  }
+
+  /// The order that was judged, or else that of errors which fall from each to the next.
+  std::string order_text(const std::string& method) const
+  {
+    for (const Json& gate : gates_of(method)) {
+      const bool is_of_order = gate["kind"] == "order_at_least" || gate["kind"] == "order_at_most";
+      if (is_of_order && gate["found"].is_number()) return fmt::format("{:.2f}", gate["found"].get<double>());
+    }
+    for (const Json& fit : quantity_["orders"]) {
+      if (fit["method"] == method && fit["order"].is_number()) return fmt::format("{:.2f}", fit["order"].get<double>());
+    }
+    return "none";
+  }
+
+  std::string expected_text(const std::string& method) const
+  {
+    std::vector<std::string> texts;
+    for (const Json& gate : gates_of(method)) texts.push_back(gate["expected"]);
+    return fmt::format("{}", fmt::join(texts, ", "));
+  }
+
+  std::string verdict(const std::string& method) const
+  {
+    const std::vector<Json> gates = gates_of(method);
+    if (gates.empty()) return "";
+    if (std::any_of(gates.begin(), gates.end(), is_failure)) return "**NO**";
+    return std::any_of(gates.begin(), gates.end(), is_known_miss) ? "no, as known" : "yes";
+  }
+
+  /// Of the point with the most of them that is done.
+  static std::string cost_text(const std::vector<Json>& points)
+  {
+    double most = 0, seconds = 0;
+    for (const Json& point : points) {
+      if (point["ended"] != "done" || !point["cost"].contains("particle_steps")) continue;
+      const double n = point["cost"]["particle_steps"];
+      if (n <= most) continue;
+      most = n;
+      seconds = point["cost"]["core_s"];
+    }
+    return most > 0 ? fmt::format("{:.0f}", seconds / most * 1e9) : "";
+  }
+
+  const Json& study_;
+  const Json& quantity_;
+  /// Values of the refined setting, falling.
+  std::vector<double> spacings_;
+};
+
+}  // namespace
+
+std::string to_markdown(const std::vector<Json>& studies)
+{
+  std::string text;
+  for (const Json& study : studies) {
+    text += fmt::format("{}### {}: {}\n\n", text.empty() ? "" : "\n", study["name"].get<std::string>(),
+                        study["title"].get<std::string>());
+    for (const Json& quantity : study["quantities"]) text += QuantityTable(study, quantity).text() + "\n";
+    for (const std::string& failure : failures_of(study)) text += "- does not hold: " + failure + "\n";
+    for (const std::string& miss : known_misses_of(study)) text += "- missed, as known: " + miss + "\n";
+    for (const std::string& held : held_misses_of(study)) text += "- holds, though known to be missed: " + held + "\n";
+  }
+  return text;
+}
+
+std::vector<std::string> failures_of(const Json& study)
+{
+  return lines_of(study, is_failure, "why");
+}
+
+std::vector<std::string> known_misses_of(const Json& study)
+{
+  return lines_of(study, is_known_miss, "missed");
+}
+
+std::vector<std::string> held_misses_of(const Json& study)
+{
+  return lines_of(
+      study, [](const Json& gate) { return gate["holds"] == true && is_known_to_miss(gate); }, "missed");
+}
+
+}  // namespace tamp::tools::verify

@@ -1,0 +1,33 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+namespace tamp::tools
+{
+
+/// How much memory a program may still take here, and what leaves no more.
+struct FreeMemory {
+  double bytes;
+  /// Such as "this machine has free".
+  std::string why;
+};
+
+/// The least of what the machine has free, the control group leaves, and, times the `n_ranks` that share the work, the
+/// limits of the process (ulimit) leave.
+FreeMemory free_memory(int n_ranks = 1);
+
+/// What this process holds in memory now [bytes].
+double resident_bytes();
+
+/// What the disk of a folder that need not be there yet has free [bytes].
+double free_disk(const std::filesystem::path& folder);
+
+/// Such as 1.2 GiB.
+std::string in_bytes(double bytes);
+
+/// Has large memory given back to the system as it is freed, so that what was gathered for an output leaves no gaps
+/// that nothing fills. For the C library of GNU; elsewhere nothing.
+void give_back_freed_memory();
+
+}  // namespace tamp::tools

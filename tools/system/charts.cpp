@@ -1,0 +1,66 @@
+#include "tools/system/charts.hpp"
+
+#include <fmt/format.h>
+#include <spawn.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cstdlib>
+#include <vector>
+
+#include "runtime/file_error.hpp"
+#include "tools/system/shell_word.hpp"
+#include "tools/system/shipped_inputs.hpp"
+
+namespace tamp::tools
+{
+
+namespace
+{
+
+/// Debian's, for which it has matplotlib.
+constexpr const char* usual_interpreter = "/usr/bin/python3";
+/// Exit code of a script whose interpreter has no matplotlib; see tools/python/charts/script.py.
+constexpr int no_matplotlib = 3;
+/// Of an interpreter that is not there.
+constexpr int not_started = -1;
+
+std::vector<std::string> interpreters()
+{
+  const char* chosen = std::getenv("TAMP_PYTHON");
+  if (chosen != nullptr && *chosen != '\0') return {chosen};
+  return {usual_interpreter, "python3"};
+}
+
+int run_script(std::string interpreter, std::string script, std::string folder)
+{
+  char* arguments[] = {interpreter.data(), script.data(), folder.data(), nullptr};
+  pid_t child = 0;
+  if (posix_spawnp(&child, arguments[0], nullptr, nullptr, arguments, environ) != 0) return not_started;
+  int status = 0;
+  if (waitpid(child, &status, 0) != child || !WIFEXITED(status)) return EXIT_FAILURE;
+  // A shell's word, and posix_spawn's on some systems, for what could not be started.
+  return WEXITSTATUS(status) == 127 ? not_started : WEXITSTATUS(status);
+}
+
+}  // namespace
+
+void draw_page(const std::string& script, const std::filesystem::path& folder)
+{
+  const std::string file = shipped_script(script).string();
+  for (const std::string& interpreter : interpreters()) {
+    const int code = run_script(interpreter, file, folder.string());
+    if (code == 0) return;
+    if (code == not_started || code == no_matplotlib) continue;
+    throw runtime::FileError(folder.string(), fmt::format("its figures are written, but could not be drawn; to try "
+                                                          "again: {} {} {}",
+                                                          interpreter, shell_word(file), shell_word(folder.string())));
+  }
+  throw runtime::FileError(folder.string(),
+                           fmt::format("its figures are written, but not drawn, for want of Python with matplotlib "
+                                       "(Debian: python3-matplotlib; TAMP_PYTHON names another interpreter); to draw "
+                                       "them later: {} {} {}",
+                                       usual_interpreter, shell_word(file), shell_word(folder.string())));
+}
+
+}  // namespace tamp::tools

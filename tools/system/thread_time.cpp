@@ -1,0 +1,15 @@
+#include "tools/system/thread_time.hpp"
+
+#include <ctime>
+
+namespace tamp::tools
+{
+
+double thread_seconds()
+{
+  timespec now{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
+}
+
+}  // namespace tamp::tools
