@@ -15,7 +15,7 @@ TEST_CASE("short verifications hold what they expect, and say which errors and o
   const TemporaryFolder folder;
   const std::string out = (folder.path() / "out").string();
 
-  const Outcome outcome = tamp_with("bench verify --short --quiet --out " + out);
+  const Outcome outcome = tamp_with("verify --short --quiet --out " + out);
 
   INFO(outcome.err);
   CHECK(outcome.exit_code == 0);

@@ -14,7 +14,6 @@
 #include "tools/scene/input_file.hpp"
 #include "tools/scene/output_file.hpp"
 #include "tools/scene/print_json.hpp"
-#include "tools/study/verification/verify.hpp"
 #include "tools/system/console.hpp"
 #include "tools/system/errors.hpp"
 #include "tools/system/shipped_inputs.hpp"
@@ -88,31 +87,6 @@ std::string multiple_of_8(const std::string& bytes)
   return std::stoi(bytes) % 8 == 0 ? "" : bytes + " is no multiple of 8";
 }
 
-CLI::App* add_verify_command(CLI::App& bench)
-{
-  CLI::App* command = bench.add_subcommand(
-      "verify", "Hold the methods against exact answers: the studies of inputs/verification, and what they expect");
-  const auto options = std::make_shared<verify::VerifyOptions>();
-  command->add_option("NAME", options->names, "which studies; all without a name");
-  command->add_option("--out", options->folder, "holds a folder for each study, verification.json and verification.md")
-      ->type_name("DIR");
-  command->add_flag("--short", options->in_short, "the studies' short forms");
-  command->add_flag("--force", options->force, "remove results of another program from the folders");
-  command->add_flag("--quiet", options->quiet, "print no progress and no table");
-  command->add_option("--jobs", options->n_jobs, "how many studies run at once; by default as many as there are cores")
-      ->option_text("INT")
-      ->check(is_whole_from(1));
-  command->footer(examples({{"tamp bench verify bar --short", "one study in its short form"},
-                            {"tamp bench verify --jobs 2", "all of them"}}));
-  command->callback([options] {
-    if (runtime::Communicator::world().size() > 1) {
-      throw InputError({"verify", "started on several ranks", "expected one"});
-    }
-    verify::verify(*options);
-  });
-  return command;
-}
-
 }  // namespace
 
 CLI::App* add_bench_command(CLI::App& app)
@@ -151,10 +125,7 @@ CLI::App* add_bench_command(CLI::App& app)
       ->check(CLI::Validator(multiple_of_8, ""));
   command->footer(examples({{"tamp bench moduli", "Table, SVR and MLP by evaluation"},
                             {"tamp bench punch --json punch.json", "windows of the quick punch"}}));
-  const CLI::App* verify = add_verify_command(*command);
-  command->callback([options, verify] {
-    if (!verify->parsed()) run_benchmarks(*options);
-  });
+  command->callback([options] { run_benchmarks(*options); });
   return command;
 }
 

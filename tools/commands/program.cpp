@@ -16,6 +16,17 @@
 namespace tamp::tools
 {
 
+namespace
+{
+
+/// `tamp bench verify`, as `tamp verify` was written up to version 0.1.
+bool is_old_verify(int argc, char** argv)
+{
+  return argc > 2 && argv[1] == std::string("bench") && argv[2] == std::string("verify");
+}
+
+}  // namespace
+
 int run_program(int argc, char** argv, const runtime::Communicator& ranks)
 {
   CLI::App app("Material point simulations of things driven into sand, on a task graph.", "tamp");
@@ -32,6 +43,7 @@ int run_program(int argc, char** argv, const runtime::Communicator& ranks)
   add_compare_command(app);
   add_modulus_command(app);
   add_study_command(app);
+  add_verify_command(app);
   add_bench_command(app);
   add_help_command(app);
   add_version_command(app);
@@ -40,6 +52,10 @@ int run_program(int argc, char** argv, const runtime::Communicator& ranks)
   app.footer(examples({{"tamp run inputs/punch/quick.json", "the punch, into runs/quick"},
                        {"tamp help run", "all that a command takes, with examples"}}));
 
+  if (is_old_verify(argc, argv)) {
+    if (runtime::Communicator::world().is_first()) print_err("tamp bench verify is now tamp verify\n");
+    --argc, ++argv;
+  }
   try {
     expect_known_words(app, {argv + 1, argv + argc});
     app.parse(argc, argv);

@@ -36,7 +36,7 @@ TEST_CASE("a command line that cannot be understood ends with 2 and says so on s
 TEST_CASE("a number out of its range is refused with the range in words")
 {
   const std::vector<std::array<std::string, 2>> all{
-      {"bench verify --jobs 0", "--jobs: 0; expected a whole number, at least 1"},
+      {"verify --jobs 0", "--jobs: 0; expected a whole number, at least 1"},
       {"run a.json --steps 0", "--steps: 0; expected a whole number, at least 1"},
       {"run a.json --steps 99999999999999999999", "--steps: 99999999999999999999; expected a whole number, at least 1"},
       {"run a.json --trace-steps some", "--trace-steps: some; expected a whole number, at least 0"},

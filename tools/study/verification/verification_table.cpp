@@ -86,6 +86,26 @@ class QuantityTable
                        spacings_.empty() ? "" : " by " + study_["refine"]["name"].get<std::string>(), table_text(rows));
   }
 
+  void add_to(Json& list) const
+  {
+    for (const Json& method : study_["methods"]) {
+      const std::string name = method["name"];
+      const std::vector<Json> points = points_from_coarsest(name);
+      if (points.empty()) continue;
+      Json errors = Json::array();
+      for (const Json& point : points) errors.push_back(error_of(point));
+      const std::vector<Json> gates = gates_of(name);
+      const Json expected = expected_order(gates);
+      list.push_back({{"problem", study_["name"]},
+                      {"quantity", quantity_["name"]},
+                      {"method", name},
+                      {"order", order_of(name)},
+                      {"expected_order", expected},
+                      {"errors", errors},
+                      {"passed", gates.empty() ? Json() : Json(std::none_of(gates.begin(), gates.end(), is_failure))}});
+    }
+  }
+
  private:
   Cells head() const
   {
@@ -135,6 +155,20 @@ class QuantityTable
     return error == point["errors"].end() ? "" : fmt::format("{:.2e}", error->get<double>());
   }
 
+  Json error_of(const Json& point) const
+  {
+    const std::string name = quantity_["name"];
+    return point["ended"] == "done" && point["errors"].contains(name) ? point["errors"][name] : Json();
+  }
+
+  std::vector<Json> points_from_coarsest(const std::string& method) const
+  {
+    std::vector<Json> points = points_of(method);
+    if (spacings_.empty()) return points;
+    std::sort(points.begin(), points.end(), [](const Json& a, const Json& b) { return a["refine"] > b["refine"]; });
+    return points;
+  }
+
   std::vector<Json> gates_of(const std::string& method) const
   {
     std::vector<Json> gates;
@@ -144,17 +178,33 @@ class QuantityTable
     return gates;
   }
 
-  /// The order that was judged, or else that of errors which fall from each to the next.
-  std::string order_text(const std::string& method) const
+  static bool is_of_order(const Json& gate)
+  {
+    return gate["kind"] == "order_at_least" || gate["kind"] == "order_at_most";
+  }
+
+  /// The order that was judged, or else that of errors which fall from each to the next; null where there is neither.
+  Json order_of(const std::string& method) const
   {
     for (const Json& gate : gates_of(method)) {
-      const bool is_of_order = gate["kind"] == "order_at_least" || gate["kind"] == "order_at_most";
-      if (is_of_order && gate["found"].is_number()) return fmt::format("{:.2f}", gate["found"].get<double>());
+      if (is_of_order(gate) && gate["found"].is_number()) return gate["found"];
     }
     for (const Json& fit : quantity_["orders"]) {
-      if (fit["method"] == method && fit["order"].is_number()) return fmt::format("{:.2f}", fit["order"].get<double>());
+      if (fit["method"] == method && fit["order"].is_number()) return fit["order"];
     }
-    return "none";
+    return {};
+  }
+
+  static Json expected_order(const std::vector<Json>& gates)
+  {
+    const auto gate = std::find_if(gates.begin(), gates.end(), is_of_order);
+    return gate == gates.end() ? Json() : (*gate)["limit"];
+  }
+
+  std::string order_text(const std::string& method) const
+  {
+    const Json order = order_of(method);
+    return order.is_null() ? "none" : fmt::format("{:.2f}", order.get<double>());
   }
 
   std::string expected_text(const std::string& method) const
@@ -206,6 +256,15 @@ std::string to_markdown(const std::vector<Json>& studies)
     for (const std::string& held : held_misses_of(study)) text += "- holds, though known to be missed: " + held + "\n";
   }
   return text;
+}
+
+Json to_list(const std::vector<Json>& studies)
+{
+  Json list = Json::array();
+  for (const Json& study : studies) {
+    for (const Json& quantity : study["quantities"]) QuantityTable(study, quantity).add_to(list);
+  }
+  return list;
 }
 
 std::vector<std::string> failures_of(const Json& study)

@@ -13,6 +13,11 @@ namespace tamp::tools::verify
 /// each method. `studies` are their `study.json`.
 std::string to_markdown(const std::vector<Json>& studies);
 
+/// For each quantity of a study and each method `{problem, quantity, method, order, expected_order, errors, passed}`:
+/// errors from the coarsest to the finest, null where a point came to none; orders null where none was found or
+/// expected; `passed` null where nothing was expected.
+Json to_list(const std::vector<Json>& studies);
+
 /// What was to hold and does not, a line each.
 std::vector<std::string> failures_of(const Json& study);
 

@@ -9,6 +9,8 @@
 #include "runtime/file_error.hpp"
 #include "runtime/storage/whole_file.hpp"
 #include "tasks/simulation_error.hpp"
+#include "tools/scene/input_file.hpp"
+#include "tools/scene/output_file.hpp"
 #include "tools/scene/print_json.hpp"
 #include "tools/study/verification/verification_table.hpp"
 #include "tools/system/child_process.hpp"
@@ -111,6 +113,8 @@ std::vector<std::string> run_studies(const VerifyOptions& options, const std::ve
 void verify(const VerifyOptions& options)
 {
   const std::vector<fs::path> files = chosen_studies(options.names);
+  for (const fs::path& file : files) expect_input_file(file);
+  expect_outputs({{"--json", options.json}});
   std::vector<std::string> failures = run_studies(options, files), known_misses, held_misses;
   std::vector<Json> studies;
   std::size_t n_gates = 0;
@@ -130,6 +134,7 @@ void verify(const VerifyOptions& options)
                   {"studies", studies}};
   runtime::write_whole_file(options.folder / "verification.json", json_text(json, 1) + "\n");
   runtime::write_whole_file(options.folder / "verification.md", table);
+  if (!options.json.empty()) runtime::write_whole_file(options.json, json_text(to_list(studies), 1) + "\n");
   if (!options.quiet) print_out("{}", table);
   for (const std::string& held : held_misses) {
     print_err("tamp: holds, though its study lists it under \"missed\": {}\n", held);

@@ -12,6 +12,8 @@ struct VerifyOptions {
   std::vector<std::string> names;
   /// Holds a folder for each study, `verification.json` and `verification.md`.
   std::filesystem::path folder{"runs/verify"};
+  /// Where a list of problems and methods, with orders and errors, is written too; empty: nowhere.
+  std::filesystem::path json;
   bool in_short = false;
   /// Remove what another program has found.
   bool force = false;

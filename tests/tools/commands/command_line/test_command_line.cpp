@@ -40,13 +40,13 @@ TEST_CASE("a word that is not known is told before what is missing, with what wa
       {"run a.json --quite", "--quite: no option of run; did you mean --quiet?"},
       {"run a.json --quiet --froce", "--froce: no option of run; did you mean --force?"},
       {"run --stepps=3", "--stepps: no option of run; did you mean --steps?"},
-      {"bench verify --shrot", "--shrot: no option of verify; did you mean --short?"},
+      {"verify --shrot", "--shrot: no option of verify; did you mean --short?"},
       {"check --something-else", "--something-else: no option of check; see tamp help check"},
       {"run", "SCENE is required; see tamp help run"},
       {"graph a.json --format jsn", "--format: jsn; did you mean json?"},
       {"completion csh", "SHELL: csh; did you mean zsh?"},
       {"completion powershell", "SHELL: powershell; expected bash or zsh"},
-      {"bench verify bra", "bra: no study of inputs/verification; did you mean bar?"},
+      {"verify bra", "bra: no study of inputs/verification; did you mean bar?"},
       {"compare " TAMP_SOURCE_DIR "/inputs/punch/quick.json --models tabel",
        "--models: \"tabel\"; did you mean table?"}};
   for (const auto& [arguments, said] : all) {
@@ -63,7 +63,7 @@ TEST_CASE("help and version are commands, and the same as the options")
 {
   CHECK(tamp_with("help").out == tamp_with("--help").out);
   CHECK(tamp_with("help run").out == tamp_with("run --help").out);
-  CHECK(tamp_with("help bench verify").out == tamp_with("bench verify --help").out);
+  CHECK(tamp_with("help verify").out == tamp_with("verify --help").out);
   CHECK(tamp_with("version").out == tamp_with("--version").out);
 }
 
@@ -89,8 +89,8 @@ TEST_CASE("the help of every command fits on a screen and has examples, of files
 TEST_CASE("bash completes commands, options, values and files")
 {
   CHECK(bash_offers("tamp ru") == "run\n");
-  CHECK(bash_offers("tamp bench ver") == "verify\n");
-  CHECK(bash_offers("tamp bench verify --sh") == "--short\n");
+  CHECK(bash_offers("tamp veri") == "verify\n");
+  CHECK(bash_offers("tamp verify --sh") == "--short\n");
   CHECK(bash_offers("tamp run a.json --checkpoint-k") == "--checkpoint-keep\n");
   CHECK(bash_offers("tamp graph a.json --format ''") == "dot json\n");
   CHECK(bash_offers("tamp run READ") == "README.md\n");

@@ -33,18 +33,22 @@ class Studies
     write_study("sound_unlike_known", 0.1, "nobody's block");
   }
 
-  Outcome verify(const std::string& arguments) const
+  Outcome verify(const std::string& arguments) const { return outcome_of(in_folder("verify --out out " + arguments)); }
+
+  /// A command line that runs the program there.
+  std::string in_folder(const std::string& arguments) const
   {
-    return outcome_of("cd " + folder_.path().string() + " && " + TAMP_PROGRAM + " bench verify --out out " + arguments);
+    return "cd " + folder_.path().string() + " && " + TAMP_PROGRAM + " " + arguments;
   }
 
   /// Where env(1) can start the verification.
   std::string in_background(const std::string& arguments) const
   {
-    return "-C " + folder_.path().string() + " " + TAMP_PROGRAM + " bench verify " + arguments;
+    return "-C " + folder_.path().string() + " " + TAMP_PROGRAM + " verify " + arguments;
   }
 
   std::string table() const { return read_text(folder_.path() / "out/verification.md"); }
+  Json list() const { return Json::parse(read_text(folder_.path() / "list.json")); }
   Json results() const { return Json::parse(read_text(folder_.path() / "out/verification.json")); }
 
  private:
@@ -81,6 +85,34 @@ TEST_CASE("a verification whose expectations hold ends with 0, and prints the ta
   const Json results = studies.results();
   CHECK(results["failures"].empty());
   CHECK(results["studies"][0]["points"].size() == 3);
+}
+
+TEST_CASE("a verification writes a list of problems and methods where it is told to")
+{
+  const Studies studies;
+
+  CHECK(studies.verify("sound unsound --quiet --json list.json").exit_code == 3);
+
+  const Json list = studies.list();
+  REQUIRE(list.size() == 2);
+  CHECK(list[0]["problem"] == "sound");
+  CHECK(list[0]["method"] == "flight");
+  CHECK(list[0]["errors"].size() == 3);
+  CHECK(list[0]["errors"][0] < 1e-6);
+  CHECK(list[0]["expected_order"].is_null());
+  CHECK(list[0]["passed"] == true);
+  CHECK(list[1]["passed"] == false);
+  CHECK(studies.verify("sound --json inputs/verification/sound.json").exit_code == 2);
+}
+
+TEST_CASE("tamp bench verify is tamp verify, and says so")
+{
+  const Studies studies;
+
+  const Outcome outcome = outcome_of(studies.in_folder("bench verify sound --short --quiet"));
+
+  CHECK(outcome.exit_code == 0);
+  CHECK(outcome.err == "tamp bench verify is now tamp verify\n");
 }
 
 TEST_CASE("a verification with an expectation that does not hold runs all studies, and ends with 3")
