@@ -96,27 +96,19 @@ template <int D>
 inline const runtime::NodeLabel<components::PressureSums<D>, "pressure sums"> pressure_sums;
 template <int D>
 inline const runtime::NodeLabel<components::ContactPlane<D>, "contact plane"> contact_plane;
-/// One for each pass over the particles that turns the planes.
+/// Anew in each pass over the particles that turns the planes.
 template <int D>
-inline const runtime::NodeLabel<components::RegressionSums<D>, "regression sums 1"> first_regression_sums;
-template <int D>
-inline const runtime::NodeLabel<components::RegressionSums<D>, "regression sums 2"> second_regression_sums;
+inline const runtime::NodeLabel<components::RegressionSums<D>, "regression sums"> regression_sums;
 template <int D>
 inline const runtime::NodeLabel<components::EdgeSums<D>, "edge sums"> edge_sums;
-/// Of the passes of a transfer: the last term u_j, and the sum of those that the transfer takes [m/s].
+/// The last term u_j of a transfer's passes, and the sum of those that the transfer takes [m/s].
 template <int D>
 inline const runtime::NodeLabel<components::NodeVector<D>, "velocity term"> velocity_term;
 template <int D>
 inline const runtime::NodeLabel<components::NodeVector<D>, "velocity terms"> velocity_terms;
-constexpr auto returned_momentum_name(int pass)
-{
-  runtime::LabelName name("returned momentum 0");
-  name.text[name.text.size() - 2] = static_cast<char>('0' + pass);
-  return name;
-}
-/// sum m_p S_ip (S u)_p [kg m/s], one for each pass, from 1.
-template <int D, int pass>
-inline const runtime::NodeLabel<components::NodeVector<D>, returned_momentum_name(pass)> returned_momentum;
+/// sum m_p S_ip (S u)_p [kg m/s], anew in each pass.
+template <int D>
+inline const runtime::NodeLabel<components::NodeVector<D>, "returned momentum"> returned_momentum;
 
 }  // namespace node
 

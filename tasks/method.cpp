@@ -74,6 +74,14 @@ Method<D>::Method(const Scene& given)
 }
 
 template <int D>
+std::vector<int> Method<D>::rigid_materials() const
+{
+  std::vector<int> materials;
+  for (const RigidBody& body : rigid_bodies) materials.push_back(body.material);
+  return materials;
+}
+
+template <int D>
 double Method<D>::work_function(const Vector<D>& x) const
 {
   double work = gravity.dot(x);

@@ -82,6 +82,13 @@ struct Method {
     return stress_timing != StressTiming::usl || (passes == components::Passes::from_end && n_passes > 0);
   }
 
+  /// What particles bring to the grid beside their velocities.
+  bool brings_gradients() const { return surroundings == components::Surroundings::gradient; }
+  bool brings_moments() const { return surroundings == components::Surroundings::moment; }
+
+  /// Materials that are a rigid body.
+  std::vector<int> rigid_materials() const;
+
   /// Whether the particles of a cell share the changes of its volume and the stress that works against them.
   bool deforms_as_cells() const { return relief == Relief::cell_average && !deformable_materials.empty(); }
 
@@ -95,7 +102,6 @@ struct Method {
   std::vector<std::unique_ptr<const components::Interpolation<D>>> interpolations;
   /// Layers of nodes beyond a patch that its particles reach.
   int halo;
-  /// What particles bring to the grid beside their velocities.
   components::Surroundings surroundings;
   /// Of nodes -> particles -> nodes: from which velocities, and how many.
   components::Passes passes;

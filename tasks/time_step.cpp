@@ -8,8 +8,6 @@
 namespace tamp::tasks
 {
 
-using components::Surroundings;
-
 namespace
 {
 
@@ -35,56 +33,44 @@ runtime::TaskDeclaration hear_hosts()
       .body([](const runtime::TaskContext& at, auto data) { data[host_requests].bits = at.step.host_requests; });
 }
 
-/// Particles deform, where moving them has not done that, and their materials answer.
+/// At the end of a step particles go to the patches that they are in by then.
 template <int D>
-void add_stress(const Method<D>& method, std::vector<runtime::TaskDeclaration>& step)
+runtime::TaskDeclaration migrate(const Method<D>& method, std::function<bool(const StepTotals&)> accepted)
 {
-  if (method.deformable_materials.empty()) return;
-  if (method.stress_timing != StressTiming::usl) {
-    for (runtime::TaskDeclaration& phase : deform_by_carried_velocities(method)) step.push_back(std::move(phase));
-  }
-  if (method.deforms_as_cells()) step.push_back(deform_as_cells(method));
-  for (const int material : method.deformable_materials) step.push_back(update_stress(method, material));
+  return runtime::migration(particle::position<D>, step_totals, std::move(accepted),
+                            method.scene.is_periodic() ? &particle::laps : nullptr);
 }
 
 }  // namespace
 
 template <int D>
-std::vector<runtime::TaskDeclaration> time_step(const Method<D>& method,
-                                                std::function<bool(const StepTotals&)> accepted)
+runtime::TaskList time_step(const Method<D>& method, std::function<bool(const StepTotals&)> accepted)
 {
-  std::vector<runtime::TaskDeclaration> step;
-  step.push_back(hear_hosts());
-  if (method.stress_timing == StressTiming::usf) add_stress(method, step);
-  if (method.deforms_as_cells()) {
-    for (runtime::TaskDeclaration& phase : share_stress(method)) step.push_back(std::move(phase));
+  runtime::TaskList step;
+  for (const runtime::TaskList& phase : {runtime::TaskList{hear_hosts()},
+                                         update_stress_first(method),
+                                         share_stress(method),
+                                         particles_to_grid(method),
+                                         press(method),
+                                         body_force(method),
+                                         accelerate_nodes(method),
+                                         accelerate_rigid_bodies(method),
+                                         rigid_nodes_before_contact(method),
+                                         contact_planes(method),
+                                         gather_rigid_contact(method),
+                                         rigid_nodes_after_contact(method),
+                                         contact(method),
+                                         walls(method),
+                                         account_for_pressure(method),
+                                         move_rigid_bodies(method),
+                                         move_rigid_particles(method),
+                                         pass_velocities(method),
+                                         grid_to_particles(method),
+                                         work_of_body_force(method),
+                                         update_stress_last(method),
+                                         runtime::TaskList{migrate(method, std::move(accepted))}}) {
+    step.insert(step.end(), phase.begin(), phase.end());
   }
-  for (runtime::TaskDeclaration& phase : particles_to_grid(method)) step.push_back(std::move(phase));
-  if (!method.pressed_materials.empty()) {
-    for (runtime::TaskDeclaration& phase : press(method)) step.push_back(std::move(phase));
-  }
-  if (method.scene.has_body_force()) step.push_back(body_force(method));
-  if (!method.deformable_materials.empty()) step.push_back(accelerate_nodes(method));
-  if (!method.rigid_bodies.empty()) step.push_back(accelerate_rigid_bodies(method));
-  for (const RigidBody& body : method.rigid_bodies) step.push_back(rigid_nodes_before_contact(method, body.material));
-  if (method.contacts.has_regression()) {
-    for (runtime::TaskDeclaration& phase : contact_planes(method)) step.push_back(std::move(phase));
-  }
-  if (!method.rigid_bodies.empty()) {
-    step.push_back(gather_rigid_contact(method));
-    step.push_back(rigid_nodes_after_contact(method));
-  }
-  step.push_back(contact(method));
-  step.push_back(walls(method));
-  if (!method.pressed_materials.empty()) step.push_back(account_for_pressure(method));
-  if (!method.rigid_bodies.empty()) step.push_back(move_rigid_bodies(method));
-  for (const RigidBody& body : method.rigid_bodies) step.push_back(move_rigid_particles(method, body.material));
-  for (runtime::TaskDeclaration& phase : pass_velocities(method)) step.push_back(std::move(phase));
-  if (!method.deformable_materials.empty()) step.push_back(grid_to_particles(method));
-  if (method.scene.has_body_force()) step.push_back(work_of_body_force(method));
-  if (method.stress_timing != StressTiming::usf) add_stress(method, step);
-  step.push_back(runtime::migration(particle::position<D>, step_totals, std::move(accepted),
-                                    method.scene.is_periodic() ? &particle::laps : nullptr));
   return step;
 }
 
@@ -98,14 +84,14 @@ runtime::HostData host_data(const Method<D>& method)
   for (const SceneMaterial& material : method.materials) add_state_of(material.model, data);
   if (!method.pressed_materials.empty()) data.results.push_back(&load_totals);
   if (method.scene.is_periodic()) data.state.push_back(&particle::laps);
-  if (method.surroundings == Surroundings::gradient) data.state.push_back(&particle::velocity_gradient<D>);
-  if (method.surroundings == Surroundings::moment) data.state.push_back(&particle::velocity_moment<D>);
+  if (method.brings_gradients()) data.state.push_back(&particle::velocity_gradient<D>);
+  if (method.brings_moments()) data.state.push_back(&particle::velocity_moment<D>);
   if (method.scene.has_body_force()) data.results.push_back(&body_force_work);
   return data;
 }
 
-template std::vector<runtime::TaskDeclaration> time_step(const Method<2>&, std::function<bool(const StepTotals&)>);
-template std::vector<runtime::TaskDeclaration> time_step(const Method<3>&, std::function<bool(const StepTotals&)>);
+template runtime::TaskList time_step(const Method<2>&, std::function<bool(const StepTotals&)>);
+template runtime::TaskList time_step(const Method<3>&, std::function<bool(const StepTotals&)>);
 template runtime::HostData host_data(const Method<2>&);
 template runtime::HostData host_data(const Method<3>&);
 

@@ -14,14 +14,12 @@
 namespace tamp::components
 {
 
-constexpr int greatest_filter_order = 8;
-
 /// What a scene says of a transfer.
 struct TransferChoice {
   Transfer transfer;
   /// Of a blend, 0 to 1.
   double flip_part;
-  /// Of XPIC and FMPM, 1 to `greatest_filter_order`.
+  /// Of XPIC and FMPM, at least 1.
   int filter_order;
 };
 

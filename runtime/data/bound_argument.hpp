@@ -29,17 +29,18 @@ struct Argument {
   using Asked = Reference<L, Previous>;
   using Value = std::conditional_t<ReadOnly, const typename L::Value, typename L::Value>;
 
-  /// A span of particles, or a GridView, or one for each group; of a reduction or a global the value itself.
-  static decltype(auto) view(const BoundArgument& bound)
+  /// A span of particles, or a GridView, or one for each group; of a reduction or a global the value itself. Empty
+  /// without an argument, where the label was not declared.
+  static decltype(auto) view(const BoundArgument* bound)
   {
     if constexpr (has_one_value(L::centre)) {
-      return *reinterpret_cast<Value*>(bound.fields[0]->buffer(bound.buffer).data());
+      return *reinterpret_cast<Value*>(bound->fields[0]->buffer(bound->buffer).data());
     } else if constexpr (EveryGroup) {
-      PerGroup<decltype(one(bound, 0))> views;
-      for (std::size_t g = 0; g < bound.n_fields; ++g) views.push_back(one(bound, g));
+      PerGroup<decltype(one(*bound, 0))> views;
+      for (std::size_t g = 0; bound != nullptr && g < bound->n_fields; ++g) views.push_back(one(*bound, g));
       return views;
     } else {
-      return one(bound, 0);
+      return bound == nullptr ? decltype(one(*bound, 0))() : one(*bound, 0);
     }
   }
 

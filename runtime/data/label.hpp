@@ -117,19 +117,37 @@ struct LabelName {
   std::array<char, N> text{};
 };
 
+/// The two states of a label that a step knows: the one that it finds, and the one that it makes.
+enum class StepEnd { start, end };
+
 /// How a task refers to a label; made by the label and refined by chaining: `position.previous()`,
-/// `mass.halo(1).every_group()`.
+/// `mass.halo(1).every_group()`, `spin.when(scene.turns)`.
 template <class L, bool Previous = false, bool EveryGroup = false>
 struct Reference {
   const L* label;
   int halo_width = 0;
+  bool is_declared = true;
+  bool is_anew = false;
+  bool of_previous_step = Previous;
 
   /// The value at the end of the step before.
-  Reference<L, true, EveryGroup> previous() const { return {label, halo_width}; }
+  Reference<L, true, EveryGroup> previous() const { return {label, halo_width, is_declared, is_anew, true}; }
+  /// The value at the start of the step, as previous() has it, or at its end; the body asks for it by the plain label.
+  Reference at(StepEnd end) const { return {label, halo_width, is_declared, is_anew, end == StepEnd::start}; }
   /// With `width` layers beyond the patch.
-  Reference halo(int width) const { return {label, width}; }
+  Reference halo(int width) const { return {label, width, is_declared, is_anew, of_previous_step}; }
   /// The fields of all groups at once, for a task that runs once a patch.
-  Reference<L, Previous, true> every_group() const { return {label, halo_width}; }
+  Reference<L, Previous, true> every_group() const
+  {
+    return {label, halo_width, is_declared, is_anew, of_previous_step};
+  }
+  /// Declared only on this condition, which is asked once, here. Without it the body gets an empty span or view.
+  Reference when(bool condition) const requires(!has_one_value(L::centre))
+  {
+    return {label, halo_width, is_declared && condition, is_anew, of_previous_step};
+  }
+  /// Accumulated from zero once more: readers declared before get the sum so far, those declared after a new one.
+  Reference anew() const { return {label, halo_width, is_declared, true, of_previous_step}; }
 };
 
 /// A label whose name is part of its type, by which the body of a task asks for its data.
@@ -140,6 +158,9 @@ class NamedLabel : public TypedLabel<T, C>
   NamedLabel() : TypedLabel<T, C>(Name.text.data()) {}
 
   auto previous() const { return reference().previous(); }
+  auto at(StepEnd end) const { return reference().at(end); }
+  auto when(bool condition) const { return reference().when(condition); }
+  auto anew() const { return reference().anew(); }
   auto halo(int width) const { return reference().halo(width); }
   auto every_group() const { return reference().every_group(); }
   Reference<NamedLabel> reference() const { return {this}; }

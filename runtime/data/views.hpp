@@ -35,6 +35,8 @@ class GridView
   {
   }
 
+  /// Whether it is of a label that was not declared in this case, see Reference::when.
+  bool empty() const { return first_ == nullptr; }
   /// The indices that may be used.
   const IndexBox& box() const { return box_; }
   const std::array<std::ptrdiff_t, 3>& strides() const { return strides_; }
@@ -68,6 +70,7 @@ class PerGroup
   static constexpr std::size_t max_groups = 16;
 
   std::size_t size() const { return size_; }
+  bool empty() const { return size_ == 0; }
   const View& operator[](std::size_t group) const { return views_[group]; }
   auto begin() const { return views_.begin(); }
   auto end() const { return views_.begin() + static_cast<std::ptrdiff_t>(size_); }

@@ -88,25 +88,12 @@ BoundGraph::Bound BoundGraph::bind_body(const Instance& instance)
     argument.box = grown(own, access.halo, layout.grid().dimension);
     bound.uses_particles |= access.label->centring() == Centring::particle;
     bound.arguments.push_back(argument);
-    bound.begins_part.push_back(begins_part(instance, access));
+    const auto& begun = instance.begun;
+    bound.begins_part.push_back(access.mode == Mode::accumulate &&
+                                std::find(begun.begin(), begun.end(), access.label) != begun.end());
   }
   if (graph_.declaration(instance).sparse) bind_sparse(instance, bound);
   return bound;
-}
-
-/// Whether no task before has accumulated the label on this patch.
-bool BoundGraph::begins_part(const Instance& instance, const Access& access) const
-{
-  const auto accumulates_it = [&](const Access& other) {
-    return other.mode == Mode::accumulate && other.label == access.label;
-  };
-  return accumulates_it(access) && std::none_of(instance.predecessors.begin(), instance.predecessors.end(), [&](int p) {
-           if (at(p).kind != InstanceKind::body || at(p).patch != instance.patch || at(p).group != instance.group) {
-             return false;
-           }
-           const auto& accesses = graph_.declaration(at(p)).accesses;
-           return std::any_of(accesses.begin(), accesses.end(), accumulates_it);
-         });
 }
 
 /// Lists what must be there for a sparse body to have anything to do.

@@ -71,7 +71,6 @@ class BoundGraph final : public Work
   Bound bind(const Instance& instance);
   Bound bind_body(const Instance& instance);
   Bound bind_halos(const Instance& instance);
-  bool begins_part(const Instance& instance, const Access& access) const;
   void bind_sparse(const Instance& instance, Bound& bound);
   void prepare(const Instance& instance, const Bound& bound);
   static bool takes_nothing(const Bound& bound);

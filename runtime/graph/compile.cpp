@@ -83,7 +83,7 @@ class Compiler
     int halo = 0;
     for (const Access& access : at(d).accesses) {
       if (access.mode != Mode::accumulate) continue;
-      const LabelStream& stream = streams_.at({access.label, group});
+      const LabelStream& stream = stream_at(streams_, access.label, group, d);
       if (!stream.is_summed_after(d)) continue;
       labels.push_back(access.label);
       halo = std::max(halo, stream.producers.back().access.halo);
@@ -127,7 +127,7 @@ class Compiler
   {
     for (const Access& access : at(d).accesses) {
       if (access.mode != Mode::read || access.of_previous_step) continue;
-      const Use& maker = *streams_.at({access.label, -1}).version_before(d);
+      const Use& maker = *stream_at(streams_, access.label, -1, d).version_before(d);
       for (int rank = 0; rank < layout_.n_ranks(); ++rank) {
         step_.edge(one_value_on(maker, rank), rank_bodies_.at({d, rank}), access.label, 0, access.label->value_bytes());
       }
@@ -148,19 +148,52 @@ class Compiler
         const int other = image.patch;
         if (other == patch.id) continue;
         const IndexBox shared = step_.shared_box(*label, box, image, halo);
-        step_.transfer({bodies_.at({d, other, group}),
-                        sum,
-                        {label, other, patch.id, group, FieldBuffer::part, shared, image.shift},
-                        halo,
-                        step_.bytes_of(*label, shared),
-                        d});
+        const Transfer part{bodies_.at({d, other, group}),
+                            sum,
+                            {label, other, patch.id, group, FieldBuffer::part, shared, image.shift},
+                            halo,
+                            step_.bytes_of(*label, shared),
+                            d};
+        step_.transfer(part);
+        connect_after_sum_before(d, part);
+      }
+      connect_after_readers_before(d, sum, patch.id, group, label);
+    }
+  }
+
+  /// A part that begins anew: it is summed no more for what it was before, here and on its neighbour.
+  void connect_after_sum_before(int d, const Transfer& part)
+  {
+    const Label* label = part.part.label;
+    const int group = part.part.group;
+    const LabelStream* before = stream_before(streams_, label, group, d);
+    if (before == nullptr) return;
+    const int last = before->producers.back().declaration;
+    const int first = stream_at(streams_, label, group, d).producers.front().declaration;
+    const int former_sum = sums_.at({last, part.part.to_patch, group});
+    const Transfer former{-1, former_sum, part.part, part.halo, part.bytes, last};
+    step_.edge(step_.copier(former), bodies_.at({first, part.part.from_patch, group}), label, 0, 0);
+    step_.edge(former_sum, step_.receiver(part), label, 0, 0);
+  }
+
+  /// A sum that begins anew takes the place of the one before, which is read and changed no more.
+  void connect_after_readers_before(int d, int sum, int patch, int group, const Label* label)
+  {
+    const LabelStream* before = stream_before(streams_, label, group, d);
+    if (before == nullptr) return;
+    const int first = stream_at(streams_, label, group, d).producers.front().declaration;
+    step_.edge(sums_.at({before->producers.back().declaration, patch, group}), bodies_.at({first, patch, group}), label,
+               0, 0);
+    for (const std::vector<Use>* uses : {&before->readers, &before->updaters}) {
+      for (const Use& use : *uses) {
+        if (!use.access.of_previous_step) step_.edge(body_of(use, patch, group), sum, label, 0, 0);
       }
     }
   }
 
   void connect_access(int d, int self, int patch, int group, const Access& access)
   {
-    const LabelStream& stream = streams_.at({access.label, group});
+    const LabelStream& stream = stream_at(streams_, access.label, group, d);
     switch (access.mode) {
       case Mode::read:
         connect_reader(d, self, patch, group, access, stream);
@@ -184,7 +217,10 @@ class Compiler
   {
     const auto own = std::find_if(stream.producers.begin(), stream.producers.end(),
                                   [&](const Use& use) { return use.declaration == d; });
-    if (own == stream.producers.begin()) return;
+    if (own == stream.producers.begin()) {
+      instance(self).begun.push_back(access.label);
+      return;
+    }
     step_.edge(bodies_.at({std::prev(own)->declaration, patch, group}), self, access.label, access.halo,
                step_.bytes_of(*access.label, step_.box_of(*access.label, patch, access.halo)));
   }
@@ -238,9 +274,12 @@ class Compiler
   int instance_of(const Use& use, int patch, int group) const
   {
     if (has_one_value(use.access.label->centring())) return one_value_on(use, layout_[patch].rank);
-    const int task_group = at(use.declaration).domain == Domain::patches ? -1 : group;
-    const Place place{use.declaration, patch, task_group};
-    return use.access.mode == Mode::accumulate ? sums_.at(place) : bodies_.at(place);
+    return use.access.mode == Mode::accumulate ? sums_.at({use.declaration, patch, group}) : body_of(use, patch, group);
+  }
+
+  int body_of(const Use& use, int patch, int group) const
+  {
+    return bodies_.at({use.declaration, patch, at(use.declaration).domain == Domain::patches ? -1 : group});
   }
 
   /// The instance after which a rank has the reduction or the global that `use` makes.

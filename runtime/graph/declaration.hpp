@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <functional>
 #include <string>
 #include <utility>
@@ -25,6 +26,8 @@ struct Access {
   bool of_previous_step = false;
   int halo = 0;
   bool every_group = false;
+  /// For what is accumulated: it starts at zero again, see Reference::anew.
+  bool anew = false;
 };
 
 /// Where in simulated time a step stands.
@@ -65,9 +68,9 @@ struct TaskDeclaration {
   std::function<void(const TaskContext&, const BoundArgument*)> body;
   /// For a migration that waits for a reduction: whether particles may move, given its value.
   std::function<bool(const void*)> may_move;
-
-  void add(const Access& access);
 };
+
+using TaskList = std::vector<TaskDeclaration>;
 
 /// Builds a declaration; what has been declared is what the body can ask for, by label.
 ///
@@ -80,11 +83,18 @@ struct TaskDeclaration {
 ///           const GridView<double> now = data[temperature];
 ///           ...
 ///         });
+///
+/// What only some methods need is declared `label.when(condition)`, and empty in the body where they do not.
 template <class... Arguments>
 class TaskBuilder
 {
+  using Places = ArgumentPlaces<sizeof...(Arguments)>;
+
  public:
-  explicit TaskBuilder(TaskDeclaration declaration) : declaration_(std::move(declaration)) {}
+  explicit TaskBuilder(TaskDeclaration declaration, const Places& places = {})
+      : declaration_(std::move(declaration)), places_(places)
+  {
+  }
 
   TaskBuilder over_patches() && { return std::move(*this).over(Domain::patches, {}); }
   TaskBuilder over_patches_and_groups(std::vector<int> groups = {}) &&
@@ -123,6 +133,7 @@ class TaskBuilder
   }
   /// Node or cell data to which every patch adds its part; it starts at zero, and readers get the sum of all parts, by
   /// the values' +=. Several tasks may, for the same groups; a patch's part is theirs in the order of declaration.
+  /// With `label.anew()` a further sum begins, which is read by tasks that are declared after this one.
   template <class... L>
   auto accumulates(const L&... labels) &&
   {
@@ -139,8 +150,9 @@ class TaskBuilder
   template <class Function>
   TaskDeclaration body(Function function) &&
   {
-    declaration_.body = [f = std::move(function)](const TaskContext& context, const BoundArgument* bound) {
-      f(context, TaskData<Arguments...>(bound));
+    declaration_.body = [f = std::move(function), places = places_](const TaskContext& context,
+                                                                    const BoundArgument* bound) {
+      f(context, TaskData<Arguments...>(bound, places));
     };
     return std::move(declaration_);
   }
@@ -171,11 +183,25 @@ class TaskBuilder
   auto with(const Reference<L, Previous, EveryGroup>&... r) &&
   {
     static_assert(M != Mode::accumulate || (Addable<typename L::Value> && ...), "what is accumulated has a +=");
-    (declaration_.add({M, r.label, Previous, r.halo_width, EveryGroup}), ...);
-    return TaskBuilder<Arguments..., Argument<L, Previous, EveryGroup, M == Mode::read>...>(std::move(declaration_));
+    constexpr std::size_t n_before = sizeof...(Arguments);
+    ArgumentPlaces<n_before + sizeof...(L)> places;
+    std::copy(places_.begin(), places_.end(), places.begin());
+    std::size_t next = n_before;
+    ((places[next++] = add({M, r.label, r.of_previous_step, r.halo_width, EveryGroup, r.is_anew}, r.is_declared)), ...);
+    return TaskBuilder<Arguments..., Argument<L, Previous, EveryGroup, M == Mode::read>...>(std::move(declaration_),
+                                                                                            places);
+  }
+
+  /// Its place among the accesses; none if it is not declared.
+  int add(const Access& access, bool is_declared)
+  {
+    if (!is_declared) return no_argument;
+    declaration_.accesses.push_back(access);
+    return static_cast<int>(declaration_.accesses.size()) - 1;
   }
 
   TaskDeclaration declaration_;
+  Places places_;
 };
 
 inline TaskBuilder<> task(std::string name)
@@ -196,8 +222,8 @@ TaskDeclaration migration(const TypedLabel<Point, Centring::particle>& position,
   TaskDeclaration declaration;
   declaration.name = "migrate particles";
   declaration.domain = Domain::migration;
-  declaration.add({Mode::update, &position});
-  if (laps != nullptr) declaration.add({Mode::update, laps});
+  declaration.accesses.push_back({Mode::update, &position});
+  if (laps != nullptr) declaration.accesses.push_back({Mode::update, laps});
   return declaration;
 }
 
@@ -210,7 +236,7 @@ TaskDeclaration migration(const TypedLabel<Point, Centring::particle>& position,
                           const TypedLabel<Index, Centring::particle>* laps = nullptr)
 {
   TaskDeclaration declaration = migration(position, laps);
-  declaration.add({Mode::read, &last_check});
+  declaration.accesses.push_back({Mode::read, &last_check});
   if (accepted) {
     declaration.may_move = [f = std::move(accepted)](const void* value) { return f(*static_cast<const T*>(value)); };
   }

@@ -56,11 +56,13 @@ class Inspector
     for (const TaskDeclaration& declaration : declarations_) {
       for (const Access& access : declaration.accesses) inspect_declared(declaration, access);
     }
-    for (const auto& [key, stream] : streams_) {
-      inspect_producers(*key.first, stream);
-      for (const Use& use : stream.readers) inspect_reader(use, stream);
-      for (const Use& use : stream.updaters) inspect_source(use, stream);
-      inspect_use(*key.first, stream);
+    for (const auto& [key, streams] : streams_) {
+      for (const LabelStream& stream : streams) {
+        inspect_producers(*key.first, stream);
+        for (const Use& use : stream.readers) inspect_reader(use, stream);
+        for (const Use& use : stream.updaters) inspect_source(use, stream);
+        inspect_use(*key.first, stream, &stream == &streams.back());
+      }
     }
     return std::move(problems_);
   }
@@ -87,6 +89,9 @@ class Inspector
     }
     if (access.mode == Mode::accumulate && declaration.domain != Domain::patches_and_groups) {
       report(Kind::bad_declaration, declaration.name, label, "only a task over patches and groups can accumulate");
+    }
+    if (access.anew && access.mode != Mode::accumulate) {
+      report(Kind::bad_declaration, declaration.name, label, "only what is accumulated can begin anew");
     }
     if ((access.mode == Mode::reduce) != (centring == Centring::reduction) && access.mode != Mode::read) {
       report(Kind::bad_declaration, declaration.name, label, "a reduction label is reduced, and no other is");
@@ -171,9 +176,10 @@ class Inspector
     }
   }
 
-  void inspect_use(const Label& label, const LabelStream& stream)
+  void inspect_use(const Label& label, const LabelStream& stream, bool is_last)
   {
-    if (stream.producers.empty() || contains(host_.results, &label) || contains(host_.state, &label)) return;
+    const bool is_taken = is_last && (contains(host_.results, &label) || contains(host_.state, &label));
+    if (stream.producers.empty() || is_taken) return;
     if (stream.readers.empty()) {
       report(Kind::unused_result, name(stream.producers[0]), label, "made, but never read by a task or the host");
     }
@@ -185,8 +191,8 @@ class Inspector
       return "no task makes it in this step; the value of the step before is there: previous()?";
     }
     std::vector<std::string> made;
-    for (const auto& [key, stream] : streams_) {
-      if (!stream.producers.empty()) made.push_back(key.first->name());
+    for (const auto& [key, streams] : streams_) {
+      if (!streams.front().producers.empty()) made.push_back(key.first->name());
     }
     const std::string near = near_name(label.name(), made);
     return "no task makes it in this step" + (near.empty() ? "" : "; did you mean '" + near + "'?");
@@ -217,6 +223,19 @@ const Use* LabelStream::version_before(int declaration) const
   return version;
 }
 
+const LabelStream& stream_at(const LabelStreams& streams, const Label* label, int group, int declaration)
+{
+  const auto& of_label = streams.at({label, group});
+  const auto is_begun = [&](const LabelStream& stream) { return stream.begin <= declaration; };
+  return *std::find_if(of_label.rbegin(), of_label.rend(), is_begun);
+}
+
+const LabelStream* stream_before(const LabelStreams& streams, const Label* label, int group, int declaration)
+{
+  const LabelStream& stream = stream_at(streams, label, group, declaration);
+  return &stream == &streams.at({label, group}).front() ? nullptr : &stream - 1;
+}
+
 std::vector<int> groups_of(const TaskDeclaration& declaration, int n_groups)
 {
   if (declaration.domain == Domain::patches || declaration.domain == Domain::ranks) return {-1};
@@ -242,7 +261,10 @@ LabelStreams collect_streams(const std::vector<TaskDeclaration>& declarations, i
         for (const int group : groups_of(access, task_group, n_groups)) groups.insert(group);
       }
       for (const int group : groups) {
-        LabelStream& stream = streams[{access.label, group}];
+        auto& of_label = streams[{access.label, group}];
+        if (of_label.empty()) of_label.emplace_back();
+        if (access.anew && !of_label.back().producers.empty()) of_label.emplace_back().begin = d;
+        LabelStream& stream = of_label.back();
         auto& uses = access.mode == Mode::read     ? stream.readers
                      : access.mode == Mode::update ? stream.updaters
                                                    : stream.producers;
@@ -250,7 +272,9 @@ LabelStreams collect_streams(const std::vector<TaskDeclaration>& declarations, i
       }
     }
   }
-  for (auto& [key, stream] : streams) widen_halos(stream.producers);
+  for (auto& [key, of_label] : streams) {
+    for (LabelStream& stream : of_label) widen_halos(stream.producers);
+  }
   return streams;
 }
 

@@ -60,6 +60,11 @@ int StepBuilder::copier(const Transfer& t)
   return crosses(t) ? step_.messages[static_cast<std::size_t>(message_for(t))].send : t.consumer;
 }
 
+int StepBuilder::receiver(const Transfer& t)
+{
+  return crosses(t) ? step_.messages[static_cast<std::size_t>(message_for(t))].receive : t.consumer;
+}
+
 /// The one message from rank to rank for the purpose of a transfer.
 int StepBuilder::message_for(const Transfer& t)
 {

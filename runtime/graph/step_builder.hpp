@@ -48,6 +48,8 @@ class StepBuilder
   void transfer(const Transfer& transfer);
   /// The instance that copies the data of a transfer: its consumer, or the sender of its message.
   int copier(const Transfer& transfer);
+  /// The instance at which the data arrive: its consumer, or the receiver of its message.
+  int receiver(const Transfer& transfer);
 
   /// A patch's own nodes or cells, whichever the label is on, with a halo; and the bytes of a label in a box.
   IndexBox box_of(const Label& label, int patch, int halo) const;

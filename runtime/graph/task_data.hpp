@@ -11,6 +11,11 @@
 namespace tamp::runtime
 {
 
+/// For each argument of a task its place among the accesses of the declaration, or none where it is not declared.
+template <std::size_t N>
+using ArgumentPlaces = std::array<int, N>;
+inline constexpr int no_argument = -1;
+
 /// The data of a task on one patch, as its body asks for them, by label:
 ///
 ///     [](const TaskContext& at, auto data) {
@@ -19,9 +24,8 @@ namespace tamp::runtime
 ///     }
 ///
 /// The answer is a span of particles, a GridView of nodes or cells, one of these for each group, or the value of a
-/// reduction or a global; const where it is only read. A label that the task did not declare does not compile. What
-/// only some tasks declare is used under `if constexpr (data.has(label))`; where `data` is a reference, under
-/// `Data::has(label)`.
+/// reduction or a global; const where it is only read. A label that the task did not declare does not compile; one that
+/// it declared on a condition which does not hold (Reference::when) is empty.
 template <class... Arguments>
 class TaskData
 {
@@ -36,14 +40,10 @@ class TaskData
   static constexpr bool is_declared = place<Asked> < sizeof...(Arguments);
 
  public:
-  explicit TaskData(const BoundArgument* bound) : bound_(bound) {}
-
-  /// Whether a label is declared, of this step or of the one before.
-  template <class T, Centring C, LabelName Name>
-  static constexpr bool has(const NamedLabel<T, C, Name>&)
+  /// `bound`: the accesses of the declaration; both outlive this.
+  TaskData(const BoundArgument* bound, const ArgumentPlaces<sizeof...(Arguments)>& places)
+      : bound_(bound), places_(&places)
   {
-    using L = NamedLabel<T, C, Name>;
-    return is_declared<Reference<L>> || is_declared<Reference<L, true>>;
   }
 
   template <class L, bool Previous>
@@ -51,7 +51,8 @@ class TaskData
   decltype(auto) operator[](const Reference<L, Previous>&) const
   {
     constexpr std::size_t i = place<Reference<L, Previous>>;
-    return std::tuple_element_t<i, std::tuple<Arguments...>>::view(bound_[i]);
+    const int at = (*places_)[i];
+    return std::tuple_element_t<i, std::tuple<Arguments...>>::view(at == no_argument ? nullptr : bound_ + at);
   }
   template <class T, Centring C, LabelName Name>
   requires is_declared<Reference<NamedLabel<T, C, Name>>>
@@ -59,6 +60,7 @@ class TaskData
 
  private:
   const BoundArgument* bound_;
+  const ArgumentPlaces<sizeof...(Arguments)>* places_;
 };
 
 }  // namespace tamp::runtime

@@ -130,9 +130,10 @@ std::vector<LabelUse> list_uses(const LabelStreams& streams, const HostData& hos
   const auto is_state = [&](const Label* label) {
     return std::find(host.state.begin(), host.state.end(), label) != host.state.end();
   };
-  for (const auto& [key, stream] : streams) {
-    LabelUse use{key.first, key.second, is_state(key.first), !stream.producers.empty(), false};
-    use.accumulated = use.computed && stream.producers.front().access.mode == Mode::accumulate;
+  for (const auto& [key, of_label] : streams) {
+    const std::vector<Use>& producers = of_label.front().producers;
+    LabelUse use{key.first, key.second, is_state(key.first), !producers.empty(), false};
+    use.accumulated = use.computed && producers.front().access.mode == Mode::accumulate;
     uses.push_back(use);
   }
   // State that no task of this graph names must still be kept, and must move with its particles.

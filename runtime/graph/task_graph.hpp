@@ -38,6 +38,8 @@ struct Instance {
   std::vector<const Label*> labels;
   bool of_previous_step = false;
   int halo = 0;
+  /// For a body: the labels that it is the first to add to on its patch.
+  std::vector<const Label*> begun;
   /// For a sender or receiver, which of the graph's messages; -1 otherwise.
   int message = -1;
   /// Instances that must be done before this one, ascending.

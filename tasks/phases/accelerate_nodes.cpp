@@ -1,5 +1,3 @@
-#include <optional>
-
 #include "tasks/labels.hpp"
 #include "tasks/phases/kick.hpp"
 #include "tasks/phases/phases.hpp"
@@ -9,7 +7,6 @@ namespace tamp::tasks
 
 using components::NodeMotion;
 using components::NodeSums;
-using runtime::GridView;
 using runtime::Index;
 using runtime::TaskContext;
 
@@ -17,37 +14,36 @@ using runtime::TaskContext;
 /// one. With v_n = v_{n-1/2} + a dt/2 the positions then move by v_n dt + a dt^2/2, which is eq. 42 of
 /// PAR-10021867-092020-6. At the very start velocity and position are of one time, and the kick is half a step.
 template <int D>
-runtime::TaskDeclaration accelerate_nodes(const Method<D>& method)
+runtime::TaskList accelerate_nodes(const Method<D>& method)
 {
-  auto task = runtime::task("accelerate nodes")
-                  .over_patches_and_groups(method.deformable_materials)
-                  .sparse()
-                  .reads(node::sums<D>.halo(method.halo))
-                  .computes(node::motion<D>.halo(method.halo));
-  const auto body = [&method](const TaskContext& at, auto data) {
-    const auto sums = data[node::sums<D>];
-    const auto motion = data[node::motion<D>];
-    std::optional<GridView<double>> inverse_mass;
-    if constexpr (data.has(node::inverse_mass)) inverse_mass.emplace(data[node::inverse_mass]);
-    for_each(sums.box(), [&](const Index& i) {
-      const NodeSums<D>& node = sums[i];
-      const double mass = node.mass();
-      if (inverse_mass) (*inverse_mass)[i] = mass > method.least_node_mass ? 1 / mass : 0;
-      if (!(mass > 0)) {
-        motion[i] = {};
-        return;
-      }
-      const Vector<D> velocity = node.momentum() / mass;
-      const Vector<D> change = kicked(method, at, i, node).damped;
-      motion[i].set(velocity + change, change);
-    });
-  };
+  if (method.deformable_materials.empty()) return {};
   // Where particles deform by other velocities, what they bring of these tells the masses too.
-  if (method.stress_timing != StressTiming::usl) return std::move(task).body(body);
-  return std::move(task).computes(node::inverse_mass.halo(method.halo)).body(body);
+  const bool tells_masses = method.stress_timing == StressTiming::usl;
+  return {runtime::task("accelerate nodes")
+              .over_patches_and_groups(method.deformable_materials)
+              .sparse()
+              .reads(node::sums<D>.halo(method.halo))
+              .computes(node::motion<D>.halo(method.halo), node::inverse_mass.halo(method.halo).when(tells_masses))
+              .body([&method, tells_masses](const TaskContext& at, auto data) {
+                const auto sums = data[node::sums<D>];
+                const auto motion = data[node::motion<D>];
+                const auto inverse_mass = data[node::inverse_mass];
+                for_each(sums.box(), [&](const Index& i) {
+                  const NodeSums<D>& node = sums[i];
+                  const double mass = node.mass();
+                  if (tells_masses) inverse_mass[i] = mass > method.least_node_mass ? 1 / mass : 0;
+                  if (!(mass > 0)) {
+                    motion[i] = {};
+                    return;
+                  }
+                  const Vector<D> velocity = node.momentum() / mass;
+                  const Vector<D> change = kicked(method, at, i, node).damped;
+                  motion[i].set(velocity + change, change);
+                });
+              })};
 }
 
-template runtime::TaskDeclaration accelerate_nodes(const Method<2>&);
-template runtime::TaskDeclaration accelerate_nodes(const Method<3>&);
+template runtime::TaskList accelerate_nodes(const Method<2>&);
+template runtime::TaskList accelerate_nodes(const Method<3>&);
 
 }  // namespace tamp::tasks

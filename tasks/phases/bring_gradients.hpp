@@ -1,8 +1,6 @@
 #pragma once
 
 #include <span>
-#include <stdexcept>
-#include <utility>
 #include <vector>
 
 #include "components/shapes/transfer.hpp"
@@ -29,51 +27,20 @@ std::vector<Matrix<D>> affine_gradients(const components::Interpolation<D>& inte
   return gradients;
 }
 
-/// Adds to the momenta of nodes what particles bring beside their velocities, where the task reads such.
+/// Adds to the momenta of nodes what particles bring beside their velocities, where the transfer has them do so.
 template <int D, class Data>
 void bring_gradients(const components::Interpolation<D>& interpolation, const components::GridBlock<D>& block,
                      const Data& data, components::NodeSums<D>* sums)
 {
   const components::ParticlePlaces<D> places = places_at_start<D>(data);
   const auto mass = data[particle::mass.previous()];
-  if constexpr (Data::has(particle::velocity_gradient<D>)) {
-    interpolation.add_gradient_momentum(block, places, mass, newest(data, particle::velocity_gradient<D>), sums);
+  const auto gradients = data[particle::velocity_gradient<D>];
+  const auto moments = data[particle::velocity_moment<D>];
+  if (!gradients.empty()) interpolation.add_gradient_momentum(block, places, mass, gradients, sums);
+  if (!moments.empty()) {
+    interpolation.add_gradient_momentum(block, places, mass, affine_gradients<D>(interpolation, block, places, moments),
+                                        sums);
   }
-  if constexpr (Data::has(particle::velocity_moment<D>)) {
-    interpolation.add_gradient_momentum(
-        block, places, mass,
-        affine_gradients<D>(interpolation, block, places, newest(data, particle::velocity_moment<D>)), sums);
-  }
-}
-
-/// The task with what particles of the start of the step bring to the grid beside their velocities.
-template <int D, class Task, class Body>
-runtime::TaskDeclaration with_gradients(const Method<D>& method, Task task, const Body& body)
-{
-  switch (method.surroundings) {
-    case components::Surroundings::none:
-      return std::move(task).body(body);
-    case components::Surroundings::gradient:
-      return std::move(task).reads(particle::velocity_gradient<D>.previous()).body(body);
-    case components::Surroundings::moment:
-      return std::move(task).reads(particle::velocity_moment<D>.previous()).body(body);
-  }
-  throw std::logic_error("unknown surroundings");
-}
-
-/// The same of the end of the step.
-template <int D, class Task, class Body>
-runtime::TaskDeclaration with_new_gradients(const Method<D>& method, Task task, const Body& body)
-{
-  switch (method.surroundings) {
-    case components::Surroundings::none:
-      return std::move(task).body(body);
-    case components::Surroundings::gradient:
-      return std::move(task).reads(particle::velocity_gradient<D>).body(body);
-    case components::Surroundings::moment:
-      return std::move(task).reads(particle::velocity_moment<D>).body(body);
-  }
-  throw std::logic_error("unknown surroundings");
 }
 
 /// What is scattered behind a wall comes to the grid as the image of the particles gives it.

@@ -28,31 +28,30 @@ namespace
 template <int D>
 runtime::TaskDeclaration carry(const Method<D>& method)
 {
-  auto task = runtime::task("carry velocities")
-                  .over_patches_and_groups(method.deformable_materials)
-                  .sparse()
-                  .reads(particle::position<D>.previous(), particle::deformation_gradient<D>.previous(),
-                         particle::mass.previous(), particle::volume.previous(), particle::stress<D>.previous(),
-                         particle::viscous_pressure.previous())
-                  .accumulates(node::carried_sums<D>.halo(method.halo));
-  const auto body = [&method](const TaskContext& at, auto data) {
-    const auto sums = data[node::carried_sums<D>];
-    const auto block = block_of<D>(at.layout, sums);
-    const components::Interpolation<D>& interpolation = method.interpolation(at.group);
-    const components::ParticleSources<D> sources{.places = places_at_start<D>(data),
-                                                 .velocity = newest(data, particle::velocity<D>),
-                                                 .mass = data[particle::mass.previous()],
-                                                 .volume = data[particle::volume.previous()],
-                                                 .stress = data[particle::stress<D>.previous()],
-                                                 .viscous_pressure = data[particle::viscous_pressure.previous()]};
-    interpolation.particles_to_grid(block, sources, false, sums.data());
-    bring_gradients<D>(interpolation, block, data, sums.data());
-    for_each_wall(method, at, sums.box(), [&](const Wall<D>& wall) { fold(wall, at, sums); });
-  };
-  if (method.stress_timing == StressTiming::usf) {
-    return with_gradients(method, std::move(task).reads(particle::velocity<D>.previous()), body);
-  }
-  return with_new_gradients(method, std::move(task).reads(particle::velocity<D>), body);
+  using runtime::StepEnd;
+  const StepEnd end = method.stress_timing == StressTiming::usf ? StepEnd::start : StepEnd::end;
+  return runtime::task("carry velocities")
+      .over_patches_and_groups(method.deformable_materials)
+      .sparse()
+      .reads(particle::position<D>.previous(), particle::deformation_gradient<D>.previous(), particle::mass.previous(),
+             particle::volume.previous(), particle::stress<D>.previous(), particle::viscous_pressure.previous(),
+             particle::velocity<D>.at(end), particle::velocity_gradient<D>.at(end).when(method.brings_gradients()),
+             particle::velocity_moment<D>.at(end).when(method.brings_moments()))
+      .accumulates(node::carried_sums<D>.halo(method.halo))
+      .body([&method](const TaskContext& at, auto data) {
+        const auto sums = data[node::carried_sums<D>];
+        const auto block = block_of<D>(at.layout, sums);
+        const components::Interpolation<D>& interpolation = method.interpolation(at.group);
+        const components::ParticleSources<D> sources{.places = places_at_start<D>(data),
+                                                     .velocity = data[particle::velocity<D>],
+                                                     .mass = data[particle::mass.previous()],
+                                                     .volume = data[particle::volume.previous()],
+                                                     .stress = data[particle::stress<D>.previous()],
+                                                     .viscous_pressure = data[particle::viscous_pressure.previous()]};
+        interpolation.particles_to_grid(block, sources, false, sums.data());
+        bring_gradients<D>(interpolation, block, data, sums.data());
+        for_each_wall(method, at, sums.box(), [&](const Wall<D>& wall) { fold(wall, at, sums); });
+      });
 }
 
 /// Nothing crosses a wall, and what sticks to it stands still. Friction has worked on the velocities that particles
@@ -113,21 +112,19 @@ runtime::TaskDeclaration deform_by_carried(const Method<D>& method)
                   .reads(node::carried_sums<D>.halo(method.halo), node::carried_motion<D>.halo(method.halo),
                          particle::mass.previous(), particle::position<D>.previous(),
                          particle::deformation_gradient<D>.previous());
-  return deforming(method, std::move(task), [&method](auto whole_task) {
-    return std::move(whole_task).body([&method](const TaskContext& at, auto data) {
-      const auto nodes = data[node::carried_motion<D>];
-      const auto block = block_of<D>(at.layout, nodes);
-      const auto places = places_at_start<D>(data);
-      const std::vector<double> inverse_mass = inverse_masses(method, data[node::carried_sums<D>]);
-      clear_cells(data);
-      std::array<ParticleMotion<D>, motion_batch> buffer;
-      for (std::size_t first = 0; first < places.size(); first += motion_batch) {
-        const auto motion = std::span(buffer).first(std::min(motion_batch, places.size() - first));
-        method.interpolation(at.group).grid_to_particles(block, places.subspan(first, motion.size()), nodes.data(),
-                                                         motion);
-        deform_by_nodes<D>(method, at, data, block, nodes.data(), inverse_mass.data(), first, motion);
-      }
-    });
+  return deforming(method, std::move(task), true).body([&method](const TaskContext& at, auto data) {
+    const auto nodes = data[node::carried_motion<D>];
+    const auto block = block_of<D>(at.layout, nodes);
+    const auto places = places_at_start<D>(data);
+    const std::vector<double> inverse_mass = inverse_masses(method, data[node::carried_sums<D>]);
+    clear_cells(data);
+    std::array<ParticleMotion<D>, motion_batch> buffer;
+    for (std::size_t first = 0; first < places.size(); first += motion_batch) {
+      const auto motion = std::span(buffer).first(std::min(motion_batch, places.size() - first));
+      method.interpolation(at.group).grid_to_particles(block, places.subspan(first, motion.size()), nodes.data(),
+                                                       motion);
+      deform_by_nodes<D>(method, at, data, block, nodes.data(), inverse_mass.data(), first, motion);
+    }
   });
 }
 
@@ -136,12 +133,13 @@ runtime::TaskDeclaration deform_by_carried(const Method<D>& method)
 /// Each material by the velocities of its own particles alone: contact has worked on these, in this step or in the step
 /// before, and is not asked again.
 template <int D>
-std::vector<runtime::TaskDeclaration> deform_by_carried_velocities(const Method<D>& method)
+runtime::TaskList deform_by_carried_velocities(const Method<D>& method)
 {
+  if (method.stress_timing == StressTiming::usl || method.deformable_materials.empty()) return {};
   return {carry(method), take_carried(method), deform_by_carried(method)};
 }
 
-template std::vector<runtime::TaskDeclaration> deform_by_carried_velocities(const Method<2>&);
-template std::vector<runtime::TaskDeclaration> deform_by_carried_velocities(const Method<3>&);
+template runtime::TaskList deform_by_carried_velocities(const Method<2>&);
+template runtime::TaskList deform_by_carried_velocities(const Method<3>&);
 
 }  // namespace tamp::tasks

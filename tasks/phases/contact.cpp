@@ -82,49 +82,49 @@ void add_impulses(const Method<D>& method, const NodeOfMaterials<D>& node, const
 }  // namespace
 
 template <int D>
-runtime::TaskDeclaration contact(const Method<D>& method)
+runtime::TaskList contact(const Method<D>& method)
 {
-  return runtime::task("contact")
-      .over_patches()
-      .sparse()
-      .reads(rigid_states.previous(), node::sums<D>.halo(method.halo).every_group())
-      .updates(node::motion<D>.halo(method.halo).every_group())
-      .reduces(step_totals, contact_impulses)
-      .body([&method](const TaskContext& at, auto data) {
-        const auto sums = data[node::sums<D>];
-        const auto motions = data[node::motion<D>];
-        const RigidStates& at_step_start = data[rigid_states.previous()];
-        StepTotals& totals = data[step_totals];
-        ContactImpulses& impulses = data[contact_impulses];
-        const std::size_t n_groups = sums.size();
-        const components::ContactThresholds thresholds = contact_thresholds(method);
-        const runtime::IndexBox counted = counted_nodes(method, at);
-        NodeOfMaterials<D> node;
-        for_each(sums[0].box(), [&](const Index& i) {
-          if (node.gather(method, sums, motions, i) < 2) return;
-          const RigidBody* rigid = node.rigid_body(method, at_step_start);
-          if (rigid != nullptr) {
-            node.mass[static_cast<std::size_t>(rigid->material)] = std::numeric_limits<double>::infinity();
-          }
-          const auto outcome = components::resolve_contact<D>(
-              std::span(node.mass.data(), n_groups), std::span(node.surface_gradient.data(), n_groups), method.contacts,
-              thresholds, std::span(node.velocity.data(), n_groups));
-          if (outcome.approach_speed == 0) return;
-          const Vector<D> x = node_position<D>(at.layout.grid(), i);
-          const NodeImpulses<D> done = give_back(method, node, rigid, at_step_start, sums, motions, i, x);
-          // Nodes on a seam are worked on by every patch around it, and counted by one.
-          if (!counted.contains(i)) return;
-          totals.contact += done.energy;
-          add_impulses(method, node, at_step_start, done, x, impulses);
-          if (method.time_step_rule == StepRule::viscous) {
-            totals.stable_step =
-                std::min(totals.stable_step, components::contact_time_step(method.cell_size, outcome.approach_speed));
-          }
-        });
-      });
+  return {runtime::task("contact")
+              .over_patches()
+              .sparse()
+              .reads(rigid_states.previous(), node::sums<D>.halo(method.halo).every_group())
+              .updates(node::motion<D>.halo(method.halo).every_group())
+              .reduces(step_totals, contact_impulses)
+              .body([&method](const TaskContext& at, auto data) {
+                const auto sums = data[node::sums<D>];
+                const auto motions = data[node::motion<D>];
+                const RigidStates& at_step_start = data[rigid_states.previous()];
+                StepTotals& totals = data[step_totals];
+                ContactImpulses& impulses = data[contact_impulses];
+                const std::size_t n_groups = sums.size();
+                const components::ContactThresholds thresholds = contact_thresholds(method);
+                const runtime::IndexBox counted = counted_nodes(method, at);
+                NodeOfMaterials<D> node;
+                for_each(sums[0].box(), [&](const Index& i) {
+                  if (node.gather(method, sums, motions, i) < 2) return;
+                  const RigidBody* rigid = node.rigid_body(method, at_step_start);
+                  if (rigid != nullptr) {
+                    node.mass[static_cast<std::size_t>(rigid->material)] = std::numeric_limits<double>::infinity();
+                  }
+                  const auto outcome = components::resolve_contact<D>(
+                      std::span(node.mass.data(), n_groups), std::span(node.surface_gradient.data(), n_groups),
+                      method.contacts, thresholds, std::span(node.velocity.data(), n_groups));
+                  if (outcome.approach_speed == 0) return;
+                  const Vector<D> x = node_position<D>(at.layout.grid(), i);
+                  const NodeImpulses<D> done = give_back(method, node, rigid, at_step_start, sums, motions, i, x);
+                  // Nodes on a seam are worked on by every patch around it, and counted by one.
+                  if (!counted.contains(i)) return;
+                  totals.contact += done.energy;
+                  add_impulses(method, node, at_step_start, done, x, impulses);
+                  if (method.time_step_rule == StepRule::viscous) {
+                    totals.stable_step = std::min(
+                        totals.stable_step, components::contact_time_step(method.cell_size, outcome.approach_speed));
+                  }
+                });
+              })};
 }
 
-template runtime::TaskDeclaration contact(const Method<2>&);
-template runtime::TaskDeclaration contact(const Method<3>&);
+template runtime::TaskList contact(const Method<2>&);
+template runtime::TaskList contact(const Method<3>&);
 
 }  // namespace tamp::tasks

@@ -114,7 +114,7 @@ runtime::TaskDeclaration sum_at_planes(const Method<D>& method, std::string name
       .sparse()
       .reads(node::contact_plane<D>.halo(method.halo), particle::position<D>.previous(),
              particle::deformation_gradient<D>.previous())
-      .accumulates(label.halo(method.halo))
+      .accumulates(label.anew().halo(method.halo))
       .body([&method, &label, add](const TaskContext& at, auto data) {
         const auto planes = data[node::contact_plane<D>];
         const auto sums = data[label];
@@ -125,16 +125,16 @@ runtime::TaskDeclaration sum_at_planes(const Method<D>& method, std::string name
       });
 }
 
-template <int D, class Label>
-runtime::TaskDeclaration turn_planes(const Method<D>& method, std::string name, const Label& label)
+template <int D>
+runtime::TaskDeclaration turn_planes(const Method<D>& method, std::string name)
 {
   return runtime::task(std::move(name))
       .over_patches()
       .sparse()
-      .reads(label.halo(method.halo).every_group())
+      .reads(node::regression_sums<D>.halo(method.halo).every_group())
       .updates(node::contact_plane<D>.halo(method.halo).every_group())
-      .body([&method, &label](const TaskContext& at, auto data) {
-        const auto sums = data[label];
+      .body([&method](const TaskContext& at, auto data) {
+        const auto sums = data[node::regression_sums<D>];
         const auto planes = data[node::contact_plane<D>];
         for_each(planes[0].box(), [&](const Index& i) {
           const auto pair = parted_at<D>(planes, i);
@@ -187,25 +187,21 @@ runtime::TaskDeclaration align_contact_normals(const Method<D>& method)
 }  // namespace
 
 template <int D>
-std::vector<runtime::TaskDeclaration> contact_planes(const Method<D>& method)
+runtime::TaskList contact_planes(const Method<D>& method)
 {
-  std::vector<runtime::TaskDeclaration> phases{lay_planes(method)};
-  const auto regress = [&](const std::string& pass, const auto& label) {
-    phases.push_back(sum_at_planes(
-        method, "regress contact " + pass, label,
-        [](const auto& interpolation, const auto&... arguments) { interpolation.add_regression(arguments...); }));
-    phases.push_back(turn_planes(method, "turn contact planes " + pass, label));
-  };
-  regress("1", node::first_regression_sums<D>);
-  regress("2", node::second_regression_sums<D>);
-  phases.push_back(sum_at_planes(
-      method, "find edges", node::edge_sums<D>,
-      [](const auto& interpolation, const auto&... arguments) { interpolation.add_edges(arguments...); }));
-  phases.push_back(align_contact_normals(method));
-  return phases;
+  if (!method.contacts.has_regression()) return {};
+  const auto regress = [](const auto& interpolation, const auto&... rest) { interpolation.add_regression(rest...); };
+  const auto find = [](const auto& interpolation, const auto&... rest) { interpolation.add_edges(rest...); };
+  return {lay_planes(method),
+          sum_at_planes(method, "regress contact 1", node::regression_sums<D>, regress),
+          turn_planes(method, "turn contact planes 1"),
+          sum_at_planes(method, "regress contact 2", node::regression_sums<D>, regress),
+          turn_planes(method, "turn contact planes 2"),
+          sum_at_planes(method, "find edges", node::edge_sums<D>, find),
+          align_contact_normals(method)};
 }
 
-template std::vector<runtime::TaskDeclaration> contact_planes(const Method<2>&);
-template std::vector<runtime::TaskDeclaration> contact_planes(const Method<3>&);
+template runtime::TaskList contact_planes(const Method<2>&);
+template runtime::TaskList contact_planes(const Method<3>&);
 
 }  // namespace tamp::tasks

@@ -65,8 +65,8 @@ void keep(const Method<D>& method, const runtime::TaskContext& at, const Data& d
   }
 }
 
-/// Deforms a batch of particles by the gradients of its motion, which it got from `nodes`, or keeps them where the task
-/// has room for them.
+/// Deforms a batch of particles by the gradients of its motion, which it got from `nodes`; or keeps them, where
+/// particles deform as their cells do.
 template <int D, class Data>
 void take_gradients(const Method<D>& method, const runtime::TaskContext& at, const Data& data,
                     const components::GridBlock<D>& block, const components::NodeMotion<D>* nodes,
@@ -88,7 +88,7 @@ void take_gradients(const Method<D>& method, const runtime::TaskContext& at, con
     components::volume_changes<D>(method.deformation_update, centres, changes);
     components::set_volume_changes<D>(method.deformation_update, g, changes);
   }
-  if constexpr (Data::has(particle::step_gradient<D>)) {
+  if (method.deforms_as_cells()) {
     keep<D>(method, at, data, first, g);
   } else {
     deform<D>(method, at, data, first, g);
@@ -117,23 +117,22 @@ void deform_by_nodes(const Method<D>& method, const runtime::TaskContext& at, co
 template <class Data>
 void clear_cells(const Data& data)
 {
-  if constexpr (Data::has(cell::volume_change)) {
-    for_each(data[cell::volume_change].box(), [&](const runtime::Index& i) { data[cell::volume_change][i] = {}; });
-  }
+  const auto cells = data[cell::volume_change];
+  for_each(cells.box(), [&](const runtime::Index& i) { cells[i] = {}; });
 }
 
-/// Declares what `deform_by_nodes` asks for beside places and masses, and hands the task on to `finish`.
-template <int D, class Task, class Finish>
-runtime::TaskDeclaration deforming(const Method<D>& method, Task task, const Finish& finish)
+/// The task with what `deform_by_nodes` asks for beside places and masses, where it is this one that deforms particles.
+template <int D, class Task>
+auto deforming(const Method<D>& method, Task task, bool deforms)
 {
-  auto reading = std::move(task)
-                     .reads(particle::id.previous(), particle::volume.previous(), particle::stress<D>.previous())
-                     .computes(particle::own_stiffness);
-  if (method.deforms_as_cells()) {
-    return finish(std::move(reading).computes(particle::step_gradient<D>, cell::volume_change));
-  }
-  return finish(std::move(reading).computes(particle::deformation_gradient<D>, particle::volume, particle::stress<D>,
-                                            particle::strain_increment<D>));
+  const bool keeps = deforms && method.deforms_as_cells(), finishes = deforms && !method.deforms_as_cells();
+  return std::move(task)
+      .reads(particle::id.previous().when(deforms), particle::volume.previous().when(deforms),
+             particle::stress<D>.previous().when(deforms))
+      .computes(particle::own_stiffness.when(deforms), particle::step_gradient<D>.when(keeps),
+                cell::volume_change.when(keeps), particle::deformation_gradient<D>.when(finishes),
+                particle::volume.when(finishes), particle::stress<D>.when(finishes),
+                particle::strain_increment<D>.when(finishes));
 }
 
 }  // namespace tamp::tasks

@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <array>
-#include <stdexcept>
 
 #include "components/shapes/transfer.hpp"
 #include "tasks/labels.hpp"
@@ -14,7 +13,6 @@ namespace tamp::tasks
 
 using components::ParticleMotion;
 using components::Passes;
-using components::Surroundings;
 using runtime::TaskContext;
 
 namespace
@@ -43,11 +41,10 @@ void move(const Method<D>& method, double dt, const Data& data, std::size_t firs
 {
   const auto old_position = data[particle::position<D>.previous()];
   const auto position = data[particle::position<D>];
+  const auto gradient = data[particle::velocity_gradient<D>];
   for (std::size_t i = 0; i < motion.size(); ++i) {
     position[first + i] = old_position[first + i] + dt * motion[i].velocity;
-    if constexpr (Data::has(particle::velocity_gradient<D>)) {
-      data[particle::velocity_gradient<D>][first + i] = motion[i].velocity_gradient;
-    }
+    if (!gradient.empty()) gradient[first + i] = motion[i].velocity_gradient;
   }
   transfer_velocities<D>(method, data[particle::velocity<D>.previous()].subspan(first, motion.size()), motion, restored,
                          data[particle::velocity<D>].subspan(first, motion.size()));
@@ -98,39 +95,30 @@ void count_gravity(const Method<D>& method, double dt, const Data& data, std::si
   data[grid_totals].combine(totals);
 }
 
-/// The task with what the transfer of the scene reads and keeps.
-template <int D, class Task, class Body>
-runtime::TaskDeclaration with_velocities(const Method<D>& method, Task task, const Body& body)
-{
-  if (method.passes == Passes::from_start && method.n_passes > 0) {
-    return std::move(task).reads(node::velocity_terms<D>.halo(method.halo)).body(body);
-  }
-  switch (method.surroundings) {
-    case Surroundings::none:
-      return std::move(task).body(body);
-    case Surroundings::gradient:
-      return std::move(task).computes(particle::velocity_gradient<D>).body(body);
-    case Surroundings::moment:
-      return std::move(task).computes(particle::velocity_moment<D>).body(body);
-  }
-  throw std::logic_error("unknown surroundings");
-}
-
 }  // namespace
 
 template <int D>
-runtime::TaskDeclaration grid_to_particles(const Method<D>& method)
+runtime::TaskList grid_to_particles(const Method<D>& method)
 {
+  if (method.deformable_materials.empty()) return {};
+  const bool deforms = method.stress_timing == StressTiming::usl;
+  const bool restores = method.passes == Passes::from_start && method.n_passes > 0;
+  const bool filters = method.with_transfer([](const auto& transfer) { return transfer.filters; });
   auto task = runtime::task("grid to particles")
                   .over_patches_and_groups(method.deformable_materials)
                   .sparse()
-                  .reads(node::motion<D>.halo(method.halo), particle::mass.previous(), particle::position<D>.previous(),
-                         particle::velocity<D>.previous(), particle::deformation_gradient<D>.previous())
-                  .computes(particle::position<D>, particle::velocity<D>)
+                  .reads(node::motion<D>.halo(method.halo), node::velocity_terms<D>.halo(method.halo).when(restores),
+                         node::inverse_mass.halo(method.halo).when(deforms), particle::mass.previous(),
+                         particle::position<D>.previous(), particle::velocity<D>.previous(),
+                         particle::deformation_gradient<D>.previous())
+                  .computes(particle::position<D>, particle::velocity<D>,
+                            particle::velocity_gradient<D>.when(method.brings_gradients()),
+                            particle::velocity_moment<D>.when(method.brings_moments()))
                   .reduces(grid_totals);
-  const bool filters = method.with_transfer([](const auto& transfer) { return transfer.filters; });
-  const auto body = [&method, filters](const TaskContext& at, auto data) {
+  return {deforming(method, std::move(task), deforms).body([=, &method](const TaskContext& at, auto data) {
     const auto nodes = data[node::motion<D>];
+    const auto terms = data[node::velocity_terms<D>];
+    const auto moments = data[particle::velocity_moment<D>];
     const auto block = block_of<D>(at.layout, nodes);
     const auto places = places_at_start<D>(data);
     const components::Interpolation<D>& interpolation = method.interpolation(at.group);
@@ -140,30 +128,23 @@ runtime::TaskDeclaration grid_to_particles(const Method<D>& method)
     restored.fill(Vector<D>::Zero());
     for (std::size_t first = 0; first < places.size(); first += motion_batch) {
       const std::size_t size = std::min(motion_batch, places.size() - first);
+      const auto batch = places.subspan(first, size);
       const auto motion = std::span(buffer).first(size);
-      interpolation.grid_to_particles(block, places.subspan(first, size), nodes.data(), motion);
-      if constexpr (data.has(node::velocity_terms<D>)) {
-        interpolation.interpolate(block, places.subspan(first, size), data[node::velocity_terms<D>].data(), restored);
-      }
+      interpolation.grid_to_particles(block, batch, nodes.data(), motion);
+      if (restores) interpolation.interpolate(block, batch, terms.data(), restored);
       move<D>(method, at.step.size, data, first, motion, restored);
       data[grid_totals].gained_by_particles += gained<D>(data, first, size);
       count_gravity<D>(method, at.step.size, data, first, size);
       if (filters) add_filtered_momentum<D>(data, first, motion);
-      if constexpr (data.has(particle::velocity_moment<D>)) {
-        interpolation.velocity_moments(block, places.subspan(first, size), nodes.data(),
-                                       data[particle::velocity_moment<D>].subspan(first, size));
-      }
-      if constexpr (data.has(node::inverse_mass)) {
+      if (!moments.empty()) interpolation.velocity_moments(block, batch, nodes.data(), moments.subspan(first, size));
+      if (deforms) {
         deform_by_nodes<D>(method, at, data, block, nodes.data(), data[node::inverse_mass].data(), first, motion);
       }
     }
-  };
-  if (method.stress_timing != StressTiming::usl) return with_velocities(method, std::move(task), body);
-  return deforming(method, std::move(task).reads(node::inverse_mass.halo(method.halo)),
-                   [&](auto whole_task) { return with_velocities(method, std::move(whole_task), body); });
+  })};
 }
 
-template runtime::TaskDeclaration grid_to_particles(const Method<2>&);
-template runtime::TaskDeclaration grid_to_particles(const Method<3>&);
+template runtime::TaskList grid_to_particles(const Method<2>&);
+template runtime::TaskList grid_to_particles(const Method<3>&);
 
 }  // namespace tamp::tasks

@@ -14,45 +14,48 @@ using runtime::TaskContext;
 
 /// In the leapfrog of `accelerate_nodes`.
 template <int D>
-runtime::TaskDeclaration accelerate_rigid_bodies(const Method<D>& method)
+runtime::TaskList accelerate_rigid_bodies(const Method<D>& method)
 {
-  return runtime::task("accelerate rigid bodies")
-      .over_ranks()
-      .reads(rigid_states.previous())
-      .computes(free_rigid_states)
-      .body([&method](const TaskContext& at, auto data) {
-        const RigidStates& before = data[rigid_states.previous()];
-        RigidStates& free = data[free_rigid_states];
-        const double kick = 0.5 * (at.step.previous_size + at.step.size);
-        for (const RigidBody& body : method.rigid_bodies) {
-          components::RigidState& state = free.of(body);
-          state = accelerated(body.properties, before.of(body), in_space<D>(method.gravity), method.centrifuge,
-                              at.step.time, kick);
-          if (body.drive == nullptr) continue;
-          const Eigen::Vector3d undriven = state.momentum;
-          state = driven(body.properties, *body.drive, state, at.step.time, at.step.size);
-          free.driving[static_cast<std::size_t>(body.material)] = state.momentum - undriven;
-        }
-      });
+  if (method.rigid_bodies.empty()) return {};
+  return {runtime::task("accelerate rigid bodies")
+              .over_ranks()
+              .reads(rigid_states.previous())
+              .computes(free_rigid_states)
+              .body([&method](const TaskContext& at, auto data) {
+                const RigidStates& before = data[rigid_states.previous()];
+                RigidStates& free = data[free_rigid_states];
+                const double kick = 0.5 * (at.step.previous_size + at.step.size);
+                for (const RigidBody& body : method.rigid_bodies) {
+                  components::RigidState& state = free.of(body);
+                  state = accelerated(body.properties, before.of(body), in_space<D>(method.gravity), method.centrifuge,
+                                      at.step.time, kick);
+                  if (body.drive == nullptr) continue;
+                  const Eigen::Vector3d undriven = state.momentum;
+                  state = driven(body.properties, *body.drive, state, at.step.time, at.step.size);
+                  free.driving[static_cast<std::size_t>(body.material)] = state.momentum - undriven;
+                }
+              })};
 }
 
 template <int D>
-runtime::TaskDeclaration move_rigid_bodies(const Method<D>& method)
+runtime::TaskList move_rigid_bodies(const Method<D>& method)
 {
-  return runtime::task("move rigid bodies")
-      .over_ranks()
-      .reads(free_rigid_states, contact_impulses)
-      .computes(rigid_states)
-      .body([&method](const TaskContext& at, auto data) {
-        const RigidStates& free = data[free_rigid_states];
-        const ContactImpulses& impulses = data[contact_impulses];
-        RigidStates& after = data[rigid_states];
-        for (const RigidBody& body : method.rigid_bodies) {
-          const auto g = static_cast<std::size_t>(body.material);
-          after.of(body) = moved(body.properties, free.of(body), impulses.by_material[g], body.held(), at.step.size);
-          after.driving[g] = free.driving[g] - impulses.by_material[g].linear;
-        }
-      });
+  if (method.rigid_bodies.empty()) return {};
+  return {runtime::task("move rigid bodies")
+              .over_ranks()
+              .reads(free_rigid_states, contact_impulses)
+              .computes(rigid_states)
+              .body([&method](const TaskContext& at, auto data) {
+                const RigidStates& free = data[free_rigid_states];
+                const ContactImpulses& impulses = data[contact_impulses];
+                RigidStates& after = data[rigid_states];
+                for (const RigidBody& body : method.rigid_bodies) {
+                  const auto g = static_cast<std::size_t>(body.material);
+                  after.of(body) =
+                      moved(body.properties, free.of(body), impulses.by_material[g], body.held(), at.step.size);
+                  after.driving[g] = free.driving[g] - impulses.by_material[g].linear;
+                }
+              })};
 }
 
 namespace
@@ -92,7 +95,7 @@ struct Placement {
 
 /// A rigid body's particles keep their places in it.
 template <int D>
-runtime::TaskDeclaration move_rigid_particles(const Method<D>& method, int material)
+runtime::TaskDeclaration move_particles(const Method<D>& method, int material)
 {
   const std::string& name = method.materials[static_cast<std::size_t>(material)].name;
   return runtime::task("move rigid particles: " + name)
@@ -146,11 +149,19 @@ runtime::TaskDeclaration move_rigid_particles(const Method<D>& method, int mater
       });
 }
 
-template runtime::TaskDeclaration accelerate_rigid_bodies(const Method<2>&);
-template runtime::TaskDeclaration accelerate_rigid_bodies(const Method<3>&);
-template runtime::TaskDeclaration move_rigid_bodies(const Method<2>&);
-template runtime::TaskDeclaration move_rigid_bodies(const Method<3>&);
-template runtime::TaskDeclaration move_rigid_particles(const Method<2>&, int);
-template runtime::TaskDeclaration move_rigid_particles(const Method<3>&, int);
+template <int D>
+runtime::TaskList move_rigid_particles(const Method<D>& method)
+{
+  runtime::TaskList tasks;
+  for (const RigidBody& body : method.rigid_bodies) tasks.push_back(move_particles(method, body.material));
+  return tasks;
+}
+
+template runtime::TaskList accelerate_rigid_bodies(const Method<2>&);
+template runtime::TaskList accelerate_rigid_bodies(const Method<3>&);
+template runtime::TaskList move_rigid_bodies(const Method<2>&);
+template runtime::TaskList move_rigid_bodies(const Method<3>&);
+template runtime::TaskList move_rigid_particles(const Method<2>&);
+template runtime::TaskList move_rigid_particles(const Method<3>&);
 
 }  // namespace tamp::tasks

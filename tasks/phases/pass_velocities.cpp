@@ -56,19 +56,19 @@ runtime::TaskDeclaration first_term(const Method<D>& method)
 }
 
 /// The last term goes to the particles, and what they bring of it back to the nodes.
-template <int D, int pass>
-runtime::TaskDeclaration return_term(const Method<D>& method)
+template <int D>
+runtime::TaskDeclaration return_term(const Method<D>& method, int pass)
 {
   return runtime::task("return velocity term " + std::to_string(pass))
       .over_patches_and_groups(method.deformable_materials)
       .sparse()
       .reads(node::velocity_term<D>.halo(method.halo), particle::position<D>.previous(),
              particle::deformation_gradient<D>.previous(), particle::mass.previous())
-      .accumulates(node::returned_momentum<D, pass>.halo(method.halo))
+      .accumulates(node::returned_momentum<D>.anew().halo(method.halo))
       .body([&method](const TaskContext& at, auto data) {
         const auto term = data[node::velocity_term<D>];
         const auto mass = data[particle::mass.previous()];
-        const auto returned = data[node::returned_momentum<D, pass>];
+        const auto returned = data[node::returned_momentum<D>];
         const auto block = block_of<D>(at.layout, term);
         const auto places = places_at_start<D>(data);
         const components::Interpolation<D>& interpolation = method.interpolation(at.group);
@@ -84,17 +84,17 @@ runtime::TaskDeclaration return_term(const Method<D>& method)
 
 /// u_j = u_{j-1} - S+ S u_{j-1}. Where nodes go on with the terms, those on a wall that is no mirror keep the velocity
 /// that it has left them.
-template <int D, int pass>
-runtime::TaskDeclaration next_term(const Method<D>& method)
+template <int D>
+runtime::TaskDeclaration next_term(const Method<D>& method, int pass)
 {
   return runtime::task("velocity term " + std::to_string(pass))
       .over_patches_and_groups(method.deformable_materials)
       .sparse()
-      .reads(node::sums<D>.halo(method.halo), node::returned_momentum<D, pass>.halo(method.halo))
+      .reads(node::sums<D>.halo(method.halo), node::returned_momentum<D>.halo(method.halo))
       .updates(node::velocity_term<D>.halo(method.halo), node::velocity_terms<D>.halo(method.halo))
       .body([&method](const TaskContext& at, auto data) {
         const auto sums = data[node::sums<D>];
-        const auto returned = data[node::returned_momentum<D, pass>];
+        const auto returned = data[node::returned_momentum<D>];
         const auto term = data[node::velocity_term<D>];
         const auto terms = data[node::velocity_terms<D>];
         for_each(sums.box(), [&](const Index& i) {
@@ -125,32 +125,23 @@ runtime::TaskDeclaration move_nodes_by_terms(const Method<D>& method)
       });
 }
 
-/// Those of `pass` and of all that follow. Each has a label of its own for what it adds up.
-template <int D, int pass = 1>
-void add_passes(const Method<D>& method, std::vector<runtime::TaskDeclaration>& phases)
-{
-  if constexpr (pass < components::greatest_filter_order) {
-    if (pass > method.n_passes) return;
-    phases.push_back(return_term<D, pass>(method));
-    phases.push_back(next_term<D, pass>(method));
-    add_passes<D, pass + 1>(method, phases);
-  }
-}
-
 }  // namespace
 
 /// The sums over all nodes of m_i u_j are zero but at walls: what S+ S brings to the nodes is what it took from them.
 template <int D>
-std::vector<runtime::TaskDeclaration> pass_velocities(const Method<D>& method)
+runtime::TaskList pass_velocities(const Method<D>& method)
 {
   if (method.n_passes == 0 || method.deformable_materials.empty()) return {};
-  std::vector<runtime::TaskDeclaration> phases{first_term(method)};
-  add_passes(method, phases);
-  if (method.passes == Passes::from_end) phases.push_back(move_nodes_by_terms(method));
-  return phases;
+  runtime::TaskList tasks{first_term(method)};
+  for (int pass = 1; pass <= method.n_passes; ++pass) {
+    tasks.push_back(return_term(method, pass));
+    tasks.push_back(next_term(method, pass));
+  }
+  if (method.passes == Passes::from_end) tasks.push_back(move_nodes_by_terms(method));
+  return tasks;
 }
 
-template std::vector<runtime::TaskDeclaration> pass_velocities(const Method<2>&);
-template std::vector<runtime::TaskDeclaration> pass_velocities(const Method<3>&);
+template runtime::TaskList pass_velocities(const Method<2>&);
+template runtime::TaskList pass_velocities(const Method<3>&);
 
 }  // namespace tamp::tasks

@@ -1,97 +1,99 @@
 #pragma once
 
-#include <vector>
-
 #include "runtime/graph/declaration.hpp"
 #include "tasks/method.hpp"
 
-/// The phases of a time step, each declared in the file of its name. `method` must outlive the tasks.
+/// The phases of a time step, each declared in the file of its name: its tasks, or none where a scene does not need it.
+/// `method` must outlive the tasks.
 namespace tamp::tasks
 {
 
 /// Particles share the mean stress of their cell, by which they will push on nodes.
 template <int D>
-std::vector<runtime::TaskDeclaration> share_stress(const Method<D>& method);
+runtime::TaskList share_stress(const Method<D>& method);
 
 /// Particles give their mass, momentum and forces to the grid.
 template <int D>
-std::vector<runtime::TaskDeclaration> particles_to_grid(const Method<D>& method);
+runtime::TaskList particles_to_grid(const Method<D>& method);
 
 /// Pressure loads push on the nodes of the surfaces that they act on.
 template <int D>
-std::vector<runtime::TaskDeclaration> press(const Method<D>& method);
+runtime::TaskList press(const Method<D>& method);
 
 /// Body forces of the scene's problems add to the forces on nodes.
 template <int D>
-runtime::TaskDeclaration body_force(const Method<D>& method);
+runtime::TaskList body_force(const Method<D>& method);
 
 /// What they have done in the step, once particles have moved.
 template <int D>
-runtime::TaskDeclaration work_of_body_force(const Method<D>& method);
+runtime::TaskList work_of_body_force(const Method<D>& method);
 
 /// Nodes of deformable materials are accelerated by their forces, gravity and what the turning of the frame adds.
 template <int D>
-runtime::TaskDeclaration accelerate_nodes(const Method<D>& method);
+runtime::TaskList accelerate_nodes(const Method<D>& method);
 
 /// Rigid bodies are accelerated by gravity and what the turning of the frame adds.
 template <int D>
-runtime::TaskDeclaration accelerate_rigid_bodies(const Method<D>& method);
+runtime::TaskList accelerate_rigid_bodies(const Method<D>& method);
 
-/// Nodes of the material that is a rigid body move as it would without contact.
+/// Nodes of materials that are rigid bodies move as they would without contact.
 template <int D>
-runtime::TaskDeclaration rigid_nodes_before_contact(const Method<D>& method, int material);
+runtime::TaskList rigid_nodes_before_contact(const Method<D>& method);
 
 /// Contact normals by regression: planes are laid between the particles of two materials, which then face each other
 /// along the planes' normals where they touch, and nowhere else.
 template <int D>
-std::vector<runtime::TaskDeclaration> contact_planes(const Method<D>& method);
+runtime::TaskList contact_planes(const Method<D>& method);
 
 /// What the contact of rigid bodies asks of their motion.
 template <int D>
-runtime::TaskDeclaration gather_rigid_contact(const Method<D>& method);
+runtime::TaskList gather_rigid_contact(const Method<D>& method);
 
 /// The nodes of rigid bodies move as these do after contact.
 template <int D>
-runtime::TaskDeclaration rigid_nodes_after_contact(const Method<D>& method);
+runtime::TaskList rigid_nodes_after_contact(const Method<D>& method);
 
 /// Where materials meet at a node and approach each other, impulses keep them apart.
 template <int D>
-runtime::TaskDeclaration contact(const Method<D>& method);
+runtime::TaskList contact(const Method<D>& method);
 
 /// Nothing crosses a wall of the domain.
 template <int D>
-runtime::TaskDeclaration walls(const Method<D>& method);
+runtime::TaskList walls(const Method<D>& method);
 
 /// What pressure loads have given to the materials, and their work.
 template <int D>
-runtime::TaskDeclaration account_for_pressure(const Method<D>& method);
+runtime::TaskList account_for_pressure(const Method<D>& method);
 
 /// Rigid bodies take what contact gave them, and move.
 template <int D>
-runtime::TaskDeclaration move_rigid_bodies(const Method<D>& method);
+runtime::TaskList move_rigid_bodies(const Method<D>& method);
 
-/// The particles of a material that is a rigid body move with it; bounds the next step.
+/// The particles of rigid bodies move with them; bounds the next step.
 template <int D>
-runtime::TaskDeclaration move_rigid_particles(const Method<D>& method, int material);
+runtime::TaskList move_rigid_particles(const Method<D>& method);
 
 /// What nodes tell particles goes back to the nodes, as often as the transfer asks for; empty for most.
 template <int D>
-std::vector<runtime::TaskDeclaration> pass_velocities(const Method<D>& method);
+runtime::TaskList pass_velocities(const Method<D>& method);
 
 /// Particles of the other materials are moved by the grid, and deformed where no other velocities do that.
 template <int D>
-runtime::TaskDeclaration grid_to_particles(const Method<D>& method);
+runtime::TaskList grid_to_particles(const Method<D>& method);
 
 /// Particles bring their velocities to the nodes, and are deformed by what these come to there.
 template <int D>
-std::vector<runtime::TaskDeclaration> deform_by_carried_velocities(const Method<D>& method);
+runtime::TaskList deform_by_carried_velocities(const Method<D>& method);
 
 /// Where all particles of a cell share its change of volume, they are deformed by a phase of its own.
 template <int D>
-runtime::TaskDeclaration deform_as_cells(const Method<D>& method);
+runtime::TaskList deform_as_cells(const Method<D>& method);
 
-/// The material answers the deformation of its particles with stress; sums energies and bounds the next step.
+/// Particles deform, where moving them has not done that, and their materials answer with stress; sums energies and
+/// bounds the next step. Either at the start of the step or at its end, as the scene has it.
 template <int D>
-runtime::TaskDeclaration update_stress(const Method<D>& method, int material);
+runtime::TaskList update_stress_first(const Method<D>& method);
+template <int D>
+runtime::TaskList update_stress_last(const Method<D>& method);
 
 }  // namespace tamp::tasks

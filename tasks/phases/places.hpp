@@ -31,15 +31,4 @@ runtime::Index cell_of(const runtime::TaskContext& at, const Vector<D>& x)
   return cell;
 }
 
-/// A field as this step has made it, where the task reads that, and else as it was at the start of the step.
-template <class Data, class Label>
-decltype(auto) newest(const Data& data, const Label& label)
-{
-  if constexpr (requires { data[label]; }) {
-    return data[label];
-  } else {
-    return data[label.previous()];
-  }
-}
-
 }  // namespace tamp::tasks

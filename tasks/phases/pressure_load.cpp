@@ -102,47 +102,49 @@ runtime::TaskDeclaration press_nodes(const Method<D>& method)
 /// The surface is where the surface gradient of the whole material says it is, so that neither a mirror nor another
 /// body of the same material counts as one.
 template <int D>
-std::vector<runtime::TaskDeclaration> press(const Method<D>& method)
+runtime::TaskList press(const Method<D>& method)
 {
+  if (method.pressed_materials.empty()) return {};
   return {gather_pressure(method), press_nodes(method)};
 }
 
 /// Work goes with the mean of the velocities before and after the step, as the energies of leapfrog are counted.
 template <int D>
-runtime::TaskDeclaration account_for_pressure(const Method<D>& method)
+runtime::TaskList account_for_pressure(const Method<D>& method)
 {
-  return runtime::task("account for pressure")
-      .over_patches_and_groups(method.pressed_materials)
-      .sparse()
-      .reads(node::pressure_sums<D>.halo(method.halo), node::sums<D>.halo(method.halo),
-             node::motion<D>.halo(method.halo))
-      .reduces(load_totals)
-      .body([&method](const TaskContext& at, auto data) {
-        const auto pressure = data[node::pressure_sums<D>];
-        const auto sums = data[node::sums<D>];
-        const auto motion = data[node::motion<D>];
-        LoadTotals& totals = data[load_totals];
-        auto& given = totals.impulse[static_cast<std::size_t>(at.group)];
-        const double kick = 0.5 * (at.step.previous_size + at.step.size);
-        const double half_step_before = 0.5 * at.step.previous_size;
-        for_each(counted_nodes(method, at), [&](const Index& i) {
-          const double mass = sums[i].mass();
-          if (!(mass > method.least_node_mass)) return;
-          const Vector<D> change =
-              kick / mass * components::pressure_force(pressure[i], mass, sums[i].surface_gradient());
-          const Vector<D> at_start = sums[i].momentum() / mass;
-          totals.work += 0.5 * mass * change.dot(at_start + motion[i].velocity());
-          totals.work_at_start += half_step_before / kick * mass * change.dot(at_start);
-          for (std::size_t k = 0; k < std::size_t{D}; ++k) {
-            given[k] += own_mass(method, at, sums, i, k) * change[static_cast<int>(k)];
-          }
-        });
-      });
+  if (method.pressed_materials.empty()) return {};
+  return {runtime::task("account for pressure")
+              .over_patches_and_groups(method.pressed_materials)
+              .sparse()
+              .reads(node::pressure_sums<D>.halo(method.halo), node::sums<D>.halo(method.halo),
+                     node::motion<D>.halo(method.halo))
+              .reduces(load_totals)
+              .body([&method](const TaskContext& at, auto data) {
+                const auto pressure = data[node::pressure_sums<D>];
+                const auto sums = data[node::sums<D>];
+                const auto motion = data[node::motion<D>];
+                LoadTotals& totals = data[load_totals];
+                auto& given = totals.impulse[static_cast<std::size_t>(at.group)];
+                const double kick = 0.5 * (at.step.previous_size + at.step.size);
+                const double half_step_before = 0.5 * at.step.previous_size;
+                for_each(counted_nodes(method, at), [&](const Index& i) {
+                  const double mass = sums[i].mass();
+                  if (!(mass > method.least_node_mass)) return;
+                  const Vector<D> change =
+                      kick / mass * components::pressure_force(pressure[i], mass, sums[i].surface_gradient());
+                  const Vector<D> at_start = sums[i].momentum() / mass;
+                  totals.work += 0.5 * mass * change.dot(at_start + motion[i].velocity());
+                  totals.work_at_start += half_step_before / kick * mass * change.dot(at_start);
+                  for (std::size_t k = 0; k < std::size_t{D}; ++k) {
+                    given[k] += own_mass(method, at, sums, i, k) * change[static_cast<int>(k)];
+                  }
+                });
+              })};
 }
 
-template std::vector<runtime::TaskDeclaration> press(const Method<2>&);
-template std::vector<runtime::TaskDeclaration> press(const Method<3>&);
-template runtime::TaskDeclaration account_for_pressure(const Method<2>&);
-template runtime::TaskDeclaration account_for_pressure(const Method<3>&);
+template runtime::TaskList press(const Method<2>&);
+template runtime::TaskList press(const Method<3>&);
+template runtime::TaskList account_for_pressure(const Method<2>&);
+template runtime::TaskList account_for_pressure(const Method<3>&);
 
 }  // namespace tamp::tasks

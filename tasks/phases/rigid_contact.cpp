@@ -45,7 +45,7 @@ void add_node(const Method<D>& method, const RigidBody& body, const RigidStates&
 }  // namespace
 
 template <int D>
-runtime::TaskDeclaration rigid_nodes_before_contact(const Method<D>& method, int material)
+runtime::TaskDeclaration move_rigid_nodes(const Method<D>& method, int material)
 {
   const std::string& name = method.materials[static_cast<std::size_t>(material)].name;
   return runtime::task("rigid nodes before contact: " + name)
@@ -67,64 +67,75 @@ runtime::TaskDeclaration rigid_nodes_before_contact(const Method<D>& method, int
       });
 }
 
+template <int D>
+runtime::TaskList rigid_nodes_before_contact(const Method<D>& method)
+{
+  runtime::TaskList tasks;
+  for (const RigidBody& body : method.rigid_bodies) tasks.push_back(move_rigid_nodes(method, body.material));
+  return tasks;
+}
+
 /// All nodes of a rigid body share its six degrees of freedom, so its contact is gathered from all patches before any
 /// of them can say how fast it moves.
 template <int D>
-runtime::TaskDeclaration gather_rigid_contact(const Method<D>& method)
+runtime::TaskList gather_rigid_contact(const Method<D>& method)
 {
-  return runtime::task("gather rigid contact")
-      .over_patches()
-      .sparse()
-      .reads(rigid_states.previous(), node::sums<D>.halo(method.halo).every_group(),
-             node::motion<D>.halo(method.halo).every_group())
-      .reduces(rigid_couplings)
-      .body([&method](const TaskContext& at, auto data) {
-        const auto sums = data[node::sums<D>];
-        const auto motions = data[node::motion<D>];
-        const RigidStates& states = data[rigid_states.previous()];
-        RigidCouplings& couplings = data[rigid_couplings];
-        NodeOfMaterials<D> node;
-        for_each(at.layout.owned_nodes(at.patch), [&](const Index& i) {
-          if (node.gather(method, sums, motions, i) < 2) return;
-          if (const RigidBody* body = node.rigid_body(method, states)) {
-            add_node(method, *body, states, node, node_position<D>(at.layout.grid(), i), couplings);
-          }
-        });
-      });
+  if (method.rigid_bodies.empty()) return {};
+  return {runtime::task("gather rigid contact")
+              .over_patches()
+              .sparse()
+              .reads(rigid_states.previous(), node::sums<D>.halo(method.halo).every_group(),
+                     node::motion<D>.halo(method.halo).every_group())
+              .reduces(rigid_couplings)
+              .body([&method](const TaskContext& at, auto data) {
+                const auto sums = data[node::sums<D>];
+                const auto motions = data[node::motion<D>];
+                const RigidStates& states = data[rigid_states.previous()];
+                RigidCouplings& couplings = data[rigid_couplings];
+                NodeOfMaterials<D> node;
+                for_each(at.layout.owned_nodes(at.patch), [&](const Index& i) {
+                  if (node.gather(method, sums, motions, i) < 2) return;
+                  if (const RigidBody* body = node.rigid_body(method, states)) {
+                    add_node(method, *body, states, node, node_position<D>(at.layout.grid(), i), couplings);
+                  }
+                });
+              })};
 }
 
 /// Nodes of rigid bodies take the velocity that the bodies have after contact.
 template <int D>
-runtime::TaskDeclaration rigid_nodes_after_contact(const Method<D>& method)
+runtime::TaskList rigid_nodes_after_contact(const Method<D>& method)
 {
-  return runtime::task("rigid nodes after contact")
-      .over_patches()
-      .sparse()
-      .reads(rigid_couplings, free_rigid_states, node::sums<D>.halo(method.halo).every_group())
-      .updates(node::motion<D>.halo(method.halo).every_group())
-      .body([&method](const TaskContext& at, auto data) {
-        const RigidCouplings& couplings = data[rigid_couplings];
-        const RigidStates& free = data[free_rigid_states];
-        const auto sums = data[node::sums<D>];
-        const auto motions = data[node::motion<D>];
-        for (const RigidBody& body : method.rigid_bodies) {
-          const auto g = static_cast<std::size_t>(body.material);
-          const components::RigidMotion motion =
-              couplings.by_material[g].solve(body.properties, free.of(body), body.held());
-          for_each(motions[g].box(), [&](const Index& i) {
-            if (!(sums[g][i].mass() > 0)) return;
-            const Vector<D> velocity = motion.at(in_space<D>(node_position<D>(at.layout.grid(), i))).template head<D>();
-            motions[g][i].set(velocity, Vector<D>::Zero());
-          });
-        }
-      });
+  if (method.rigid_bodies.empty()) return {};
+  return {runtime::task("rigid nodes after contact")
+              .over_patches()
+              .sparse()
+              .reads(rigid_couplings, free_rigid_states, node::sums<D>.halo(method.halo).every_group())
+              .updates(node::motion<D>.halo(method.halo).every_group())
+              .body([&method](const TaskContext& at, auto data) {
+                const RigidCouplings& couplings = data[rigid_couplings];
+                const RigidStates& free = data[free_rigid_states];
+                const auto sums = data[node::sums<D>];
+                const auto motions = data[node::motion<D>];
+                for (const RigidBody& body : method.rigid_bodies) {
+                  const auto g = static_cast<std::size_t>(body.material);
+                  const components::RigidMotion motion =
+                      couplings.by_material[g].solve(body.properties, free.of(body), body.held());
+                  for_each(motions[g].box(), [&](const Index& i) {
+                    if (!(sums[g][i].mass() > 0)) return;
+                    const Vector<D> velocity =
+                        motion.at(in_space<D>(node_position<D>(at.layout.grid(), i))).template head<D>();
+                    motions[g][i].set(velocity, Vector<D>::Zero());
+                  });
+                }
+              })};
 }
 
-template runtime::TaskDeclaration rigid_nodes_before_contact(const Method<2>&, int);
-template runtime::TaskDeclaration rigid_nodes_before_contact(const Method<3>&, int);
-template runtime::TaskDeclaration gather_rigid_contact(const Method<2>&);
-template runtime::TaskDeclaration gather_rigid_contact(const Method<3>&);
-template runtime::TaskDeclaration rigid_nodes_after_contact(const Method<2>&);
-template runtime::TaskDeclaration rigid_nodes_after_contact(const Method<3>&);
+template runtime::TaskList rigid_nodes_before_contact(const Method<2>&);
+template runtime::TaskList rigid_nodes_before_contact(const Method<3>&);
+template runtime::TaskList gather_rigid_contact(const Method<2>&);
+template runtime::TaskList gather_rigid_contact(const Method<3>&);
+template runtime::TaskList rigid_nodes_after_contact(const Method<2>&);
+template runtime::TaskList rigid_nodes_after_contact(const Method<3>&);
 
 }  // namespace tamp::tasks

@@ -81,7 +81,7 @@ void account(const Method<D>& method, double dt, const Data& data, std::size_t f
   const std::size_t n = old_stress.size();
   const auto of_batch = [&](const auto& field) { return field.subspan(first, n); };
   const auto mass = of_batch(data[particle::mass.previous()]);
-  const auto velocity = of_batch(newest(data, particle::velocity<D>));
+  const auto velocity = of_batch(data[particle::velocity<D>]);
   const auto old_volumes = of_batch(data[particle::volume.previous()]), volumes = of_batch(data[particle::volume]);
   const auto strains = of_batch(data[particle::strain_increment<D>]);
   const auto stress = of_batch(data[particle::stress<D>]);
@@ -133,10 +133,10 @@ template <int D, class Data>
 void check_finite(const Method<D>& method, int material, const Data& data, std::size_t first, std::size_t n)
 {
   const auto stress = data[particle::stress<D>];
-  const auto velocity = newest(data, particle::velocity<D>);
+  const auto velocity = data[particle::velocity<D>];
   for (std::size_t p = first; p < first + n; ++p) {
     if (stress[p].allFinite() && velocity[p].allFinite()) continue;
-    const Vector<D>& x = newest(data, particle::position<D>)[p];
+    const Vector<D>& x = data[particle::position<D>][p];
     throw SimulationError("stress or velocity is not finite", method.materials[static_cast<std::size_t>(material)].name,
                           data[particle::id.previous()][p], {x.begin(), x.end()});
   }
@@ -163,7 +163,7 @@ FailedUpdate failed_update(const Model& model, int material, std::size_t p, comp
       failed.state[k++] = column.value(model, data[particle::state<Model>][p], stress);
     }
   }
-  const Vector<D>& x = newest(data, particle::position<D>)[p];
+  const Vector<D>& x = data[particle::position<D>][p];
   std::copy(x.begin(), x.end(), failed.position.begin());
   return failed;
 }
@@ -172,11 +172,10 @@ FailedUpdate failed_update(const Model& model, int material, std::size_t p, comp
 template <int D, class Data>
 void forget_gradients(const Data& data, std::size_t first, std::span<const double> bulk_modulus)
 {
-  if constexpr (Data::has(particle::velocity_gradient<D>)) {
-    const auto gradient = data[particle::velocity_gradient<D>].subspan(first, bulk_modulus.size());
-    for (std::size_t k = 0; k < gradient.size(); ++k) {
-      if (bulk_modulus[k] == 0) gradient[k].setZero();
-    }
+  const auto gradient = data[particle::velocity_gradient<D>];
+  if (gradient.empty()) return;
+  for (std::size_t k = 0; k < bulk_modulus.size(); ++k) {
+    if (bulk_modulus[k] == 0) gradient[first + k].setZero();
   }
 }
 
@@ -211,42 +210,66 @@ runtime::TaskDeclaration with_body(const Method<D>& method, const Model& model, 
   }
 }
 
+/// Where particles take the velocity of the nodes, these have slowed the motion within what comes apart.
+template <class Model>
+bool forgets_gradients(const Model& model, const Scene& scene)
+{
+  if constexpr (requires { model.may_come_apart(); }) {
+    return model.may_come_apart() && scene.transfer == Transfer::affine && scene.stress_timing != StressTiming::usf;
+  } else {
+    return false;
+  }
+}
+
 template <int D, class Model>
 runtime::TaskDeclaration update_of(const Method<D>& method, int material, const Model& model)
 {
-  auto task = runtime::task("update stress: " + method.materials[static_cast<std::size_t>(material)].name)
-                  .over_patches_and_groups({material})
-                  .reads(particle::id.previous(), particle::mass.previous(), particle::deformation_gradient<D>,
-                         particle::volume.previous(), particle::volume, particle::viscous_pressure.previous(),
-                         particle::own_stiffness, particle::strain_increment<D>)
-                  .updates(particle::stress<D>)
-                  .computes(particle::viscous_pressure)
-                  .reduces(step_totals);
+  using runtime::StepEnd;
   // Where stress comes first, particles have yet to move.
-  if (method.stress_timing == StressTiming::usf) {
-    return with_body(method, model,
-                     std::move(task).reads(particle::position<D>.previous(), particle::velocity<D>.previous()));
+  const StepEnd end = method.stress_timing == StressTiming::usf ? StepEnd::start : StepEnd::end;
+  return with_body(
+      method, model,
+      runtime::task("update stress: " + method.materials[static_cast<std::size_t>(material)].name)
+          .over_patches_and_groups({material})
+          .reads(particle::id.previous(), particle::mass.previous(), particle::deformation_gradient<D>,
+                 particle::volume.previous(), particle::volume, particle::viscous_pressure.previous(),
+                 particle::own_stiffness, particle::strain_increment<D>, particle::position<D>.at(end),
+                 particle::velocity<D>.at(end))
+          .updates(particle::stress<D>, particle::velocity_gradient<D>.when(forgets_gradients(model, method.scene)))
+          .computes(particle::viscous_pressure)
+          .reduces(step_totals));
+}
+
+/// Particles deform, where moving them has not done that, and their materials answer.
+template <int D>
+runtime::TaskList answer_of_materials(const Method<D>& method)
+{
+  runtime::TaskList tasks = deform_by_carried_velocities(method);
+  for (runtime::TaskDeclaration& task : deform_as_cells(method)) tasks.push_back(std::move(task));
+  for (const int material : method.deformable_materials) {
+    tasks.push_back(std::visit([&](const auto& model) { return update_of(method, material, model); },
+                               method.materials[static_cast<std::size_t>(material)].model));
   }
-  auto moved = std::move(task).reads(particle::position<D>, particle::velocity<D>);
-  if constexpr (requires { model.may_come_apart(); }) {
-    // Where particles take the velocity of the nodes, these have slowed that motion.
-    if (model.may_come_apart() && method.scene.transfer == Transfer::affine) {
-      return with_body(method, model, std::move(moved).updates(particle::velocity_gradient<D>));
-    }
-  }
-  return with_body(method, model, std::move(moved));
+  return tasks;
 }
 
 }  // namespace
 
 template <int D>
-runtime::TaskDeclaration update_stress(const Method<D>& method, int material)
+runtime::TaskList update_stress_first(const Method<D>& method)
 {
-  return std::visit([&](const auto& model) { return update_of(method, material, model); },
-                    method.materials[static_cast<std::size_t>(material)].model);
+  return method.stress_timing == StressTiming::usf ? answer_of_materials(method) : runtime::TaskList{};
 }
 
-template runtime::TaskDeclaration update_stress(const Method<2>&, int);
-template runtime::TaskDeclaration update_stress(const Method<3>&, int);
+template <int D>
+runtime::TaskList update_stress_last(const Method<D>& method)
+{
+  return method.stress_timing == StressTiming::usf ? runtime::TaskList{} : answer_of_materials(method);
+}
+
+template runtime::TaskList update_stress_first(const Method<2>&);
+template runtime::TaskList update_stress_first(const Method<3>&);
+template runtime::TaskList update_stress_last(const Method<2>&);
+template runtime::TaskList update_stress_last(const Method<3>&);
 
 }  // namespace tamp::tasks

@@ -81,35 +81,36 @@ void hold(const Method<D>& method, const TaskContext& at, const Wall<D>& wall, c
 /// friction pushes back what runs into its nodes, and no more than friction times that push along it; one without slip
 /// stops them.
 template <int D>
-runtime::TaskDeclaration walls(const Method<D>& method)
+runtime::TaskList walls(const Method<D>& method)
 {
-  return runtime::task("walls")
-      .over_patches()
-      .sparse()
-      .reads(node::sums<D>.halo(method.halo).every_group())
-      .updates(node::motion<D>.halo(method.halo).every_group())
-      .reduces(grid_totals)
-      .body([&method](const TaskContext& at, auto data) {
-        const auto sums = data[node::sums<D>];
-        const auto motions = data[node::motion<D>];
-        for (std::size_t g = 0; g < motions.size(); ++g) {
-          const GridView<NodeMotion<D>>& motion = motions[g];
-          for_each_wall(method, at, motion.box(), [&](const Wall<D>& wall) {
-            if (wall.face == Face::symmetry) wall.image.constrain(motion.data());
-          });
-          for_each_wall(method, at, motion.box(), [&](const Wall<D>& wall) {
-            if (wall.face != Face::symmetry) hold(method, at, wall, sums[g], motion, data[grid_totals]);
-          });
-          for_each_wall(method, at, motion.box(), [&](const Wall<D>& wall) { wall.image.mirror(motion.data()); });
-          add_taken(method, at, sums[g], motion, data[grid_totals]);
-          if (method.damping > 0 && method.rigid_body(static_cast<int>(g)) == nullptr) {
-            add_damping(method, at, sums[g], motion, data[grid_totals]);
-          }
-        }
-      });
+  return {runtime::task("walls")
+              .over_patches()
+              .sparse()
+              .reads(node::sums<D>.halo(method.halo).every_group())
+              .updates(node::motion<D>.halo(method.halo).every_group())
+              .reduces(grid_totals)
+              .body([&method](const TaskContext& at, auto data) {
+                const auto sums = data[node::sums<D>];
+                const auto motions = data[node::motion<D>];
+                for (std::size_t g = 0; g < motions.size(); ++g) {
+                  const GridView<NodeMotion<D>>& motion = motions[g];
+                  for_each_wall(method, at, motion.box(), [&](const Wall<D>& wall) {
+                    if (wall.face == Face::symmetry) wall.image.constrain(motion.data());
+                  });
+                  for_each_wall(method, at, motion.box(), [&](const Wall<D>& wall) {
+                    if (wall.face != Face::symmetry) hold(method, at, wall, sums[g], motion, data[grid_totals]);
+                  });
+                  for_each_wall(method, at, motion.box(),
+                                [&](const Wall<D>& wall) { wall.image.mirror(motion.data()); });
+                  add_taken(method, at, sums[g], motion, data[grid_totals]);
+                  if (method.damping > 0 && method.rigid_body(static_cast<int>(g)) == nullptr) {
+                    add_damping(method, at, sums[g], motion, data[grid_totals]);
+                  }
+                }
+              })};
 }
 
-template runtime::TaskDeclaration walls(const Method<2>&);
-template runtime::TaskDeclaration walls(const Method<3>&);
+template runtime::TaskList walls(const Method<2>&);
+template runtime::TaskList walls(const Method<3>&);
 
 }  // namespace tamp::tasks

@@ -38,13 +38,9 @@ template <int D, class Data>
 auto places_of(const TaskContext& at, const Data& data)
 {
   const auto position = data[particle::position<D>.previous()];
-  if constexpr (Data::has(particle::laps)) {
-    return [&at, position, laps = data[particle::laps.previous()]](std::size_t p) {
-      return travelled_to<D>(at.layout.grid(), position[p], laps[p]);
-    };
-  } else {
-    return [position](std::size_t p) { return position[p]; };
-  }
+  return [&at, position, laps = data[particle::laps.previous()]](std::size_t p) {
+    return laps.empty() ? position[p] : travelled_to<D>(at.layout.grid(), position[p], laps[p]);
+  };
 }
 
 template <int D, class Data>
@@ -132,7 +128,8 @@ runtime::TaskDeclaration report_of(const Method<D>& method, int material, const 
                   .over_patches_and_groups({material})
                   .reads(rigid_states.previous(), particle::body.previous(), particle::mass.previous(),
                          particle::position<D>.previous(), particle::reference_position<D>.previous(),
-                         particle::velocity<D>.previous(), particle::stress<D>.previous())
+                         particle::velocity<D>.previous(), particle::stress<D>.previous(),
+                         particle::laps.previous().when(method.scene.is_periodic()))
                   .reduces(particle_report);
   const auto body = [&method, &model](const TaskContext& at, auto data) {
     report_motion(method, at, data);
@@ -141,8 +138,7 @@ runtime::TaskDeclaration report_of(const Method<D>& method, int material, const 
     add_peaks<D>(model, data, data[particle::mass.previous()].size(), each,
                  data[particle_report].materials[static_cast<std::size_t>(at.group)]);
   };
-  if (!method.scene.is_periodic()) return with_state<Model>(std::move(task), body);
-  return with_state<Model>(std::move(task).reads(particle::laps.previous()), body);
+  return with_state<Model>(std::move(task), body);
 }
 
 /// Where the noses of bodies are now, and how far "near" reaches.

@@ -221,10 +221,10 @@ const ObjectKeys& scene_keys()
             {scene.flip_part},
             "with `\"blend\"` only: the part of `\"flip\"`, from 0 to 1; the rest is `\"pic\"`"},
            {"filter_order",
-            WholeNumber{1, components::greatest_filter_order},
+            WholeNumber{1, 100},
             "",
             {scene.filter_order},
-            "with `\"xpic\"` and `\"fmpm\"` only: their order, 1 to 8; 1 is `\"pic\"`, and each one more takes another "
+            "with `\"xpic\"` and `\"fmpm\"` only: their order; 1 is `\"pic\"`, and each one more takes another "
             "pass over the particles"},
            choice<tasks::DeformationUpdate>(
                "deformation_update", scene.deformation_update,

@@ -3,7 +3,7 @@
 #include <catch2/catch.hpp>
 #include <concepts>
 
-#include "runtime/graph/declaration.hpp"
+#include "runtime/engine.hpp"
 
 namespace tamp::runtime::test_task_data
 {
@@ -49,7 +49,6 @@ TEST_CASE("a body gets what its task declared, as its type and to be written onl
         STATIC_REQUIRE((std::same_as<Answer<Data, decltype(volume)>, std::span<double>>));
         STATIC_REQUIRE((std::same_as<Answer<Data, decltype(count)>, GridView<int>>));
         STATIC_REQUIRE((std::same_as<Answer<Data, decltype(total)>, Sum&>));
-        STATIC_REQUIRE((data.has(mass) && data.has(volume)));
       });
 }
 
@@ -59,10 +58,60 @@ TEST_CASE("a label that its task did not declare is not to be had, nor its value
   using Data = TaskData<Argument<Mass, true, false, true>>;
 
   STATIC_REQUIRE(Offers<Data, Reference<Mass, true>>);
-  STATIC_REQUIRE(Data::has(mass));
   STATIC_REQUIRE_FALSE(Offers<Data, decltype(mass)>);
   STATIC_REQUIRE_FALSE(Offers<Data, decltype(volume)>);
-  STATIC_REQUIRE_FALSE(Data::has(volume));
+}
+
+TEST_CASE("a label that is declared on a condition which does not hold is empty, and the others are in their places")
+{
+  const bool is_there = GENERATE(true, false);
+  const PatchLayout layout({2, {0, 0, 0}, 1, {4, 4, 1}}, {1, 1, 1});
+  std::size_t n_masses = 99, n_volumes = 99;
+  bool has_weight = !is_there;
+  auto weigh = task("weigh").over_patches_and_groups().computes(weight).body([](const TaskContext&, auto) {});
+  auto use = task("use")
+                 .over_patches_and_groups()
+                 .reads(mass.previous().when(is_there), weight.when(is_there))
+                 .computes(volume)
+                 .body([&](const TaskContext&, auto data) {
+                   n_masses = data[mass.previous()].size();
+                   has_weight = !data[weight].empty();
+                   n_volumes = data[volume].size();
+                 });
+  Engine engine(layout, {"only"}, {{{std::move(weigh), std::move(use)}, {{&mass}, {&volume, &weight}}}}, 1);
+  engine.warehouse().set_n_particles(0, 0, 3);
+  Executor executor(1);
+
+  engine.advance(executor, {});
+
+  CHECK(n_masses == (is_there ? 3U : 0U));
+  CHECK(has_weight == is_there);
+  CHECK(n_volumes == 3);
+}
+
+TEST_CASE("a label of the start or of the end of the step is asked for by itself")
+{
+  const StepEnd end = GENERATE(StepEnd::start, StepEnd::end);
+  const PatchLayout layout({2, {0, 0, 0}, 1, {4, 4, 1}}, {1, 1, 1});
+  double seen = 0;
+  auto grow = task("grow")
+                  .over_patches_and_groups()
+                  .reads(mass.previous())
+                  .computes(mass)
+                  .body([](const TaskContext&, auto data) { data[mass][0] = data[mass.previous()][0] + 1; });
+  auto look = task("look")
+                  .over_patches_and_groups()
+                  .reads(mass.at(end))
+                  .computes(volume)
+                  .body([&](const TaskContext&, auto data) { seen = data[mass][0]; });
+  Engine engine(layout, {"only"}, {{{std::move(grow), std::move(look)}, {{&mass}, {&volume}}}}, 1);
+  engine.warehouse().set_n_particles(0, 0, 1);
+  engine.warehouse().state(mass, 0, 0)[0] = 5;
+  Executor executor(1);
+
+  engine.advance(executor, {});
+
+  CHECK(seen == (end == StepEnd::start ? 5 : 6));
 }
 
 }  // namespace tamp::runtime::test_task_data
