@@ -6,8 +6,8 @@
 #include <string_view>
 
 #include "components/materials/material_batch.hpp"
-#include "components/materials/parameter.hpp"
 #include "components/materials/state_columns.hpp"
+#include "components/parameter.hpp"
 
 namespace tamp::components
 {

@@ -4,7 +4,7 @@
 #include <string_view>
 
 #include "components/materials/material_batch.hpp"
-#include "components/materials/parameter.hpp"
+#include "components/parameter.hpp"
 
 namespace tamp::components
 {

@@ -3,8 +3,8 @@
 #include <array>
 #include <string_view>
 
+#include "components/parameter.hpp"
 #include "components/problems/body_functions.hpp"
-#include "components/problems/problem_parameter.hpp"
 
 namespace tamp::components
 {
@@ -30,7 +30,7 @@ struct AxisAligned {
       "a neo-Hookean block that moves by u_i = amplitude sin(π s_i / length) sin(π c t / length + 2/3 π i) along its "
       "first `n_axes` axes, i from 0, s_i from `origin`, c² = Young's modulus / density. A body force keeps that up. "
       "The block spans `length` from `origin` along those axes, and lies between `\"symmetry\"` faces along all";
-  static constexpr std::array<ProblemParameter<AxisAligned>, 4> parameters();
+  static constexpr std::array<Parameter<AxisAligned>, 4> parameters();
 
   double amplitude;  ///< A [m]; pi A < L, so that nothing is turned inside out
   double length;     ///< L [m]
@@ -41,12 +41,12 @@ struct AxisAligned {
   BodyFunctions functions(const ProblemBody& body) const;
 };
 
-constexpr std::array<ProblemParameter<AxisAligned>, 4> AxisAligned::parameters()
+constexpr std::array<Parameter<AxisAligned>, 4> AxisAligned::parameters()
 {
   return {{{"amplitude", "m", above_zero, &AxisAligned::amplitude},
            {"length", "m", above_zero, &AxisAligned::length},
            {"n_axes", "", {.lower = 1, .upper = 3}, &AxisAligned::n_axes},
-           {"origin", "m", any_number, &AxisAligned::origin, true}}};
+           {"origin", "m", any_number, &AxisAligned::origin, "", true}}};
 }
 
 }  // namespace tamp::components

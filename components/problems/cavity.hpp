@@ -3,8 +3,8 @@
 #include <array>
 #include <string_view>
 
+#include "components/parameter.hpp"
 #include "components/problems/body_functions.hpp"
-#include "components/problems/problem_parameter.hpp"
 
 namespace tamp::components
 {
@@ -34,7 +34,7 @@ struct Cavity {
       "from "
       "the material's own stress, keep that up. Its particles are laid out as those of `\"rotating_disk\"`, or in the "
       "lattice";
-  static constexpr std::array<ProblemParameter<Cavity>, 7> parameters();
+  static constexpr std::array<Parameter<Cavity>, 7> parameters();
 
   Vector<3> centre;     ///< m
   double inner_radius;  ///< r_i [m]
@@ -48,7 +48,7 @@ struct Cavity {
   BodyFunctions functions(const ProblemBody& body) const;
 };
 
-constexpr std::array<ProblemParameter<Cavity>, 7> Cavity::parameters()
+constexpr std::array<Parameter<Cavity>, 7> Cavity::parameters()
 {
   return {{{"centre", "m", any_number, &Cavity::centre},
            {"inner_radius", "m", above_zero, &Cavity::inner_radius},
@@ -56,7 +56,7 @@ constexpr std::array<ProblemParameter<Cavity>, 7> Cavity::parameters()
            {"expansion", "", above_zero, &Cavity::expansion},
            {"shortening", "", above_zero, &Cavity::shortening},
            {"duration", "s", above_zero, &Cavity::duration},
-           {"on_rings", "", any_number, &Cavity::on_rings, true}}};
+           {"on_rings", "", any_number, &Cavity::on_rings, "", true}}};
 }
 
 }  // namespace tamp::components

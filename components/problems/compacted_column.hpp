@@ -3,8 +3,8 @@
 #include <array>
 #include <string_view>
 
+#include "components/parameter.hpp"
 #include "components/problems/body_functions.hpp"
-#include "components/problems/problem_parameter.hpp"
 
 namespace tamp::components
 {
@@ -27,7 +27,7 @@ struct CompactedColumn {
       "free, "
       "that is compacted within `duration`, in uniaxial strain: at x = 0 by `compaction`, which is a part of its "
       "length, at `length` not at all. A body force that is found from the material's own stress keeps that up";
-  static constexpr std::array<ProblemParameter<CompactedColumn>, 3> parameters();
+  static constexpr std::array<Parameter<CompactedColumn>, 3> parameters();
 
   double length;      ///< L [m]
   double compaction;  ///< S
@@ -37,7 +37,7 @@ struct CompactedColumn {
   BodyFunctions functions(const ProblemBody& body) const;
 };
 
-constexpr std::array<ProblemParameter<CompactedColumn>, 3> CompactedColumn::parameters()
+constexpr std::array<Parameter<CompactedColumn>, 3> CompactedColumn::parameters()
 {
   return {{{"length", "m", above_zero, &CompactedColumn::length},
            {"compaction",

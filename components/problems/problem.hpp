@@ -13,7 +13,7 @@
 /// What every problem has:
 ///
 ///  - `type`, its name in scenes, and `meaning`, what it does with a body, for people;
-///  - `parameters()`, what a scene gives it, see problem_parameter.hpp;
+///  - `parameters()`, what a scene gives it, see parameter.hpp;
 ///  - `functions(body)`, which throws BadParameter for a parameter that does not go with the others, and BadValue for a
 ///    body that the problem cannot be set for.
 namespace tamp::components

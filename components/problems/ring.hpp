@@ -3,8 +3,8 @@
 #include <array>
 #include <string_view>
 
+#include "components/parameter.hpp"
 #include "components/problems/body_functions.hpp"
-#include "components/problems/problem_parameter.hpp"
 
 namespace tamp::components
 {
@@ -31,7 +31,7 @@ struct Ring {
       "u = amplitude sin(π c t / (r_i + r_o)) (c₁ R + c₂ R² + c₃ R³), c² = Young's modulus / density, c₁ to c₃ being "
       "those that give it `amplitude` at the outer rim and no radial strain at either. A body force keeps that up. Its "
       "particles are laid out as those of `\"rotating_disk\"`, or in the lattice";
-  static constexpr std::array<ProblemParameter<Ring>, 5> parameters();
+  static constexpr std::array<Parameter<Ring>, 5> parameters();
 
   Vector<3> centre;     ///< m
   double inner_radius;  ///< r_i [m]
@@ -42,13 +42,13 @@ struct Ring {
   BodyFunctions functions(const ProblemBody& body) const;
 };
 
-constexpr std::array<ProblemParameter<Ring>, 5> Ring::parameters()
+constexpr std::array<Parameter<Ring>, 5> Ring::parameters()
 {
   return {{{"centre", "m", any_number, &Ring::centre},
            {"inner_radius", "m", above_zero, &Ring::inner_radius},
            {"outer_radius", "m", above_zero, &Ring::outer_radius},
            {"amplitude", "m", above_zero, &Ring::amplitude},
-           {"on_rings", "", any_number, &Ring::on_rings, true}}};
+           {"on_rings", "", any_number, &Ring::on_rings, "", true}}};
 }
 
 }  // namespace tamp::components

@@ -3,8 +3,8 @@
 #include <array>
 #include <string_view>
 
+#include "components/parameter.hpp"
 #include "components/problems/body_functions.hpp"
-#include "components/problems/problem_parameter.hpp"
 
 namespace tamp::components
 {
@@ -17,7 +17,7 @@ struct RotatingDisk {
       "a disk or a ring in the plane that turns as a rigid body would, held on its circles by a body force. Its "
       "particles lie on rings about as wide as their spacing in the lattice, in sectors about as long; each has the "
       "volume of its sector";
-  static constexpr std::array<ProblemParameter<RotatingDisk>, 4> parameters();
+  static constexpr std::array<Parameter<RotatingDisk>, 4> parameters();
 
   Vector<3> centre;         ///< m
   double outer_radius;      ///< m
@@ -27,12 +27,12 @@ struct RotatingDisk {
   BodyFunctions functions(const ProblemBody& body) const;
 };
 
-constexpr std::array<ProblemParameter<RotatingDisk>, 4> RotatingDisk::parameters()
+constexpr std::array<Parameter<RotatingDisk>, 4> RotatingDisk::parameters()
 {
   return {{{"centre", "m", any_number, &RotatingDisk::centre},
            {"outer_radius", "m", above_zero, &RotatingDisk::outer_radius},
            {"angular_speed", "rad/s", any_number, &RotatingDisk::angular_speed},
-           {"inner_radius", "m", zero_or_above, &RotatingDisk::inner_radius, true}}};
+           {"inner_radius", "m", zero_or_above, &RotatingDisk::inner_radius, "", true}}};
 }
 
 }  // namespace tamp::components

@@ -3,8 +3,8 @@
 #include <array>
 #include <string_view>
 
+#include "components/parameter.hpp"
 #include "components/problems/body_functions.hpp"
-#include "components/problems/problem_parameter.hpp"
 
 namespace tamp::components
 {
@@ -23,7 +23,7 @@ struct VibratingBar {
       "an elastic bar along x in uniaxial strain, which starts with the velocity speed sin(wave_number x) + drift. The "
       "exact solution is that of small strains, of a bar held at x = 0 in one of its modes, or of one that drifts "
       "around a periodic domain of a whole number of wave lengths";
-  static constexpr std::array<ProblemParameter<VibratingBar>, 3> parameters();
+  static constexpr std::array<Parameter<VibratingBar>, 3> parameters();
 
   double speed;        ///< m/s
   double wave_number;  ///< rad/m
@@ -33,11 +33,11 @@ struct VibratingBar {
   BodyFunctions functions(const ProblemBody& body) const;
 };
 
-constexpr std::array<ProblemParameter<VibratingBar>, 3> VibratingBar::parameters()
+constexpr std::array<Parameter<VibratingBar>, 3> VibratingBar::parameters()
 {
   return {{{"speed", "m/s", any_number, &VibratingBar::speed},
            {"wave_number", "rad/m", above_zero, &VibratingBar::wave_number},
-           {"drift", "m/s", any_number, &VibratingBar::drift, true}}};
+           {"drift", "m/s", any_number, &VibratingBar::drift, "", true}}};
 }
 
 }  // namespace tamp::components

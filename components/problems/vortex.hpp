@@ -3,8 +3,8 @@
 #include <array>
 #include <string_view>
 
+#include "components/parameter.hpp"
 #include "components/problems/body_functions.hpp"
-#include "components/problems/problem_parameter.hpp"
 
 namespace tamp::components
 {
@@ -31,7 +31,7 @@ struct Vortex {
       "q²)², "
       "q from −1/2 at the inner rim to 1/2 at the outer one, while all moves along at `velocity`. A body force keeps "
       "that up; the rims are free. Its particles are laid out as those of `\"rotating_disk\"`, or in the lattice";
-  static constexpr std::array<ProblemParameter<Vortex>, 7> parameters();
+  static constexpr std::array<Parameter<Vortex>, 7> parameters();
 
   Vector<3> centre;     ///< m
   double inner_radius;  ///< r_i [m]
@@ -44,15 +44,15 @@ struct Vortex {
   BodyFunctions functions(const ProblemBody& body) const;
 };
 
-constexpr std::array<ProblemParameter<Vortex>, 7> Vortex::parameters()
+constexpr std::array<Parameter<Vortex>, 7> Vortex::parameters()
 {
   return {{{"centre", "m", any_number, &Vortex::centre},
            {"inner_radius", "m", above_zero, &Vortex::inner_radius},
            {"outer_radius", "m", above_zero, &Vortex::outer_radius},
            {"angle", "rad", any_number, &Vortex::angle},
            {"period", "s", above_zero, &Vortex::period},
-           {"velocity", "m/s", any_number, &Vortex::velocity, true},
-           {"on_rings", "", any_number, &Vortex::on_rings, true}}};
+           {"velocity", "m/s", any_number, &Vortex::velocity, "", true},
+           {"on_rings", "", any_number, &Vortex::on_rings, "", true}}};
 }
 
 }  // namespace tamp::components

@@ -1,5 +1,6 @@
 #include "components/problems/problem.hpp"
 #include "tools/scene/keys.hpp"
+#include "tools/scene/parameter_keys.hpp"
 
 namespace tamp::tools
 {
@@ -8,33 +9,9 @@ namespace
 {
 
 template <class P>
-Key key_of(const components::ProblemParameter<P>& parameter)
-{
-  static const P usual{};
-  const auto left_out = [&](const auto& value) { return parameter.optional ? Default{value} : compulsory; };
-  return std::visit(
-      [&]<class T>(T P::*member) -> Key {
-        const std::string name(parameter.key), unit(parameter.unit);
-        if constexpr (std::is_same_v<T, double>) {
-          return {name, Number{parameter.range}, unit, left_out(usual.*member), ""};
-        } else if constexpr (std::is_same_v<T, int>) {
-          const WholeNumber number{static_cast<int>(parameter.range.lower), static_cast<int>(parameter.range.upper)};
-          return {name, number, unit, left_out(usual.*member), ""};
-        } else if constexpr (std::is_same_v<T, bool>) {
-          return {name, Flag{}, unit, left_out(usual.*member), ""};
-        } else {
-          return {name, Numbers{per_axis, parameter.range}, unit, left_out((usual.*member)[0]), ""};
-        }
-      },
-      parameter.value);
-}
-
-template <class P>
 TypeKeys problem_type()
 {
-  TypeKeys type{std::string(P::type), {}, std::string(P::meaning)};
-  for (const auto& parameter : P::parameters()) type.keys.push_back(key_of(parameter));
-  return type;
+  return {std::string(P::type), keys_of_parameters<P>(), std::string(P::meaning)};
 }
 
 template <class... P>

@@ -1,7 +1,6 @@
-#include <cmath>
-
 #include "components/materials/material_model.hpp"
 #include "tools/scene/keys.hpp"
+#include "tools/scene/parameter_keys.hpp"
 #include "tools/scene/strain_measure.hpp"
 #include "tools/scene/yield_table.hpp"
 
@@ -61,15 +60,7 @@ const ObjectKeys& yield_keys()
 template <class Model>
 std::vector<Key> keys_of()
 {
-  std::vector<Key> keys;
-  const Model model{};
-  for (const components::Parameter<Model>& parameter : Model::parameters()) {
-    const double value = model.*parameter.value;
-    const Default left_out = std::isfinite(value) ? Default{value} : none;
-    keys.push_back({std::string(parameter.key), Number{parameter.range}, std::string(parameter.unit),
-                    parameter.optional ? left_out : compulsory, std::string(parameter.meaning)});
-  }
-  return keys;
+  return keys_of_parameters<Model>();
 }
 
 template <>

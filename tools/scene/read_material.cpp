@@ -7,6 +7,7 @@
 
 #include "components/errors.hpp"
 #include "components/materials/tabular_cap.hpp"
+#include "tools/scene/parameter_keys.hpp"
 #include "tools/scene/read_modulus.hpp"
 #include "tools/scene/strain_measure.hpp"
 #include "tools/scene/table.hpp"
@@ -140,15 +141,7 @@ std::optional<tasks::MaterialModel> read_model(JsonReader& reader)
 {
   const std::size_t n_problems = reader.document().problems.size();
   Model model{};
-  for (const components::Parameter<Model>& parameter : Model::parameters()) {
-    double& value = model.*parameter.value;
-    const std::string key(parameter.key);
-    if (parameter.optional && !std::isfinite(value)) {
-      value = reader.optional_number(key).value_or(value);
-    } else {
-      value = reader.number(key);
-    }
-  }
+  read_parameters(reader, model);
   if (reader.document().problems.size() > n_problems) return std::nullopt;
   if constexpr (requires { model.check(); }) {
     try {

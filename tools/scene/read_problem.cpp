@@ -1,12 +1,10 @@
 #include "tools/scene/read_problem.hpp"
 
-#include <algorithm>
-#include <type_traits>
-
 #include "components/errors.hpp"
 #include "tasks/method.hpp"
 #include "tasks/set_up/body_sites.hpp"
 #include "tasks/set_up/deformed_start.hpp"
+#include "tools/scene/parameter_keys.hpp"
 #include "tools/scene/place_text.hpp"
 
 namespace tamp::tools
@@ -17,35 +15,13 @@ namespace
 
 const std::string problem_key = "problem";
 
-template <class P>
-void read_parameter(const components::ProblemParameter<P>& parameter, JsonReader& reader, P& problem)
-{
-  const std::string key(parameter.key);
-  std::visit(
-      [&]<class Value>(Value P::*member) {
-        Value& value = problem.*member;
-        if constexpr (std::is_same_v<Value, double>) {
-          value = reader.number(key);
-        } else if constexpr (std::is_same_v<Value, int>) {
-          value = reader.whole_number(key);
-        } else if constexpr (std::is_same_v<Value, bool>) {
-          value = reader.flag(key);
-        } else {
-          const std::vector<double> numbers = reader.numbers(key);
-          value.setZero();
-          std::copy(numbers.begin(), numbers.end(), value.begin());
-        }
-      },
-      parameter.value);
-}
-
 /// The problem of this type, if it is `P`.
 template <class P>
 void read_if(const std::string& type, JsonReader& reader, std::optional<components::Problem>& found)
 {
   if (type != P::type) return;
   P problem{};
-  for (const auto& parameter : P::parameters()) read_parameter(parameter, reader, problem);
+  read_parameters(reader, problem);
   found = problem;
 }
 

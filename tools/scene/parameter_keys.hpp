@@ -1,0 +1,82 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <type_traits>
+#include <variant>
+#include <vector>
+
+#include "components/parameter.hpp"
+#include "tools/scene/json_reader.hpp"
+#include "tools/scene/keys.hpp"
+
+/// The keys of an object that says itself what it consists of: it lists them as `parameters()` (parameter.hpp).
+namespace tamp::tools
+{
+
+template <class Owner>
+Key key_of(const components::Parameter<Owner>& parameter)
+{
+  static const Owner usual{};
+  const auto key = [&](Value value, const Json& left_out) -> Key {
+    return {std::string(parameter.key), std::move(value), std::string(parameter.unit),
+            parameter.optional ? Default{left_out} : compulsory, std::string(parameter.meaning)};
+  };
+  return std::visit(
+      [&]<class T>(T Owner::*member) {
+        if constexpr (std::is_same_v<T, double>) {
+          Key number = key(Number{parameter.range}, usual.*member);
+          if (parameter.optional && !std::isfinite(usual.*member)) number.default_value = none;
+          return number;
+        } else if constexpr (std::is_same_v<T, int>) {
+          const Range& range = parameter.range;
+          return key(WholeNumber{static_cast<int>(range.lower), static_cast<int>(range.upper)}, usual.*member);
+        } else if constexpr (std::is_same_v<T, bool>) {
+          return key(Flag{}, usual.*member);
+        } else {
+          return key(Numbers{per_axis, parameter.range}, (usual.*member)[0]);
+        }
+      },
+      parameter.value);
+}
+
+template <class Owner>
+std::vector<Key> keys_of_parameters()
+{
+  std::vector<Key> keys;
+  for (const components::Parameter<Owner>& parameter : Owner::parameters()) keys.push_back(key_of(parameter));
+  return keys;
+}
+
+template <class Owner>
+void read_parameter(const components::Parameter<Owner>& parameter, JsonReader& reader, Owner& owner)
+{
+  const std::string key(parameter.key);
+  std::visit(
+      [&]<class T>(T Owner::*member) {
+        T& value = owner.*member;
+        if constexpr (std::is_same_v<T, double>) {
+          value = parameter.optional && !std::isfinite(value) ? reader.optional_number(key).value_or(value)
+                                                              : reader.number(key);
+        } else if constexpr (std::is_same_v<T, int>) {
+          value = reader.whole_number(key);
+        } else if constexpr (std::is_same_v<T, bool>) {
+          value = reader.flag(key);
+        } else {
+          const std::vector<double> numbers = reader.numbers(key);
+          value.setZero();
+          std::copy(numbers.begin(), numbers.end(), value.begin());
+        }
+      },
+      parameter.value);
+}
+
+/// Reads all of them into `owner`, which has the values of those that are left out.
+template <class Owner>
+void read_parameters(JsonReader& reader, Owner& owner)
+{
+  for (const components::Parameter<Owner>& parameter : Owner::parameters()) read_parameter(parameter, reader, owner);
+}
+
+}  // namespace tamp::tools
