@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <span>
+#include <string_view>
 
 #include "components/moduli/hermite_surface.hpp"
 #include "components/moduli/network_fit.hpp"
@@ -26,6 +27,12 @@ namespace tamp::components
 class NetworkModulus
 {
  public:
+  static constexpr std::string_view type = "mlp";
+  static constexpr std::string_view meaning = "a network for the bulk modulus";
+  static constexpr std::string_view file = "a Keras HDF5 file of dense layers in a chain";
+  /// The K of a relu network has kinks, which no smooth patches follow closely.
+  static constexpr double compile_tolerance = 1e-2;
+
   static constexpr double pressure_tolerance = 1e-4;
   static constexpr double least_share = 1e-3;
   static constexpr double tension_in_range = 1e-3;

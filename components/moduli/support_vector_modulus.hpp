@@ -1,5 +1,6 @@
 #pragma once
 
+#include <string_view>
 #include <vector>
 
 #include "components/moduli/elastic_model.hpp"
@@ -28,6 +29,11 @@ enum class ZeroPressure {
 class SupportVectorModulus
 {
  public:
+  static constexpr std::string_view type = "svr";
+  static constexpr std::string_view meaning = "support-vector regression of the pressure";
+  static constexpr std::string_view file = "a published SVR JSON";
+  static constexpr double compile_tolerance = 1e-4;
+
   /// Throws BadValue for a fit that is not finite, without vectors, or with other than one coefficient each, for scales
   /// and widths that are not positive, for a kernel that fits more than 20 times into the box, for a box without states
   /// of elastic strain zero, and where K is not positive at elastic strain zero.

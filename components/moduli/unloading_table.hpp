@@ -5,6 +5,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "components/curves/monotone_cubic.hpp"
@@ -35,6 +36,13 @@ namespace tamp::components
 class UnloadingTable
 {
  public:
+  static constexpr std::string_view type = "table";
+  static constexpr std::string_view meaning = "measured unloading curves";
+  static constexpr std::string_view file =
+      "unloading curves with the columns `plastic_volumetric[-]`, `elastic_volumetric[-]`, `pressure[Pa]` or a "
+      "published tabular JSON";
+  static constexpr double compile_tolerance = 1e-4;
+
   /// The columns of unloading.csv: rows grouped by plastic strain (ascending, not negative), each curve starting at
   /// elastic strain 0 and pressure 0, both strictly increasing. Throws BadValue, with the row, for anything else, and
   /// for curves that cross (less total strain at equal pressure after more plastic strain).

@@ -1,3 +1,5 @@
+#include <fmt/core.h>
+
 #include "components/materials/material_model.hpp"
 #include "tools/scene/keys.hpp"
 #include "tools/scene/parameter_keys.hpp"
@@ -12,30 +14,63 @@ namespace
 
 constexpr Range within_one{.lower = 0, .upper = 1, .holds_lower = false, .holds_upper = false};
 
+/// What the models that a scene can name are, one after another: `text(std::type_identity<Model>())` of each.
+template <class Text>
+std::string of_each_modulus(Text text)
+{
+  std::string all;
+  components::for_each_named_modulus([&](auto model) {
+    const std::string own = text(model);
+    all += (all.empty() || own.empty() ? "" : "; ") + own;
+  });
+  return all;
+}
+
+/// The words of the models, and what each consists of: its file, under its word, or its numbers.
+std::vector<Key> model_keys()
+{
+  const Default of_type{nullptr, "that of the type is compulsory"};
+  const std::string meanings = of_each_modulus(
+      []<class Model>(std::type_identity<Model>) { return fmt::format("`\"{}\"`: {}", Model::type, Model::meaning); });
+  const std::string files = of_each_modulus([]<class Model>(std::type_identity<Model>) -> std::string {
+    if constexpr (requires { Model::file; }) return std::string(Model::file);
+    return {};
+  });
+  Choice types;
+  std::vector<Key> keys{{"type", {}, "", compulsory, meanings + "; see [moduli.md](moduli.md)"}};
+  components::for_each_named_modulus([&]<class Model>(std::type_identity<Model>) {
+    const std::string type(Model::type);
+    types.words.push_back(type);
+    if constexpr (requires { Model::file; }) {
+      keys.push_back({type, File{}, "", of_type, "the model's file: " + files});
+    } else {
+      for (Key& key : keys_of_parameters<Model>()) {
+        if (key.default_value.compulsory) key.default_value = {nullptr, "compulsory for `\"" + type + "\"`"};
+        keys.push_back(std::move(key));
+      }
+    }
+  });
+  keys.front().value = std::move(types);
+  return keys;
+}
+
 const ObjectKeys& modulus_keys()
 {
-  const std::string file =
-      "the model's file: unloading curves with the columns `plastic_volumetric[-]`, `elastic_volumetric[-]`, "
-      "`pressure[Pa]` or a published tabular JSON; a published SVR JSON; a Keras HDF5 file of dense layers in a chain";
   const std::string numbers =
       "of an mlp: `[mean_e, sd_e, mean_p, sd_p, mean_K, sd_K]`, `[e_lower, e_upper, p_lower, p_upper]` for elastic (e) "
       "and plastic (p) strain";
-  const Default of_type{nullptr, "that of the type is compulsory"}, in_file{nullptr, "those in the file"};
-  static const ObjectKeys keys{
-      "",
-      {{"type", Choice{{"table", "svr", "mlp"}}, "", compulsory,
-        "`\"table\"`: measured unloading curves; `\"svr\"`: support-vector regression of the pressure; `\"mlp\"`: a "
-        "network for the bulk modulus; see [moduli.md](moduli.md)"},
-       {"table", File{}, "", of_type, file},
-       {"svr", File{}, "", of_type, file},
-       {"mlp", File{}, "", of_type, file},
-       {"compile",
-        Number{within_one},
-        "",
-        {nullptr, "off"},
-        "tolerance to which the model is turned into one bicubic surface when it is read"},
-       {"scaling", Numbers{just(6)}, "", in_file, numbers},
-       {"range", Numbers{just(4)}, "", in_file, numbers}}};
+  const Default in_file{nullptr, "those in the file"};
+  static const ObjectKeys keys = [&] {
+    ObjectKeys all{"", model_keys()};
+    all.keys.push_back({"compile",
+                        Number{within_one},
+                        "",
+                        {nullptr, "off"},
+                        "tolerance to which the model is turned into one bicubic surface when it is read"});
+    all.keys.push_back({"scaling", Numbers{just(6)}, "", in_file, numbers});
+    all.keys.push_back({"range", Numbers{just(4)}, "", in_file, numbers});
+    return all;
+  }();
   return keys;
 }
 

@@ -2,8 +2,11 @@
 
 #include <fmt/core.h>
 
+#include <functional>
+
 #include "components/errors.hpp"
 #include "tools/scene/file_kind.hpp"
+#include "tools/scene/parameter_keys.hpp"
 #include "tools/scene/parse_json.hpp"
 #include "tools/scene/read_network.hpp"
 #include "tools/scene/read_support_vectors.hpp"
@@ -63,57 +66,62 @@ class ModulusReader
   {
     const std::size_t n_before = reader_.document().problems.size();
     read_keys();
-    if (reader_.document().problems.size() > n_before || file_.empty()) return std::nullopt;
-    return noting_problems(reader_.document(), [&] { return model(); });
+    if (reader_.document().problems.size() > n_before || !make_) return std::nullopt;
+    return noting_problems(reader_.document(), make_);
   }
 
  private:
   void read_keys()
   {
-    type_ = reader_.word("type");
-    for (const std::string type : {"table", "svr", "mlp"}) {
-      if (type == type_) {
-        file_ = reader_.existing_file(type);
-      } else {
-        reader_.pass_over_file(type);
+    const std::string type = reader_.word("type");
+    components::for_each_named_modulus([&]<class Model>(std::type_identity<Model>) {
+      if (type == Model::type) {
+        read_keys_of<Model>();
+      } else if constexpr (requires { Model::file; }) {
+        reader_.pass_over_file(std::string(Model::type));
       }
-    }
+    });
     tolerance_ = reader_.optional_number("compile");
     scaling_ = reader_.optional_numbers("scaling");
     range_ = reader_.optional_numbers("range");
     reader_.finish();
   }
 
-  Modulus model() const
+  /// Those of the model that is chosen, from which `make_` then makes it.
+  template <class Model>
+  void read_keys_of()
   {
-    if (type_ == "table") return compiled(unloading_table(file_, measure_));
-    if (type_ == "svr") {
-      return converted(support_vector_modulus(file_, components::ZeroPressure::at_zero_elastic_strain));
+    if constexpr (requires { Model::file; }) {
+      const std::filesystem::path file = reader_.existing_file(std::string(Model::type));
+      if (!file.empty()) make_ = [this, file] { return converted(model_of_file<Model>(file)); };
+    } else {
+      Model model{};
+      read_parameters(reader_, model);
+      make_ = [this, model] { return converted(model); };
     }
-    NetworkFile network = read_network_file(file_);
-    const std::vector<double> scaling = in_file_or_here("scaling", 6, network.scaling, scaling_);
-    const std::vector<double> range = in_file_or_here("range", 4, network.range, range_);
-    check_scaling(scaling, reader_.place("scaling"));
-    check_range(range, reader_.place("range"));
-    return converted(network_modulus(file_, std::move(network.layers), scaling, range));
   }
 
-  std::vector<double> in_file_or_here(const std::string& key, std::size_t n,
+  template <class Model>
+  Model model_of_file(const std::filesystem::path& file) const;
+
+  std::vector<double> in_file_or_here(const std::string& key, std::size_t n, const std::filesystem::path& file,
                                       const std::optional<std::vector<double>>& in_file,
                                       const std::optional<std::vector<double>>& here) const
   {
     if (in_file) return *in_file;
     if (here) return *here;
-    throw InputError({reader_.place(key), fmt::format("missing, and not in {} either", file_.string()),
+    throw InputError({reader_.place(key), fmt::format("missing, and not in {} either", file.string()),
                       fmt::format("expected {} numbers", n)});
   }
 
-  /// A fit knows its own strains only.
+  /// A model that was fitted to strains knows its own only.
   template <components::ElasticModel Model>
   Modulus converted(Model model) const
   {
-    if (measure_ == StrainMeasure::logarithmic) return compiled(std::move(model));
-    return compiled(EngineeringStrain<Model>(std::move(model)));
+    if constexpr (requires { Modulus(EngineeringStrain<Model>(model)); }) {
+      if (measure_ == StrainMeasure::engineering) return compiled(EngineeringStrain<Model>(std::move(model)));
+    }
+    return compiled(std::move(model));
   }
 
   template <components::ElasticModel Model>
@@ -125,11 +133,33 @@ class ModulusReader
 
   JsonReader reader_;
   StrainMeasure measure_;
-  std::string type_;
-  std::filesystem::path file_;
+  std::function<Modulus()> make_;
   std::optional<double> tolerance_;
   std::optional<std::vector<double>> scaling_, range_;
 };
+
+template <>
+UnloadingTable ModulusReader::model_of_file(const std::filesystem::path& file) const
+{
+  return unloading_table(file, measure_);
+}
+
+template <>
+SupportVectorModulus ModulusReader::model_of_file(const std::filesystem::path& file) const
+{
+  return support_vector_modulus(file, components::ZeroPressure::at_zero_elastic_strain);
+}
+
+template <>
+NetworkModulus ModulusReader::model_of_file(const std::filesystem::path& file) const
+{
+  NetworkFile network = read_network_file(file);
+  const std::vector<double> scaling = in_file_or_here("scaling", 6, file, network.scaling, scaling_);
+  const std::vector<double> range = in_file_or_here("range", 4, file, network.range, range_);
+  check_scaling(scaling, reader_.place("scaling"));
+  check_range(range, reader_.place("range"));
+  return network_modulus(file, std::move(network.layers), scaling, range);
+}
 
 Modulus network_of_file(const std::filesystem::path& file, const std::optional<std::vector<double>>& scaling)
 {

@@ -11,7 +11,7 @@
 namespace tamp::tools
 {
 
-/// Reads the "modulus" of a material: "type" is table, svr or mlp, and the model's file stands under the type's name.
+/// Reads the "modulus" of a material: "type" names a model (modulus.hpp), whose file stands under the type's name.
 /// Empty if there is a problem, which the reader's document then knows.
 std::optional<components::Modulus> read_modulus(JsonReader& material, StrainMeasure measure);
 

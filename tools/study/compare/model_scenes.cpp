@@ -15,11 +15,14 @@ namespace
 
 constexpr std::string_view compiled_suffix = "-compiled";
 
-/// By how much p and K of a compiled model may differ from the model it was made of, relative. The K of a relu network
-/// has kinks, which no smooth patches follow closely.
+/// By how much p and K of a compiled model may differ from the model it was made of, relative.
 std::string compile_tolerance(const std::string& type)
 {
-  return type == "mlp" ? "1e-2" : "1e-4";
+  double tolerance = 0;
+  components::for_each_named_modulus([&]<class Model>(std::type_identity<Model>) {
+    if (type == Model::type) tolerance = Model::compile_tolerance;
+  });
+  return fmt::format("{}", tolerance);
 }
 
 void check_model(const std::string& name)
@@ -57,7 +60,15 @@ std::vector<std::string> assignments_of(const std::string& model, const std::vec
 
 const std::vector<std::string>& model_names()
 {
-  static const std::vector<std::string> names{"table", "svr", "mlp", "table-compiled", "svr-compiled", "mlp-compiled"};
+  static const std::vector<std::string> names = [] {
+    std::vector<std::string> all, compiled;
+    components::for_each_named_modulus([&]<class Model>(std::type_identity<Model>) {
+      all.emplace_back(Model::type);
+      compiled.push_back(all.back() + std::string(compiled_suffix));
+    });
+    all.insert(all.end(), compiled.begin(), compiled.end());
+    return all;
+  }();
   return names;
 }
 

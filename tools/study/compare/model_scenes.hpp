@@ -18,7 +18,7 @@ struct ModelScene {
   CheckedScene scene;
 };
 
-/// Names of the models: table, svr and mlp, and each of them compiled.
+/// Names of the models: those that a scene can name, and each of them compiled.
 const std::vector<std::string>& model_names();
 
 /// The scene once for each model, with `assignments` made first. Throws InputError for an unknown model and for a scene
