@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <tuple>
 
 #include "components/contact/logistic_plane.hpp"
 #include "components/loads/pressure_load.hpp"
@@ -116,7 +117,7 @@ inline const runtime::NodeLabel<components::NodeVector<D>, "returned momentum"> 
 struct HostRequests {
   unsigned bits = 0;
 
-  void combine(const HostRequests& other) { bits |= other.bits; }
+  static constexpr auto fields = std::tuple{runtime::AnyBit{&HostRequests::bits}};
 };
 inline const runtime::ReductionLabel<HostRequests, "host requests"> host_requests;
 

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <optional>
+#include <tuple>
 
 #include "components/loads/rotating_frame.hpp"
 #include "components/rigid/rigid_body.hpp"
@@ -49,26 +50,19 @@ struct ContactImpulses {
   struct Impulse {
     Eigen::Vector3d linear = Eigen::Vector3d::Zero();   ///< N s
     Eigen::Vector3d angular = Eigen::Vector3d::Zero();  ///< N m s; of rigid bodies alone, about their centre
+
+    static constexpr auto fields = std::tuple{&Impulse::linear, &Impulse::angular};
   };
   std::array<Impulse, runtime::PerGroup<int>::max_groups> by_material;
 
-  void combine(const ContactImpulses& other)
-  {
-    for (std::size_t g = 0; g < by_material.size(); ++g) {
-      by_material[g].linear += other.by_material[g].linear;
-      by_material[g].angular += other.by_material[g].angular;
-    }
-  }
+  static constexpr auto fields = std::tuple{&ContactImpulses::by_material};
 };
 
 /// What each rigid body's contact asks of its motion; materials that are none have nothing here.
 struct RigidCouplings {
   std::array<components::RigidCoupling, runtime::PerGroup<int>::max_groups> by_material;
 
-  void combine(const RigidCouplings& other)
-  {
-    for (std::size_t g = 0; g < by_material.size(); ++g) by_material[g].combine(other.by_material[g]);
-  }
+  static constexpr auto fields = std::tuple{&RigidCouplings::by_material};
 };
 
 /// A body at rest in itself that moves at `velocity` [m/s], and turns about its centre at `angular_velocity` [rad/s].

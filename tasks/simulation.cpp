@@ -329,9 +329,9 @@ class SimulationOf : public Simulation
     stable_step_ = step.stable_step;
     energies_.add(step, nodes, body_forces, loads, method_.deforms_by_other_velocities());
     updates_.add(step.updates);
-    grid_totals_.combine(nodes);
-    contact_.combine(results.result(contact_impulses));
-    loads_.combine(loads);
+    runtime::combine(grid_totals_, nodes);
+    runtime::combine(contact_, results.result(contact_impulses));
+    runtime::combine(loads_, loads);
     asked_ = results.result(host_requests).bits;
   }
 

@@ -6,10 +6,12 @@
 #include <cstdint>
 #include <limits>
 #include <string>
+#include <tuple>
 
 #include "components/errors.hpp"
 #include "components/materials/material_model.hpp"
 #include "components/materials/state_columns.hpp"
+#include "runtime/data/combine.hpp"
 #include "runtime/data/views.hpp"
 
 namespace tamp::tasks
@@ -26,6 +28,11 @@ struct FailedUpdate {
   /// The columns of its model's state.
   std::array<double, components::max_state_columns> state{};
 
+  /// By id; none comes last.
+  bool operator<(const FailedUpdate& other) const
+  {
+    return static_cast<std::uint64_t>(particle) < static_cast<std::uint64_t>(other.particle);
+  }
   /// With all of the above in words.
   std::string reason(const components::MaterialModel& model) const;
 };
@@ -49,23 +56,15 @@ struct StepTotals {
   /// The failed update with the lowest id in the first step that had any.
   FailedUpdate failed;
 
-  void note(const FailedUpdate& other)
-  {
-    if (failed.particle < 0 || other.particle < failed.particle) failed = other;
-  }
-
-  void combine(const StepTotals& other)
-  {
-    stable_step = std::min(stable_step, other.stable_step);
-    elastic += other.elastic;
-    plastic += other.plastic;
-    viscous += other.viscous;
-    contact += other.contact;
-    driving += other.driving;
-    taken_at_end += other.taken_at_end;
-    updates.add(other.updates);
-    if (other.failed.particle >= 0) note(other.failed);
-  }
+  static constexpr auto fields = std::tuple{runtime::Least{&StepTotals::stable_step},
+                                            &StepTotals::elastic,
+                                            &StepTotals::plastic,
+                                            &StepTotals::viscous,
+                                            &StepTotals::contact,
+                                            &StepTotals::driving,
+                                            &StepTotals::taken_at_end,
+                                            &StepTotals::updates,
+                                            runtime::Least{&StepTotals::failed}};
 };
 
 /// Work of body forces in one step [J].
@@ -74,11 +73,7 @@ struct BodyForceWork {
   /// By the forces of its end, in its second half.
   double at_end = 0;
 
-  void combine(const BodyForceWork& other)
-  {
-    value += other.value;
-    at_end += other.at_end;
-  }
+  static constexpr auto fields = std::tuple{&BodyForceWork::value, &BodyForceWork::at_end};
 };
 
 /// Sums over the nodes of one step, and over what their particles take from them.
@@ -101,18 +96,10 @@ struct GridTotals {
   /// before, minus the sum of f.v dt/2; where particles deform by other velocities in the whole kick.
   double taken_by_forces = 0;
 
-  void combine(const GridTotals& other)
-  {
-    for (std::size_t k = 0; k < 3; ++k) impulse[k] += other.impulse[k];
-    taken_by_walls += other.taken_by_walls;
-    taken_by_damping += other.taken_by_damping;
-    gained_by_nodes += other.gained_by_nodes;
-    gained_by_particles += other.gained_by_particles;
-    gained_by_rigid_bodies += other.gained_by_rigid_bodies;
-    gravity_work += other.gravity_work;
-    gravity_work_at_end += other.gravity_work_at_end;
-    taken_by_forces += other.taken_by_forces;
-  }
+  static constexpr auto fields =
+      std::tuple{&GridTotals::impulse,         &GridTotals::taken_by_walls,      &GridTotals::taken_by_damping,
+                 &GridTotals::gained_by_nodes, &GridTotals::gained_by_particles, &GridTotals::gained_by_rigid_bodies,
+                 &GridTotals::gravity_work,    &GridTotals::gravity_work_at_end, &GridTotals::taken_by_forces};
 };
 
 /// What pressure loads do in one step.
@@ -123,14 +110,7 @@ struct LoadTotals {
   /// At the velocities of the start of the step, in the half of the step before [J].
   double work_at_start = 0;
 
-  void combine(const LoadTotals& other)
-  {
-    work += other.work;
-    work_at_start += other.work_at_start;
-    for (std::size_t g = 0; g < impulse.size(); ++g) {
-      for (std::size_t k = 0; k < 3; ++k) impulse[g][k] += other.impulse[g][k];
-    }
-  }
+  static constexpr auto fields = std::tuple{&LoadTotals::impulse, &LoadTotals::work, &LoadTotals::work_at_start};
 };
 
 }  // namespace tamp::tasks

@@ -3,9 +3,11 @@
 #include <cstddef>
 #include <optional>
 #include <span>
+#include <tuple>
 #include <type_traits>
 
 #include "components/errors.hpp"
+#include "components/numbers.hpp"
 #include "components/tensors.hpp"
 
 /// What every material model has:
@@ -77,16 +79,14 @@ struct UpdateCounts {
   std::size_t separations = 0;          ///< particles that came apart
   std::size_t apart = 0;                ///< updates of particles that were apart and stay so, which are no work
 
+  static constexpr auto fields = std::tuple{&UpdateCounts::substeps,         &UpdateCounts::split_updates,
+                                            &UpdateCounts::limited_substeps, &UpdateCounts::modulus_evaluations,
+                                            &UpdateCounts::extrapolated,     &UpdateCounts::failures,
+                                            &UpdateCounts::separations,      &UpdateCounts::apart};
+
   void add(const UpdateCounts& other)
   {
-    substeps += other.substeps;
-    split_updates += other.split_updates;
-    limited_substeps += other.limited_substeps;
-    modulus_evaluations += other.modulus_evaluations;
-    extrapolated += other.extrapolated;
-    failures += other.failures;
-    separations += other.separations;
-    apart += other.apart;
+    for_each_number([](std::size_t& sum, std::size_t part) { sum += part; }, *this, other);
   }
 };
 

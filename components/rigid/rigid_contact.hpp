@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <tuple>
 
 #include "components/rigid/rigid_body.hpp"
 
@@ -30,24 +31,22 @@ NodeContact node_contact(double mass, const Vector3& normal, double friction, co
 enum class Held { nothing, translation, all };
 
 /// Sums of all nodes' contact, from which the motion of the body after it follows.
-class RigidCoupling
-{
- public:
-  /// `arm` is the place of the node seen from the body's centre [m].
-  void add(const NodeContact& contact, const Vector3& arm);
-  void combine(const RigidCoupling& other);
-
-  /// The motion of a body which has `free` momenta before contact: the one whose change of momentum is minus the sum of
-  /// all J. Implicit in the body's own velocity, so that it holds however light the body is beside what it touches.
-  RigidMotion solve(const MassProperties& body, const RigidState& free, Held held = Held::nothing) const;
-
- private:
+struct RigidCoupling {
   using Matrix6 = Eigen::Matrix<double, 6, 6>;
   using Vector6 = Eigen::Matrix<double, 6, 1>;
 
   /// With B = (I, -[arm]x), the velocity at a node from that of the centre and the spin: sum B^T C B and sum B^T C v.
-  Matrix6 matrix_ = Matrix6::Zero();
-  Vector6 right_side_ = Vector6::Zero();
+  Matrix6 matrix = Matrix6::Zero();
+  Vector6 right_side = Vector6::Zero();
+
+  static constexpr auto fields = std::tuple{&RigidCoupling::matrix, &RigidCoupling::right_side};
+
+  /// `arm` is the place of the node seen from the body's centre [m].
+  void add(const NodeContact& contact, const Vector3& arm);
+
+  /// The motion of a body which has `free` momenta before contact: the one whose change of momentum is minus the sum of
+  /// all J. Implicit in the body's own velocity, so that it holds however light the body is beside what it touches.
+  RigidMotion solve(const MassProperties& body, const RigidState& free, Held held = Held::nothing) const;
 };
 
 }  // namespace tamp::components

@@ -15,11 +15,12 @@ using namespace tamp::runtime;
 const CellLabel<double, "temperature"> temperature;
 
 // A value of which every patch has a part.
-struct Greatest {
-  double value = 0;
-  void combine(const Greatest& other) { value = std::max(value, other.value); }
+struct Errors {
+  double greatest = 0;
+
+  static constexpr auto fields = std::tuple{Greatest{&Errors::greatest}};
 };
-const ReductionLabel<Greatest, "greatest error"> greatest_error;
+const ReductionLabel<Errors, "errors"> errors;
 
 double exact(const Grid& grid, const Index& i, double time)
 {
@@ -54,13 +55,13 @@ TaskDeclaration compare(const Grid& grid)
   return task("compare")
       .over_patches_and_groups()
       .reads(temperature)
-      .reduces(greatest_error)
+      .reduces(errors)
       .body([grid](const TaskContext& at, auto data) {
         const auto now = data[temperature];
-        Greatest& greatest = data[greatest_error];
+        double& greatest = data[errors].greatest;
         for_each(at.patch.cells, [&](const Index& i) {
           const double error = std::abs(now[i] - exact(grid, i, at.step.time + at.step.size));
-          greatest.value = std::max(greatest.value, error);
+          greatest = std::max(greatest, error);
         });
       });
 }
@@ -74,7 +75,7 @@ double error_of_heat(int n, double end, int n_threads, const Communicator& ranks
   for (int p = 0; p < 16; ++p) rank_of_patch[static_cast<std::size_t>(p)] = p * ranks.size() / 16;
   layout.give_to_ranks(rank_of_patch, ranks.size());
 
-  const HostData host{{&temperature}, {&greatest_error}};
+  const HostData host{{&temperature}, {&errors}};
   Engine engine(layout, {"plate"}, {{{diffuse(grid), compare(grid)}, host}}, n_threads, ranks);
   for (const Patch& patch : engine.layout()) {
     if (!engine.warehouse().is_local(patch)) continue;
@@ -88,7 +89,7 @@ double error_of_heat(int n, double end, int n_threads, const Communicator& ranks
   for (long step = 0; step < n_steps; ++step) {
     engine.advance(executor, {step, static_cast<double>(step) * dt, dt, dt});
   }
-  return engine.warehouse().result(greatest_error).value;
+  return engine.warehouse().result(errors).greatest;
 }
 
 int main(int argc, char** argv)

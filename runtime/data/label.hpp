@@ -6,6 +6,8 @@
 #include <string>
 #include <utility>
 
+#include "runtime/data/combine.hpp"
+
 namespace tamp::runtime
 {
 
@@ -72,8 +74,7 @@ class Label
 /// A label with the type of its values. T must survive being copied as bytes: it travels between patches and into
 /// files.
 ///
-/// For a reduction, a default T is the neutral value and `void T::combine(const T&)` takes another part in; parts are
-/// combined in the order of patch, then group, whatever the threads.
+/// For a reduction, a default T is the neutral value, and its parts combine as `combine.hpp` says.
 template <class T, Centring C>
 class TypedLabel : public Label
 {
@@ -90,7 +91,7 @@ class TypedLabel : public Label
     if constexpr (C == Centring::reduction) {
       static constexpr ReductionOperations reduce{
           [](void* value) { *static_cast<T*>(value) = T{}; },
-          [](void* into, const void* part) { static_cast<T*>(into)->combine(*static_cast<const T*>(part)); }};
+          [](void* into, const void* part) { runtime::combine(*static_cast<T*>(into), *static_cast<const T*>(part)); }};
       return &reduce;
     } else {
       return nullptr;

@@ -245,7 +245,7 @@ bool BoundGraph::may_move(const Instance& instance)
   return migration.may_move(warehouse_.field(last_check, -1, -1).current_buffer.data());
 }
 
-/// The whole value, then the parts in the order of patch, then group, whichever rank's they are.
+/// The whole value, and the parts by patch, then group, whichever rank's they are.
 BoundGraph::Bound BoundGraph::bind_reduction(const Label& label)
 {
   Bound bound;
@@ -256,6 +256,7 @@ BoundGraph::Bound BoundGraph::bind_reduction(const Label& label)
   return bound;
 }
 
+/// In the order of the parts, whatever the threads and ranks: the one place that decides it.
 void BoundGraph::combine(const Bound& bound)
 {
   Field& whole = *bound.fields.front();

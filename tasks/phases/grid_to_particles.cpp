@@ -92,7 +92,7 @@ void count_gravity(const Method<D>& method, double dt, const Data& data, std::si
   for (std::size_t p = first; p < first + n; ++p) {
     add_gravity_work<D>(method, dt, mass[p], before[p], after[p], velocity[p], totals);
   }
-  data[grid_totals].combine(totals);
+  runtime::combine(data[grid_totals], totals);
 }
 
 }  // namespace

@@ -145,7 +145,7 @@ runtime::TaskDeclaration move_particles(const Method<D>& method, int material)
           totals.stable_step =
               std::min(totals.stable_step, components::published_time_step<D>(method.cell_size, 0, velocity[p]));
         }
-        data[grid_totals].combine(of_gravity);
+        runtime::combine(data[grid_totals], of_gravity);
       });
 }
 

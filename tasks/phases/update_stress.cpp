@@ -191,7 +191,8 @@ void update_batches(const Method<D>& method, const Model& model, const TaskConte
     const std::size_t n = batch.stress.size();
     std::copy(batch.stress.begin(), batch.stress.end(), old_stress.begin());
     if (const auto failure = update(model, batch, totals.updates)) {
-      totals.note(failed_update<D>(model, at.group, first + failure->particle, failure->fault, data));
+      totals.failed =
+          std::min(totals.failed, failed_update<D>(model, at.group, first + failure->particle, failure->fault, data));
     }
     check_finite(method, at.group, data, first, n);
     account(method, at.step.size, data, first, std::span<const SymmetricTensor<D>>(old_stress.data(), n), answer);

@@ -46,17 +46,6 @@ void BodySums::add(double particle_mass, const Vector<D>& x, const Vector<D>& re
 template void BodySums::add<2>(double, const Vector<2>&, const Vector<2>&, const Vector<2>&);
 template void BodySums::add<3>(double, const Vector<3>&, const Vector<3>&, const Vector<3>&);
 
-void BodySums::combine(const BodySums& other)
-{
-  mass += other.mass;
-  momentum += other.momentum;
-  position += other.position;
-  reference_position += other.reference_position;
-  second_moment += other.second_moment;
-  carried_moment += other.carried_moment;
-  angular_momentum += other.angular_momentum;
-}
-
 Eigen::Matrix3d BodySums::rotation() const
 {
   const Eigen::Matrix3d moment = with_thickness(carried_moment - position * reference_position.transpose() / mass);

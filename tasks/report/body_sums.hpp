@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <tuple>
 
 #include "components/rigid/rigid_body.hpp"
 #include "components/tensors.hpp"
@@ -22,10 +23,13 @@ struct BodySums {
   Eigen::Matrix3d carried_moment = Eigen::Matrix3d::Zero();
   Eigen::Vector3d angular_momentum = Eigen::Vector3d::Zero();
 
+  static constexpr auto fields = std::tuple{
+      &BodySums::mass,          &BodySums::momentum,       &BodySums::position,        &BodySums::reference_position,
+      &BodySums::second_moment, &BodySums::carried_moment, &BodySums::angular_momentum};
+
   /// Adds a particle.
   template <int D>
   void add(double particle_mass, const Vector<D>& x, const Vector<D>& reference, const Vector<D>& v);
-  void combine(const BodySums& other);
 
   /// The rotation from the start that fits the motion best, by least squares of mass; none for a body without extent.
   Eigen::Matrix3d rotation() const;

@@ -3,6 +3,7 @@
 #include <cstring>
 #include <span>
 
+#include "runtime/data/combine.hpp"
 #include "tasks/labels.hpp"
 
 namespace tamp::tasks
@@ -44,12 +45,7 @@ void LostByPatch::share(const runtime::PatchLayout& layout, const runtime::Commu
 LostParticles LostByPatch::sum() const
 {
   LostParticles sum;
-  for (const LostParticles& lost : lost_) {
-    sum.count += lost.count;
-    sum.mass += lost.mass;
-    sum.kinetic += lost.kinetic;
-    sum.momentum += lost.momentum;
-  }
+  for (const LostParticles& lost : lost_) runtime::combine(sum, lost);
   return sum;
 }
 

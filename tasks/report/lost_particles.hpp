@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <cstddef>
+#include <tuple>
 #include <vector>
 
 #include "runtime/data/byte_stream.hpp"
@@ -18,6 +19,9 @@ struct LostParticles {
   double mass = 0;                                     ///< kg
   double kinetic = 0;                                  ///< J
   Eigen::Vector3d momentum = Eigen::Vector3d::Zero();  ///< N s
+
+  static constexpr auto fields =
+      std::tuple{&LostParticles::count, &LostParticles::mass, &LostParticles::kinetic, &LostParticles::momentum};
 };
 
 /// The same kept by the patch they left from, so that the sum has the same bits for any ranks. Each rank knows that of

@@ -185,11 +185,6 @@ runtime::TaskDeclaration report_near_noses(const Method<D>& method, int material
   });
 }
 
-void combine(PeaksOfMaterials& into, const PeaksOfMaterials& other)
-{
-  for (std::size_t k = 0; k < into.size(); ++k) into[k].combine(other[k]);
-}
-
 }  // namespace
 
 void MaterialPeaks::add(std::span<const components::Invariants> stress)
@@ -211,19 +206,12 @@ void MaterialPeaks::add(const Model& model, const State& state, std::span<const 
   for (const auto& [column, greatest] : components::state_extremes<Model>()) {
     const auto value = components::state_columns<Model>()[column].value;
     const double sign = greatest ? 1 : -1;
-    double extreme = extremes_[k];
+    double extreme = extremes[k];
     for (std::size_t i = 0; i < stress.size(); ++i) {
       extreme = std::max(extreme, sign * value(model, state(i), stress[i]));
     }
-    extremes_[k++] = extreme;
+    extremes[k++] = extreme;
   }
-}
-
-void MaterialPeaks::combine(const MaterialPeaks& other)
-{
-  pressure = std::max(pressure, other.pressure);
-  q = std::max(q, other.q);
-  for (std::size_t k = 0; k < extremes_.size(); ++k) extremes_[k] = std::max(extremes_[k], other.extremes_[k]);
 }
 
 void DisplacementError::add(double particle_mass, double error)
@@ -233,34 +221,9 @@ void DisplacementError::add(double particle_mass, double error)
   greatest = std::max(greatest, error);
 }
 
-void DisplacementError::combine(const DisplacementError& other)
-{
-  mass += other.mass;
-  mass_times_square += other.mass_times_square;
-  greatest = std::max(greatest, other.greatest);
-}
-
 double DisplacementError::rms() const
 {
   return std::sqrt(mass_times_square / mass);
-}
-
-void ParticleReport::combine(const ParticleReport& other)
-{
-  kinetic += other.kinetic;
-  sum_of_momenta += other.sum_of_momenta;
-  gravity_work += other.gravity_work;
-  gravity_work_at_end += other.gravity_work_at_end;
-  for (std::size_t k = 0; k < max_entries; ++k) {
-    bodies[k].combine(other.bodies[k]);
-    displacement_errors[k].combine(other.displacement_errors[k]);
-  }
-  tasks::combine(materials, other.materials);
-}
-
-void NoseReport::combine(const NoseReport& other)
-{
-  tasks::combine(materials, other.materials);
 }
 
 Eigen::Vector3d ParticleReport::momentum() const

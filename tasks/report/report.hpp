@@ -6,9 +6,11 @@
 #include <cstddef>
 #include <limits>
 #include <span>
+#include <tuple>
 #include <vector>
 
 #include "components/materials/state_columns.hpp"
+#include "runtime/data/combine.hpp"
 #include "runtime/data/views.hpp"
 #include "runtime/graph/task_graph.hpp"
 #include "tasks/method.hpp"
@@ -18,30 +20,29 @@ namespace tamp::tasks
 {
 
 /// Extremes over the particles of one material; compression positive.
-class MaterialPeaks
-{
- public:
-  MaterialPeaks() { extremes_.fill(-std::numeric_limits<double>::infinity()); }
+struct MaterialPeaks {
+  MaterialPeaks() { extremes.fill(-std::numeric_limits<double>::infinity()); }
 
   /// Mean stress -tr sigma / 3 and q = sqrt(3 J2) [Pa].
   double pressure = -std::numeric_limits<double>::infinity();
   double q = 0;
+  /// The greatest values of the columns of `state_extremes`, and the greatest negative ones for the least.
+  std::array<double, components::max_state_columns> extremes;
+
+  static constexpr auto fields =
+      std::tuple{runtime::Greatest{&MaterialPeaks::pressure}, runtime::Greatest{&MaterialPeaks::q},
+                 runtime::Greatest{&MaterialPeaks::extremes}};
 
   void add(std::span<const components::Invariants> stress);
   /// Takes in the states of particles, `state(i)`, with their stresses.
   template <class Model, class State>
   void add(const Model& model, const State& state, std::span<const components::Invariants> stress);
-  void combine(const MaterialPeaks& other);
 
   /// The one of `state_extremes` at this place; infinite where there was no particle.
   double extreme(std::size_t k, const components::StateExtreme& of) const
   {
-    return of.greatest ? extremes_[k] : -extremes_[k];
+    return of.greatest ? extremes[k] : -extremes[k];
   }
-
- private:
-  /// The greatest values, and the greatest negative ones for the least.
-  std::array<double, components::max_state_columns> extremes_;
 };
 
 using PeaksOfMaterials = std::array<MaterialPeaks, runtime::PerGroup<int>::max_groups>;
@@ -52,8 +53,10 @@ struct DisplacementError {
   double mass_times_square = 0;  ///< sum m e^2 [kg m^2]
   double greatest = 0;           ///< m
 
+  static constexpr auto fields = std::tuple{&DisplacementError::mass, &DisplacementError::mass_times_square,
+                                            runtime::Greatest{&DisplacementError::greatest}};
+
   void add(double particle_mass, double error);
-  void combine(const DisplacementError& other);
 
   /// Root of the mean square, by mass [m].
   double rms() const;
@@ -77,15 +80,19 @@ struct ParticleReport {
   std::array<DisplacementError, max_entries> displacement_errors;
   PeaksOfMaterials materials;
 
+  static constexpr auto fields = std::tuple{&ParticleReport::kinetic,      &ParticleReport::sum_of_momenta,
+                                            &ParticleReport::gravity_work, &ParticleReport::gravity_work_at_end,
+                                            &ParticleReport::bodies,       &ParticleReport::displacement_errors,
+                                            &ParticleReport::materials};
+
   Eigen::Vector3d momentum() const;
-  void combine(const ParticleReport& other);
 };
 
 /// The same peaks of the particles that are near the nose of a body.
 struct NoseReport {
   PeaksOfMaterials materials;
 
-  void combine(const NoseReport& other);
+  static constexpr auto fields = std::tuple{&NoseReport::materials};
 };
 
 inline const runtime::ReductionLabel<ParticleReport, "particle report"> particle_report;

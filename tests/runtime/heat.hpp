@@ -16,11 +16,7 @@ using namespace tamp::runtime;
 inline const CellLabel<double, "temperature"> temperature;
 
 struct Heat {
-  struct Sum {
-    double value = 0;
-    void combine(const Sum& other) { value += other.value; }
-  };
-  static inline const ReductionLabel<Sum, "total heat"> total;
+  static inline const ReductionLabel<double, "total heat"> total;
 
   Heat(int n_cells, Index n_patches, int n_threads)
       : grid{2, {0, 0, 0}, 1.0 / n_cells, {n_cells, n_cells, 1}},
@@ -51,7 +47,7 @@ struct Heat {
         .body([grid](const TaskContext& at, auto data) {
           const auto old = data[temperature.previous()];
           const auto now = data[temperature];
-          Sum& sum = data[total];
+          double& sum = data[total];
           const double factor = at.step.size / (grid.cell_size * grid.cell_size);
           for_each(at.patch.cells, [&](const Index& i) {
             const auto flux = [&](int axis, int side) {
@@ -60,7 +56,7 @@ struct Heat {
               return grid.cells().contains(next) ? old[next] - old[i] : 0.0;
             };
             now[i] = old[i] + factor * (flux(0, -1) + flux(0, 1) + flux(1, -1) + flux(1, 1));
-            sum.value += now[i];
+            sum += now[i];
           });
         });
   }

@@ -16,15 +16,16 @@ namespace
 
 using Point = std::array<double, 2>;
 
-struct Greatest {
+struct Highest {
   double value = -1;
-  void combine(const Greatest& other) { value = std::max(value, other.value); }
+
+  static constexpr auto fields = std::tuple{Greatest{&Highest::value}};
 };
 
 const ParticleLabel<Point, "place"> place;
 const NodeLabel<double, "mass"> mass;
 const NodeLabel<double, "speed"> speed;
-const ReductionLabel<Greatest, "greatest"> greatest;
+const ReductionLabel<Highest, "greatest"> greatest;
 
 constexpr int n_patches = 8;
 constexpr int cells_per_patch = 3;
@@ -92,7 +93,7 @@ struct Row {
                     .reduces(greatest)
                     .body([this](const TaskContext& at, auto data) {
                       const auto speeds = data[speed];
-                      Greatest& most = data[greatest];
+                      Highest& most = data[greatest];
                       ++n_met[static_cast<std::size_t>(at.patch.id)];
                       for_each(speeds[0].box(), [&](const Index& i) {
                         const double sum = speeds[0][i] + speeds[1][i];

@@ -11,16 +11,11 @@ namespace tamp::runtime::test_task_data
 namespace
 {
 
-struct Sum {
-  double value = 0;
-  void combine(const Sum& other) { value += other.value; }
-};
-
 const ParticleLabel<double, "mass"> mass;
 const ParticleLabel<double, "volume"> volume;
 const NodeLabel<float, "weight"> weight;
 const CellLabel<int, "count"> count;
-const ReductionLabel<Sum, "total"> total;
+const ReductionLabel<double, "total"> total;
 
 /// Whether a body with such data can ask for a label.
 template <class Data, class Asked>
@@ -48,7 +43,7 @@ TEST_CASE("a body gets what its task declared, as its type and to be written onl
         STATIC_REQUIRE((std::same_as<Answer<Data, decltype(weight)>, PerGroup<GridView<const float>>>));
         STATIC_REQUIRE((std::same_as<Answer<Data, decltype(volume)>, std::span<double>>));
         STATIC_REQUIRE((std::same_as<Answer<Data, decltype(count)>, GridView<int>>));
-        STATIC_REQUIRE((std::same_as<Answer<Data, decltype(total)>, Sum&>));
+        STATIC_REQUIRE((std::same_as<Answer<Data, decltype(total)>, double&>));
       });
 }
 

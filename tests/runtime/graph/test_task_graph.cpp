@@ -128,11 +128,7 @@ TEST_CASE("a global is made by a task over ranks, which uses nothing of patches"
 
 TEST_CASE("a task over ranks runs on each, after what makes its data and before what reads them", "[graph]")
 {
-  struct Sum {
-    double value = 0;
-    void combine(const Sum& other) { value += other.value; }
-  };
-  const ReductionLabel<Sum, "all"> all;
+  const ReductionLabel<double, "all"> all;
   const GlobalLabel<double, "clock"> clock;
   const auto sum = task("sum").over_patches_and_groups().reads(mass).reduces(all).body(nothing());
   const auto tick = task("tick").over_ranks().reads(all).computes(clock).body(nothing());

@@ -24,11 +24,7 @@ const CellLabel<double, "smooth"> smooth;
 const CellLabel<double, "edges"> edges;
 const CellLabel<double, "smoother"> smoother;
 
-struct Sum {
-  double value = 0;
-  void combine(const Sum& other) { value += other.value; }
-};
-const ReductionLabel<Sum, "total"> total;
+const ReductionLabel<double, "total"> total;
 /// What every rank works out for itself: a trace of all totals so far, and the same as the step begins.
 const GlobalLabel<double, "trace"> trace;
 const GlobalLabel<double, "old trace"> old_trace;
@@ -121,13 +117,13 @@ std::vector<TaskDeclaration> wandering()
                            .body([](const TaskContext& at, auto data) {
                              const auto s = data[smooth];
                              const auto now = data[smoother];
-                             Sum& sum = data[total];
+                             double& sum = data[total];
                              const IndexBox all = seen_cells(at.layout.grid());
                              for_each(at.patch.cells, [&](const Index& i) {
                                now[i] = 0;
                                for_each(intersection(grown(IndexBox{i, {i[0] + 1, i[1] + 1, 1}}, 1, 2), all),
                                         [&](const Index& j) { now[i] += s[j] / 9; });
-                               sum.value += now[i];
+                               sum += now[i];
                              });
                            });
   auto wander = task("wander")
@@ -136,7 +132,7 @@ std::vector<TaskDeclaration> wandering()
                     .computes(place, warmth)
                     .body([](const TaskContext& at, auto data) {
                       const auto s = data[smooth];
-                      const Sum& sum = data[total];
+                      const double sum = data[total];
                       const auto old = data[place.previous()];
                       const auto was = data[warmth.previous()];
                       const auto now = data[place];
@@ -144,7 +140,7 @@ std::vector<TaskDeclaration> wandering()
                       const Grid& grid = at.layout.grid();
                       for (std::size_t p = 0; p < old.size(); ++p) {
                         const double w = s[{static_cast<int>(old[p][0]), static_cast<int>(old[p][1]), 0}];
-                        is[p] = 0.5 * was[p] + w / (1 + std::abs(sum.value)) + data[trace] - data[old_trace];
+                        is[p] = 0.5 * was[p] + w / (1 + std::abs(sum)) + data[trace] - data[old_trace];
                         now[p] = {old[p][0] + 0.9 * std::sin(37 * w), old[p][1] + 0.9 * std::cos(91 * w)};
                         for (std::size_t k = 0; k < 2; ++k) {
                           if (!grid.periodic[k]) now[p][k] = std::clamp(now[p][k], 0.01, grid.n_cells[k] - 0.01);
@@ -157,7 +153,7 @@ std::vector<TaskDeclaration> wandering()
       });
   auto keep_trace =
       task("keep trace").over_ranks().reads(old_trace, total).computes(trace).body([](const TaskContext&, auto data) {
-        data[trace] = data[old_trace] / 3 + 1 / (3 + std::abs(data[total].value));
+        data[trace] = data[old_trace] / 3 + 1 / (3 + std::abs(data[total]));
       });
   return {warm,   chill,      average, find_edges, average_again,
           recall, keep_trace, sharpen, wander,     migration(place, total)};
@@ -215,7 +211,7 @@ struct World {
   /// The last total, every rank's trace being the same, and all other state: by patch.
   std::vector<double> values()
   {
-    std::vector<double> all{warehouse.result(total).value, warehouse.global_state(trace)};
+    std::vector<double> all{warehouse.result(total), warehouse.global_state(trace)};
     for (const double theirs : communicator.gather_value(all.back())) CHECK(theirs == all.back());
     for (const Patch& patch : layout) {
       std::vector<double> own;
