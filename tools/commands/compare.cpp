@@ -89,7 +89,7 @@ void compare_models(CompareArguments& options)
   if (!options.comparison.quiet) {
     print_out("{}  written to {}\n", to_text(comparison), options.comparison.folder.string());
   }
-  draw_page("draw_compare.py", options.comparison.folder);
+  draw_page(options.comparison.folder);
   complain_of_unstable(comparison);
 }
 

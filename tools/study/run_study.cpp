@@ -83,7 +83,7 @@ void run_study(const StudyOptions& options)
   const StudyResults results = measure_all(study, options, own.points());
   write(results, folder);
   if (!options.quiet) print_out("{}", to_text(results));
-  draw_page("draw_study.py", folder);
+  draw_page(folder);
   if (!options.quiet) print_out("  written to {}: index.html, points.csv, charts\n", folder.string());
   complain_of_reference(results);
 }

@@ -20,7 +20,7 @@ namespace
 
 /// Debian's, for which it has matplotlib.
 constexpr const char* usual_interpreter = "/usr/bin/python3";
-/// Exit code of a script whose interpreter has no matplotlib; see tools/python/charts/script.py.
+/// Exit code of the Python tools where the interpreter has no matplotlib; see tools/python/tamp/failure.py.
 constexpr int no_matplotlib = 3;
 /// Of an interpreter that is not there.
 constexpr int not_started = -1;
@@ -32,9 +32,10 @@ std::vector<std::string> interpreters()
   return {usual_interpreter, "python3"};
 }
 
-int run_script(std::string interpreter, std::string script, std::string folder)
+int run_draw(std::string interpreter, std::string tools, std::string folder)
 {
-  char* arguments[] = {interpreter.data(), script.data(), folder.data(), nullptr};
+  std::string command = "draw";
+  char* arguments[] = {interpreter.data(), tools.data(), command.data(), folder.data(), nullptr};
   pid_t child = 0;
   if (posix_spawnp(&child, arguments[0], nullptr, nullptr, arguments, environ) != 0) return not_started;
   int status = 0;
@@ -45,22 +46,22 @@ int run_script(std::string interpreter, std::string script, std::string folder)
 
 }  // namespace
 
-void draw_page(const std::string& script, const std::filesystem::path& folder)
+void draw_page(const std::filesystem::path& folder)
 {
-  const std::string file = shipped_script(script).string();
+  const std::string tools = shipped_python_tools().string();
   for (const std::string& interpreter : interpreters()) {
-    const int code = run_script(interpreter, file, folder.string());
+    const int code = run_draw(interpreter, tools, folder.string());
     if (code == 0) return;
     if (code == not_started || code == no_matplotlib) continue;
     throw runtime::FileError(folder.string(), fmt::format("its figures are written, but could not be drawn; to try "
-                                                          "again: {} {} {}",
-                                                          interpreter, shell_word(file), shell_word(folder.string())));
+                                                          "again: {} {} draw {}",
+                                                          interpreter, shell_word(tools), shell_word(folder.string())));
   }
   throw runtime::FileError(folder.string(),
                            fmt::format("its figures are written, but not drawn, for want of Python with matplotlib "
                                        "(Debian: python3-matplotlib; TAMP_PYTHON names another interpreter); to draw "
-                                       "them later: {} {} {}",
-                                       usual_interpreter, shell_word(file), shell_word(folder.string())));
+                                       "them later: {} {} draw {}",
+                                       usual_interpreter, shell_word(tools), shell_word(folder.string())));
 }
 
 }  // namespace tamp::tools

@@ -37,12 +37,12 @@ fs::path shipped_input(const fs::path& file)
   throw runtime::FileError("inputs" / file, "not found here, beside the program's sources, or where it is installed");
 }
 
-fs::path shipped_script(const fs::path& file)
+fs::path shipped_python_tools()
 {
   const fs::path program = folder_of_program();
-  const fs::path found = first_with(file, {program / "../../tools/python", program / "../share/tamp/python"});
+  const fs::path found = first_with("tamp", {program / "../../tools/python", program / "../share/tamp/python"});
   if (!found.empty()) return fs::weakly_canonical(found);
-  throw runtime::FileError("tools/python" / file, "not found beside the program's sources, or where it is installed");
+  throw runtime::FileError("tools/python/tamp", "not found beside the program's sources, or where it is installed");
 }
 
 }  // namespace tamp::tools

@@ -9,8 +9,8 @@ namespace tamp::tools
 /// the program was built in, or of the place it was installed to. Throws FileError where it is in none.
 std::filesystem::path shipped_input(const std::filesystem::path& file);
 
-/// A script that the program calls, such as "draw_compare.py": of the source tree that the program was built in, or of
+/// The folder of the Python tools, as the interpreter takes it: of the source tree that the program was built in, or of
 /// the place it was installed to. Throws FileError where it is in neither.
-std::filesystem::path shipped_script(const std::filesystem::path& file);
+std::filesystem::path shipped_python_tools();
 
 }  // namespace tamp::tools

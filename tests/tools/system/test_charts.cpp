@@ -38,7 +38,7 @@ TEST_CASE("without Python a comparison ends with 4 and says how to draw it, and 
   CHECK(outcome.exit_code == 4);
   CHECK_THAT(outcome.err,
              Catch::StartsWith("tamp: " + (folder.path() / "out").string() + ": its figures are written") &&
-                 Contains("python3-matplotlib") && Contains("draw_compare.py"));
+                 Contains("python3-matplotlib") && Contains("tools/python/tamp draw "));
   CHECK_THAT(test::read_text(folder.path() / "out/compare.csv"), Contains("\ntable,completed,"));
   CHECK_THAT(test::read_text(folder.path() / "out/compare.json"), Contains("\"models\""));
   CHECK_FALSE(std::filesystem::exists(folder.path() / "out/report.html"));

@@ -1,1 +1,0 @@
-"""The parts of tools/python/fit_moduli.py."""

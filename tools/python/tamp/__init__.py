@@ -1,0 +1,1 @@
+"""TAMP's Python tools; `python3 tools/python/tamp --help` lists the commands."""

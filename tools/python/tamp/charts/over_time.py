@@ -1,0 +1,114 @@
+"""Lines over time, one for each of a few things that are compared."""
+
+from typing import NamedTuple
+
+import numpy as np
+
+from tamp.charts.axes import (
+    NARROW, Entry, Layout, Sheet, linear_ticks, log_limits, log_ticks, room_for_ticks, set_ticks,
+)
+from tamp.charts.chart import Table, make_chart
+from tamp.charts.theme import DASHES, Style, hue
+from tamp.charts.formatting import counted, si_text
+
+HALF = Layout("half", 480, 240, 11.5, False)  # two of them beside each other
+N_POINTS, N_ROWS = 400, 10
+
+
+class Line(NamedTuple):
+    name: str
+    x: list
+    y: list
+    breaks_off: bool = False  # marked with a cross at its end
+
+
+class Plot(NamedTuple):
+    """Numbers in SI units; y above 0 on a logarithmic axis."""
+
+    title: str
+    y_name: str
+    y_unit: str
+    lines: list
+    logarithmic: bool = False
+
+
+def style_of(k):
+    return Style(hue(k), "", DASHES[k % len(DASHES)])
+
+
+def chart(plot, name):
+    layouts = (HALF, NARROW)
+    return make_chart(name, plot.title, describe(plot), "", table(plot), lambda layout: draw(plot, layout), layouts)
+
+
+def draw(plot, layout):
+    legend = [Entry(line.name, style_of(k)) for k, line in enumerate(plot.lines)]
+    sheet = Sheet(layout, plot.title, plot.y_name, "time", legend,
+                  left=room_for_ticks(y_limits(plot), lambda tick: si_text(tick, plot.y_unit), plot.logarithmic))
+    set_ticks(sheet.axis, "x", (0, end_of(plot) or 1), lambda tick: si_text(tick, "s"), logarithmic=False)
+    set_ticks(sheet.axis, "y", y_limits(plot), lambda tick: si_text(tick, plot.y_unit), logarithmic=plot.logarithmic)
+    for k, line in enumerate(plot.lines):
+        if not line.x:
+            continue
+        x, y = thinned(line.x, line.y, N_POINTS)
+        sheet.axis.plot(x, y, color=hue(k), ls=DASHES[k % len(DASHES)], lw=1.6, gid=f"line-{k}", clip_on=False)
+        if line.breaks_off:
+            sheet.axis.plot(x[-1:], y[-1:], marker="x", ms=9, mew=2, color=hue(k), clip_on=False, gid=f"cross-{k}")
+    if not any(line.x for line in plot.lines):
+        sheet.say_empty("nothing to draw")
+    return sheet, []
+
+
+def end_of(plot):
+    return max((line.x[-1] for line in plot.lines if line.x), default=0)
+
+
+def y_limits(plot):
+    """Round numbers that enclose the values. Zero belongs to them unless that would flatten what there is to see."""
+    values = [y for line in plot.lines for y in line.y] or [1, 2]
+    low, high = min(values), max(values)
+    if plot.logarithmic:
+        low, high = log_limits([low, high], 0.3)
+        ticks = log_ticks(low, high)[0]
+        return min([low, *ticks]), max([high, *ticks])
+    low = 0 if 0 < low < 0.7 * high else low
+    high = high if high > low else low + (abs(low) or 1)
+    ticks = linear_ticks(low, high, 5)
+    spacing = ticks[1] - ticks[0] if len(ticks) > 1 else high - low
+    return (ticks[0] if low >= ticks[0] * (1 - 1e-9) else ticks[0] - spacing,
+            ticks[-1] if high <= ticks[-1] * (1 + 1e-9) else ticks[-1] + spacing)
+
+
+def thinned(x, y, n_wanted):
+    """About that many points, in order: the ends, and of each stretch its lowest and its highest: no peak is lost."""
+    if len(x) <= n_wanted:
+        return x, y
+    kept = {0, len(x) - 1}
+    for stretch in np.array_split(np.arange(1, len(x) - 1), n_wanted // 2):
+        values = np.asarray(y)[stretch]
+        kept |= {int(stretch[values.argmin()]), int(stretch[values.argmax()])}
+    return [x[k] for k in sorted(kept)], [y[k] for k in sorted(kept)]
+
+
+def describe(plot):
+    said = [f"{counted(len(plot.lines), 'line')} over {si_text(end_of(plot), 's')}."]
+    for line in plot.lines:
+        if not line.x:
+            said.append(f"{line.name}: nothing to draw.")
+            continue
+        end = "breaks off" if line.breaks_off else "ends"
+        low, high, last = (si_text(y, plot.y_unit) for y in (min(line.y), max(line.y), line.y[-1]))
+        said.append(f"{line.name}: between {low} and {high}, {end} at {last} after {si_text(line.x[-1], 's')}.")
+    return " ".join(said)
+
+
+def table(plot):
+    """At even times; between points on a straight line."""
+    rows = []
+    for time in np.linspace(0, end_of(plot), N_ROWS + 1):
+        row = [si_text(float(time), "s")]
+        for line in plot.lines:
+            known = line.x and line.x[0] <= time <= line.x[-1] * (1 + 1e-12)
+            row.append(si_text(float(np.interp(time, line.x, line.y)), plot.y_unit) if known else "–")
+        rows.append(row)
+    return Table(["time", *(line.name for line in plot.lines)], rows)
