@@ -45,7 +45,7 @@ constexpr double shared_stiffness = 4.5;
 /// max(0, -tr D)) / h, with the speeds c of dilatational waves, c_b = sqrt(K / density) and c_s of the modulus
 /// K + (2/D - 2/3) G of equal strain along D axes: a particle that has its nodes to itself feels just s, one of many
 /// what waves feel. That both may be added, and k0, are read from eigenvalues of blocks, balls and thinned out lattices
-/// of particles at random offsets (tools/studies/stable_step.py). Both count `amplification` times where nodes move
+/// of particles at random offsets (tools/python/tamp stable-step). Both count `amplification` times where nodes move
 /// that much further by what the particles push them with.
 template <int D, class Number = double>
 Number viscous_time_step(double cell_size, const StiffParticle<D, Number>& p, const ArtificialViscosity& viscosity,

@@ -14,7 +14,7 @@ using namespace tamp::test;
 namespace
 {
 
-// Made by tools/studies/digests.py --write.
+// Made by tools/python/tamp digests --write.
 nlohmann::json committed_digests()
 {
   return nlohmann::json::parse(std::ifstream(TAMP_SOURCE_DIR "/tests/scenes/digests.json"));

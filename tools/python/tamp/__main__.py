@@ -20,7 +20,15 @@ from tamp import failure  # noqa: E402
 COMMANDS = {
     "import": "laboratory.import_tests", "concrete-sand": "laboratory.concrete_sand", "fit": "fit.command",
     "history": "history", "picture": "picture", "projectile-mesh": "projectile_mesh",
-    "draw": "charts.draw", "report": "report.command",
+    "draw": "charts.draw", "look-at-page": "charts.look_at_page", "report": "report.command",
+    "cavity": "material.cavity", "companion": "material.companion", "hugoniot": "material.hugoniot",
+    "material-paths": "material.material_paths", "modulus-sizes": "material.modulus_sizes",
+    "return-path": "material.return_path", "smooth-sand": "material.smooth_sand",
+    "localisation": "methods.localisation", "pressure-alternation": "methods.pressure_alternation",
+    "projectile": "methods.projectile", "separation": "methods.separation", "stable-step": "methods.stable_step",
+    "stress-tolerance": "methods.stress_tolerance",
+    "digests": "checks.digests", "failures": "checks.failures", "forecasts": "checks.forecasts",
+    "kill-and-restart": "checks.kill_and_restart", "same-bits": "checks.same_bits", "scaling": "checks.scaling",
 }
 
 

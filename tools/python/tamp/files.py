@@ -135,3 +135,11 @@ def keep_inputs(sources, outputs):
             same = os.path.abspath(output) == os.path.abspath(other)
             if same or os.path.exists(output) and os.path.exists(other) and os.path.samefile(output, other):
                 raise Refusal(output, what, "another file to write to")
+
+
+def write_table(path, remarks, header, rows, digits=10):
+    """A CSV of numbers, with remarks above it."""
+    lines = [*(f"# {remark}" for remark in remarks), header]
+    lines += [",".join(f"{number:.{digits}g}" for number in row) for row in rows]
+    path.parent.mkdir(parents=True, exist_ok=True)
+    path.write_text("\n".join(lines) + "\n", encoding="utf-8")

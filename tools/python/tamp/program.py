@@ -19,9 +19,9 @@ ENVIRONMENT = {**os.environ, "OMPI_MCA_rmaps_base_oversubscribe": "1", "OMPI_MCA
                "OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1"}
 
 
-def add_option(parser):
-    parser.add_argument("--tamp", type=pathlib.Path, default=USUAL, metavar="PROGRAM",
-                        help="the program that is called (build/release/tamp)")
+def add_option(parser, **how):
+    how = {"default": USUAL, "metavar": "PROGRAM", "help": "the program that is called (build/release/tamp)", **how}
+    parser.add_argument("--tamp", type=pathlib.Path, **how)
 
 
 def changes(settings):
@@ -58,6 +58,11 @@ def run(tamp, scene, folder, *words, settings=(), **how):
     """Runs a scene into a folder, in place of what is there."""
     where = ["--out", folder, "--force", "--quiet"]
     return call(tamp, "run", scene, *where, *changes(settings), *words, **how)
+
+
+def restart(tamp, scene, folder, *words, settings=(), **how):
+    """Goes on with the run in a folder."""
+    return call(tamp, "run", scene, "--restart", folder, "--quiet", *changes(settings), *words, **how)
 
 
 def timed_run(*words, **how):

@@ -18,10 +18,9 @@ def columns(path):
     return {name.split("[")[0]: numbers[:, k] for k, name in enumerate(names)}
 
 
-def rows(path):
-    """Each row of a CSV, by the same names."""
-    found = columns(path)
-    return [dict(zip(found, row)) for row in zip(*(column.tolist() for column in found.values()))]
+def rows_of(known):
+    """Each row of some columns, by the same names."""
+    return [dict(zip(known, row)) for row in zip(*(column.tolist() for column in known.values()))]
 
 
 def history(folder):

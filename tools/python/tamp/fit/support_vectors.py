@@ -75,8 +75,8 @@ class SupportVectors:
         self.vectors = np.array(self.fit["support_vectors"])
         self.coefficients = np.array(self.fit["dual_coeffs"][0])
 
-    def _fitted(self, elastic, plastic):
-        """(pressure, bulk modulus) as fitted."""
+    def fitted(self, elastic, plastic):
+        """(pressure, bulk modulus) as fitted, whatever the range of the data."""
         strains = np.column_stack([elastic + plastic, np.full_like(elastic, plastic)])
         x = (strains / self.fit["X_conversion_factor"] - self.fit["X_min"]) * self.fit["X_scale"]
         away = self.vectors[None, :, :] - x[:, None, :]
@@ -88,9 +88,9 @@ class SupportVectors:
 
     def at(self, elastic, plastic):
         """(pressure, bulk modulus)"""
-        pressure, modulus = self._fitted(elastic, plastic)
+        pressure, modulus = self.fitted(elastic, plastic)
         return pressure - self.offset(plastic), modulus
 
     def offset(self, plastic):
         """The fitted pressure at zero elastic strain."""
-        return self._fitted(np.zeros(1), plastic)[0][0]
+        return self.fitted(np.zeros(1), plastic)[0][0]

@@ -57,14 +57,9 @@ def unloading_rows(tests):
     return rows
 
 
-def write(path, comments, header, rows):
+def write(path, remarks, header, rows):
     """Aside, until all has been checked."""
-    with open(made_files.aside(path), "w", encoding="utf-8") as file:
-        for line in comments:
-            file.write(f"# {line}\n")
-        file.write(header + "\n")
-        for row in rows:
-            file.write(",".join(f"{value:.10g}" for value in row) + "\n")
+    files.write_table(made_files.aside(path), remarks, header, rows)
     print(f"{path.name}: {len(rows)} rows")
 
 

@@ -1,19 +1,17 @@
-#!/usr/bin/env python3
-"""Make the path of deformation that inputs/studies/return_mapping.json take a point of sand along.
-
-    python3 tools/studies/return_path.py [--out inputs/studies/return_mapping/path.csv]
+"""Makes the path of deformation that inputs/studies/return_mapping.json takes a point of sand along.
 
 Straight legs between corners, one a unit of time: hydrostatic loading with unloading to nearly nothing, uniaxial strain
 with unloading, shearing to and fro under compression, and then corners drawn at random (always the same ones) with up to
-30 % of volumetric strain (logarithmic, compression positive). Only the standard library is used.
+30 % of volumetric strain (logarithmic, compression positive).
 """
 
-import argparse
 import math
 import pathlib
 import random
 
-ROOT = pathlib.Path(__file__).resolve().parents[2]
+from tamp.material.drive import write_path
+from tamp.program import INPUTS
+
 SEED, N_RANDOM = 17, 24
 MOST_COMPRESSED, LEAST_COMPRESSED = 0.30, 0.05
 MOST_SHEARED = 0.08
@@ -44,17 +42,9 @@ def corners():
     return [*hydrostatic, *uniaxial, *sheared, *(random_corner(numbers) for _ in range(N_RANDOM))]
 
 
-def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--out", type=pathlib.Path, default=ROOT / "inputs/studies/return_mapping/path.csv")
-    options = parser.parse_args()
-
-    lines = ["# Made by tools/studies/return_path.py.", "time,F11,F12,F13,F21,F22,F23,F31,F32,F33"]
-    for time, deformation in enumerate(corners()):
-        lines.append(",".join(f"{number:.6g}" for number in [time, *deformation]))
-    options.out.parent.mkdir(parents=True, exist_ok=True)
-    options.out.write_text("\n".join(lines) + "\n")
+def add_arguments(parser):
+    parser.add_argument("--out", type=pathlib.Path, default=INPUTS / "studies/return_mapping/path.csv")
 
 
-if __name__ == "__main__":
-    main()
+def main(options):
+    write_path(options.out, list(enumerate(corners())), 6, ["Made by tools/python/tamp return-path."])

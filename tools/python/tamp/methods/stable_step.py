@@ -1,6 +1,4 @@
-"""Holds the bound on the time step of the viscous rule against eigenvalues, and prints what comes out as Markdown:
-
-    python3 tools/studies/stable_step.py [--samples 6] [--seed 1]
+"""Holds the bound on the time step of the viscous rule against eigenvalues, and prints what comes out as Markdown.
 
 Elastic bodies of GIMP particles lie at random places in a grid. With the nodes' mass M (lumped), stiffness K and viscous
 damping G (lagged by a step), and R = M^-1 sum m_p S_ip S_jp, the share of the nodes' velocities that particles hand back,
@@ -10,10 +8,12 @@ time_step.hpp), the least and the greatest over all samples: above 1 the rule is
 Units: cell, density and uniaxial modulus are 1. Only the standard library is used.
 """
 
-import argparse
 import itertools
 import math
 import random
+
+from tamp.markdown import print_head, print_row
+from tamp.options import count
 
 SHARED_STIFFNESS = 4.5
 LINEAR_VISCOSITY = 0.2
@@ -135,14 +135,14 @@ def at_the_bound(body, poisson, linear, rng):
     return body.largest_eigenvalue(rng, dt, lame, shear, linear * math.sqrt(bulk))
 
 
-def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--samples", type=int, default=6)
+def add_arguments(parser):
+    parser.add_argument("--samples", type=count, default=6)
     parser.add_argument("--seed", type=int, default=1)
-    options = parser.parse_args()
+
+
+def main(options):
     rng = random.Random(options.seed)
-    print("| dimension | particles an axis | body | without viscosity | with |")
-    print("| --- | --- | --- | --- | --- |")
+    print_head(["dimension", "particles an axis", "body", "without viscosity", "with"])
     for dimension, n in [(2, 1), (2, 2), (2, 3), (2, 4), (3, 1), (3, 2), (3, 3)]:
         found = {}
         for _ in range(options.samples):
@@ -155,8 +155,4 @@ def main():
                     found.setdefault((kind, linear), []).extend(values)
         for kind in ("block", "ball", "thinned", "alone"):
             ranges = [f"{min(v):.2f} to {max(v):.2f}" for v in (found[kind, 0], found[kind, LINEAR_VISCOSITY])]
-            print(f"| {dimension} | {n} | {kind} | {ranges[0]} | {ranges[1]} |", flush=True)
-
-
-if __name__ == "__main__":
-    main()
+            print_row([dimension, n, kind, *ranges])

@@ -1,29 +1,31 @@
-#!/usr/bin/env python3
-"""Takes one point of concrete sand along the paths of the report's companion, and prints what comes out beside it:
-
-    python3 tools/studies/companion_paths.py [--program build/release/tamp] [--increment 1e-4]
-        [--svr FILE] [--mlp FILE --scaling NUMBERS]
+"""Takes one point of concrete sand along the paths of the report's companion, and prints what comes out beside it.
 
 The companion (Banerjee 2020, PAR-10021867-092020-5) shows single particles along three paths: uniaxial, hydrostatic and
 multiaxial. Each is taken here with Table, SVR and MLP, with the strength column read as q and as sqrt(J2), in rate and
 in state form. Then: what SVR and MLP do beyond their data, what half the strain does on the multiaxial path, how q / p
 compares with dynamic tests, and how far increments and tolerance matter. Everything is compression positive. --svr and
 --mlp add other fits, such as the published ones, to the part on the range. --write-paths remakes the CSVs of the paths
-and does nothing else. Only the standard library is used.
+and does nothing else. Debian's python3-h5py is used.
 """
 
-import argparse
 import json
 import math
 import pathlib
-import struct
 import tempfile
 
-from companion import (
-    COMBINATIONS, COMPANION, MODELS, MULTIAXIAL, NAMES, ROOT, SAND, UNITS, Point, answer, at_time, companion_number,
-    companion_text, compared, multiaxial, off, read_rows, write_path, write_paths,
-)  # fmt: skip
-from markdown import print_table
+import numpy as np
+
+from tamp import files, program, results
+from tamp.fit.network import changed_copy
+from tamp.fit.support_vectors import SupportVectors
+from tamp.markdown import print_table
+from tamp.material.companion_paths import (
+    COMBINATIONS, COMPANION, MULTIAXIAL, NAMES, UNITS, Point, answer, at_time, companion_number, companion_text, compared,
+    multiaxial, off, read_texts, uniaxial, write_paths,
+)
+from tamp.material.drive import TIGHT
+from tamp.options import positive
+from tamp.program import MODELS, SAND
 
 # Ranges beyond what the runs come to, as the files have them: largest total and plastic strain in percent; least and
 # largest elastic, least and largest plastic strain.
@@ -48,8 +50,7 @@ def print_path(point, figures, path, file):
 
 def print_measured(figures, path):
     """What the companion shows as measured, beside the last row of our measured hydrostat."""
-    last = read_rows(SAND / "hydrostat.csv")[-1]
-    strain, pressure = float(last["total_volumetric[-]"]), float(last["pressure[Pa]"])
+    strain, pressure = (column[-1] for column in results.columns(SAND / "hydrostat.csv").values())
     for figure in figures:
         if (figure["path"], figure["model"]) == (path, "measured"):
             ours = compared(pressure, figure)
@@ -77,66 +78,27 @@ def print_sums(point, figures):
 # Beyond the range of the fits
 
 
-class SupportVectors:
-    """The sum of a fit as its file has it, with no regard to a range: an independent few lines."""
-
-    def __init__(self, path):
-        self.fit = json.loads(pathlib.Path(path).read_text())
-
-    def at(self, total, plastic):
-        """(pressure, bulk modulus)"""
-        fit = self.fit
-        scaled = [(strain / unit - lower) * scale for strain, unit, lower, scale in
-                  zip((total, plastic), fit["X_conversion_factor"], fit["X_min"], fit["X_scale"])]  # fmt: skip
-        pressure, slope = fit["intercept"][0], 0.0
-        for vector, coefficient in zip(fit["support_vectors"], fit["dual_coeffs"][0]):
-            apart = [v - x for v, x in zip(vector, scaled)]
-            term = coefficient * math.exp(-fit["gamma"] * (apart[0] ** 2 + apart[1] ** 2))
-            pressure, slope = pressure + term, slope + 2 * fit["gamma"] * apart[0] * term
-        per_pressure = fit["y_conversion_factor"] / fit["y_scale"][0]
-        lowest = fit["y_min"][0] * fit["y_conversion_factor"]
-        per_strain = fit["X_scale"][0] / fit["X_conversion_factor"][0]
-        return pressure * per_pressure + lowest, slope * per_pressure * per_strain
-
-
 def widened_svr(path, copy):
     """A copy whose file says that the data go further: the sum itself is untouched."""
-    fit = json.loads(pathlib.Path(path).read_text())
-    fit["X_max"] = WIDER["svr"]
-    copy.write_text(json.dumps(fit))
+    copy.write_text(json.dumps({**files.document(path), "X_max": WIDER["svr"]}))
     return copy
-
-
-def widened_mlp(path, copy):
-    """The same for a network that says its range itself, in four numbers that stand once in its file."""
-    content = pathlib.Path(path).read_bytes()
-    places = [i for i in range(len(content) - 31) if is_range(struct.unpack_from("<4d", content, i))]
-    if len(places) != 1:
-        raise SystemExit(f"{path}: {len(places)} places look like the range of a network, expected 1")
-    copy.write_bytes(content[: places[0]] + struct.pack("<4d", *WIDER["mlp"]) + content[places[0] + 32 :])
-    return copy
-
-
-def is_range(numbers):
-    least_elastic, most_elastic, least_plastic, most_plastic = numbers
-    return least_elastic == 0 == least_plastic and 0.1 < most_elastic < 0.2 and 0.3 < most_plastic < 0.35
 
 
 def print_range(point, figures, options):
     print("### Beyond the range of the fits: uniaxial, F11 = 0.6, rate form\n")
-    svr = [f"/modulus/svr={widened_svr(SAND / 'support_vectors.json', point.folder / 'widened.json')}"]
-    mlp = [f"/modulus/mlp={widened_mlp(SAND / 'network.h5', point.folder / 'widened.h5')}"]
+    svr = [("/modulus/svr", widened_svr(SAND / "support_vectors.json", point.folder / "widened.json"))]
+    mlp = [("/modulus/mlp", changed_copy(SAND / "network.h5", point.folder / "widened.h5", range=WIDER["mlp"]))]
     held, widened = "held at the edge, as shipped", "range widened"
     runs = [("svr", held, "q", ()), ("svr", widened, "q", svr), ("svr", widened, "sqrt_J2", svr),
-            ("mlp", held, "q", ()), ("mlp", widened, "q", mlp)]  # fmt: skip
+            ("mlp", held, "q", ()), ("mlp", widened, "q", mlp)]
     if options.svr:
-        other = [f"/modulus/svr={widened_svr(options.svr, point.folder / 'other.json')}"]
-        runs += [("svr", "other fit, held", "q", [f"/modulus/svr={pathlib.Path(options.svr).resolve()}"])]
+        other = [("/modulus/svr", widened_svr(options.svr, point.folder / "other.json"))]
+        runs += [("svr", "other fit, held", "q", [("/modulus/svr", options.svr.resolve())])]
         runs += [("svr", "other fit, range widened", "q", other)]
     if options.mlp:
-        other = [f"/modulus/mlp={pathlib.Path(options.mlp).resolve()}", f"/modulus/scaling=[{options.scaling}]"]
-        runs += [("mlp", "other fit, held", "q", [*other, f"/modulus/range={options.range}"])]
-        runs += [("mlp", "other fit, range widened", "q", [*other, f"/modulus/range={WIDER['mlp']}"])]
+        other = [("/modulus/mlp", options.mlp.resolve()), ("/modulus/scaling", f"[{options.scaling}]")]
+        runs += [("mlp", "other fit, held", "q", [*other, ("/modulus/range", options.range)])]
+        runs += [("mlp", "other fit, range widened", "q", [*other, ("/modulus/range", str(WIDER["mlp"]))])]
     rows, states = [], []
     for model, what, reading, settings in runs:
         state = at_time(point.drive(COMPANION / "uniaxial.csv", model, reading, settings=settings), 1)
@@ -156,7 +118,7 @@ def print_sum(fits, held, widened):
     rows = []
     for name, path in fits:
         for total, plastic in sorted(places) if path else []:
-            pressure, modulus = SupportVectors(path).at(total, plastic)
+            pressure, modulus = (value[0] for value in SupportVectors(path).fitted(np.array([total - plastic]), plastic))
             rows.append([name, f"{total:.4f}", f"{plastic:.4f}", f"{pressure / 1e9:.3f}", f"{modulus / 1e9:.2f}"])
     print_table(["", "total strain", "plastic strain", "p [GPa]", "K [GPa]"], rows)
 
@@ -164,24 +126,18 @@ def print_sum(fits, held, widened):
 # Other questions
 
 
-def interpolated(table, x):
-    i = next((i for i in range(1, len(table) - 1) if table[i][0] > x), len(table) - 1)
-    (x0, y0), (x1, y1) = table[i - 1 : i + 1]
-    return y0 + (y1 - y0) * (x - x0) / (x1 - x0)
-
-
 def pressure_on_crush_curve(crush_curve, modulus, total):
     """Where p = X(total - p / K): hydrostatic loading in rate form with a K that is constant."""
     low, high = 0.0, modulus * total
     while high - low > 1:
         middle = (low + high) / 2
-        low, high = (middle, high) if interpolated(crush_curve, total - middle / modulus) > middle else (low, middle)
+        low, high = (middle, high) if np.interp(total - middle / modulus, *crush_curve) > middle else (low, middle)
     return low
 
 
 def print_balance(figures):
     print("### Multiaxial at 1 s: p on the crush curve, with the companion's own K\n")
-    crush_curve = [tuple(float(number) for number in row.values()) for row in read_rows(SAND / "crush_curve.csv")]
+    crush_curve = list(results.columns(SAND / "crush_curve.csv").values())
     total = -3 * MULTIAXIAL[1][1]
     rows = []
     for model in MODELS:
@@ -195,7 +151,7 @@ def print_balance(figures):
 
 def print_half_strain(point, figures):
     print("### Multiaxial, with half the strain: q, rate form\n")
-    path = write_path(point.folder / "half.csv", "Half the strain.", multiaxial(0.5))
+    path = point.path("half", multiaxial(0.5))
     rows = []
     for figure in figures:
         if figure["path"] == "multiaxial":
@@ -208,14 +164,14 @@ def print_half_strain(point, figures):
 
 def print_dynamic(point):
     print("### q / p in uniaxial strain beside six dynamic tests of Mason sand\n")
-    tests, rows = read_rows(COMPANION / "dynamic_tests.csv"), []
+    tests, rows = read_texts(COMPANION / "dynamic_tests.csv"), []
     strains = sorted({float(test["axial_strain[-]"]) for test in tests})
     for name in sorted({test["test"] for test in tests}):
         rows.append([f"test {name}", *(test_text(test) for test in tests if test["test"] == name)])
-    path = write_path(point.folder / "compression.csv", "Uniaxial.", [(0, 1, 1), *((e, 1 - e, 1) for e in strains)])
+    path = point.path("compression", uniaxial([(0, 1), *((e, 1 - e) for e in strains)]))
     for measure in ("logarithmic", "engineering"):
         for reading, form in COMBINATIONS:
-            run = point.drive(path, "table", reading, form, [f"/strain_measure={measure}"])
+            run = point.drive(path, "table", reading, form, [("/strain_measure", measure)])
             states = [at_time(run, strain) for strain in strains]
             cells = [f"{state['q/p']:.2f} at {state['p'] / 1e6:.0f}" for state in states]
             rows.append([f"Table, {reading}, {form}, strain read as {measure}", *cells])
@@ -230,28 +186,28 @@ def test_text(test):
 def print_accuracy(point):
     print("### Table, uniaxial, F11 = 0.6, q, rate form: increments and tolerance\n")
     rows = []
-    tight = ("/tolerance=1e-8", "/max_substeps=100000")
-    for increment, settings in ((1e-3, ()), (1e-4, ()), (1e-4, tight), (1e-5, ())):
+    for increment, settings in ((1e-3, ()), (1e-4, ()), (1e-4, TIGHT.items()), (1e-5, ())):
         state = at_time(point.drive(COMPANION / "uniaxial.csv", "table", settings=settings, increment=increment), 1)
         numbers = [f"{state[name] / 1e9:.5g}" for name in ("s11", "s22", "p", "s11-s22", "cap", "K")]
         rows.append([f"{increment:g}", "1e-8" if settings else "default", *numbers])
     print_table(["increment", "tolerance", "s11 [GPa]", "s22", "p", "q", "cap", "K"], rows)
 
 
-def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--program", default=ROOT / "build/release/tamp")
-    parser.add_argument("--increment", type=float, default=1e-4)
-    parser.add_argument("--svr", help="another support-vector fit, in the published layout")
-    parser.add_argument("--mlp", help="another network, that does not say its own scaling and range")
+def add_arguments(parser):
+    program.add_option(parser)
+    parser.add_argument("--increment", type=positive, default=1e-4)
+    parser.add_argument("--svr", type=pathlib.Path, help="another support-vector fit, in the published layout")
+    parser.add_argument("--mlp", type=pathlib.Path, help="another network, that does not say its own scaling and range")
     parser.add_argument("--scaling", help="its mean_e,sd_e,mean_p,sd_p,mean_K,sd_K")
     parser.add_argument("--range", default="[0, 0.132, 0, 0.32]", help="its range where it is held (%(default)s)")
     parser.add_argument("--write-paths", action="store_true")
-    options = parser.parse_args()
+
+
+def main(options):
     if options.write_paths:
         return write_paths()
 
-    figures = read_rows(COMPANION / "figures.csv")
+    figures = read_texts(COMPANION / "figures.csv")
     with tempfile.TemporaryDirectory() as folder:
         point = Point(options, folder)
         for path in ("uniaxial", "hydrostatic", "multiaxial"):
@@ -263,7 +219,3 @@ def main():
         print_balance(figures)
         print_dynamic(point)
         print_accuracy(point)
-
-
-if __name__ == "__main__":
-    main()

@@ -1,36 +1,29 @@
-"""Takes the sand models along paths of one material point with `tamp drive`, and prints what comes out as Markdown:
-
-    python3 tools/studies/material_paths.py [PATH...] [--tamp build/release/tamp] [--models table svr mlp]
+"""Takes the sand models along paths of one material point, and prints what comes out as Markdown.
 
 Hydrostatic loading and unloading against the measured curves; how far stress gets outside of the yield surface, whether
 plastic work ever falls, and what half the increment changes, on uniaxial and multiaxial paths; and what a superposed
-rotation changes. PATHs (files of prescribed deformation) are added to the last two. Only the standard library is used.
+rotation changes. PATHs (files of prescribed deformation) are added to the last two.
 """
 
-import argparse
 import bisect
-import csv
 import math
 import pathlib
-import subprocess
 import tempfile
 
-SAND = pathlib.Path(__file__).resolve().parents[2] / "inputs" / "materials" / "concrete-sand"
+import numpy as np
+
+from tamp import program, results
+from tamp.markdown import print_table
+from tamp.material.drive import diagonal, drive, legs
+from tamp.program import MODELS, SAND
+
 FORMS = ["state", "rate"]
 INCREMENT = 1e-3
-ROWS_A_LEG = 10  # of a path that is made here
 TURN = 90.0  # degrees of superposed rotation at a path's end
 AXIS = (1, 2, 2)
 
 
 # Files
-
-
-def read_columns(path):
-    """{name without its unit: values}"""
-    with open(path, newline="") as file:
-        rows = list(csv.reader(line for line in file if not line.startswith("#")))
-    return {name.split("[")[0]: [float(row[i]) for row in rows[1:]] for i, name in enumerate(rows[0])}
 
 
 def write_path(path, deformations, turn=0.0):
@@ -61,24 +54,10 @@ def write_turned(path, source):
 # Paths, by the corners of their legs
 
 
-def diagonal(xx, yy, zz):
-    return (xx, 0, 0, 0, yy, 0, 0, 0, zz)
-
-
 def isotropic(compression):
     """F of a logarithmic volumetric strain."""
     stretch = math.exp(-compression / 3)
     return diagonal(stretch, stretch, stretch)
-
-
-def legs(corners):
-    """Straight from corner to corner, in rows near enough that results can be compared at them."""
-    rows = [corners[0]]
-    for start, end in zip(corners, corners[1:]):
-        for i in range(1, ROWS_A_LEG + 1):
-            s = i / ROWS_A_LEG
-            rows.append(tuple((1 - s) * a + s * b for a, b in zip(start, end)))
-    return rows
 
 
 def uniaxial(*stretches):
@@ -110,17 +89,18 @@ class Measured:
     """The measured hydrostat, and the unloading curves by their plastic strain."""
 
     def __init__(self):
-        self.hydrostat = read_columns(SAND / "hydrostat.csv")
-        table = read_columns(SAND / "unloading.csv")
+        self.hydrostat = results.columns(SAND / "hydrostat.csv")
+        table = results.columns(SAND / "unloading.csv")
         self.unloading = {}
         for plastic, elastic, pressure in zip(*table.values()):
             self.unloading.setdefault(plastic, []).append((elastic, pressure))
 
     def loading_pressure(self, strain):
-        return interpolated(self.hydrostat["total_volumetric"], self.hydrostat["pressure"], strain)
+        return np.interp(strain, self.hydrostat["total_volumetric"], self.hydrostat["pressure"])
 
 
 def interpolated(xs, ys, x):
+    """Straight on beyond the ends."""
     i = min(max(bisect.bisect_right(xs, x), 1), len(xs) - 1)
     return ys[i - 1] + (ys[i] - ys[i - 1]) * (x - xs[i - 1]) / (xs[i] - xs[i - 1])
 
@@ -133,26 +113,21 @@ class Point:
         self.tamp, self.folder = tamp, pathlib.Path(folder)
 
     def drive(self, model, form, path, increment=INCREMENT):
-        """Columns of `tamp drive`."""
-        out = self.folder / "out.csv"
-        command = [self.tamp, "drive", SAND / f"{model}.json", path, "--set", f"/elastic_update={form}"]
-        subprocess.run([*command, "--increment", repr(increment), "--out", out], check=True)
-        return read_columns(out)
+        return drive(self.tamp, SAND / f"{model}.json", path, increment, {"/elastic_update": form})
 
 
 def stresses(columns):
     """Cauchy stress of each row, off-diagonal components weighted so that the length is the tensor's."""
     weights = {"s11": 1, "s22": 1, "s33": 1, "s23": math.sqrt(2), "s13": math.sqrt(2), "s12": math.sqrt(2)}
-    scaled = [[weight * value for value in columns[name]] for name, weight in weights.items()]
-    return list(zip(*scaled))
+    return np.column_stack([weight * columns[name] for name, weight in weights.items()])
 
 
 def length(vector):
-    return math.sqrt(sum(x * x for x in vector))
+    return np.linalg.norm(vector)
 
 
 def at_times(columns, values, times):
-    return dict((time, value) for time, value in zip(columns["time"], values) if time in times)
+    return {time: value for time, value in zip(columns["time"], values) if time in times}
 
 
 def change_by_half_increment(point, model, form, path):
@@ -161,7 +136,7 @@ def change_by_half_increment(point, model, form, path):
     runs = [point.drive(model, form, path, increment) for increment in (INCREMENT, INCREMENT / 2)]
     coarse, fine = (at_times(run, stresses(run), times) for run in runs)
     floor = 0.01 * max(length(stress) for stress in fine.values())
-    changes = (length([a - b for a, b in zip(coarse[t], fine[t])]) / max(length(fine[t]), floor) for t in times)
+    changes = (length(coarse[t] - fine[t]) / max(length(fine[t]), floor) for t in times)
     return max(changes)
 
 
@@ -169,21 +144,11 @@ def change_by_turning(point, model, form, path):
     """The largest change of p and q under a superposed rotation, over the larger of both at that row."""
     straight = point.drive(model, form, path)
     turned = point.drive(model, form, write_turned(point.folder / "turned.inp", path))
-    worst = 0
-    for p, q, turned_p, turned_q in zip(straight["p"], straight["q"], turned["p"], turned["q"], strict=True):
-        worst = max(worst, max(abs(p - turned_p), abs(q - turned_q)) / max(abs(p), q, 1.0))
-    return worst
+    apart = np.maximum(abs(straight["p"] - turned["p"]), abs(straight["q"] - turned["q"]))
+    return (apart / np.maximum.reduce([abs(straight["p"]), straight["q"], np.ones(len(apart))])).max()
 
 
 # Tables
-
-
-def print_table(header, rows):
-    print("| " + " | ".join(header) + " |")
-    print("| --- " * len(header) + "|")
-    for row in rows:
-        print("| " + " | ".join(cell if isinstance(cell, str) else f"{cell:.3g}" for cell in row) + " |")
-    print()
 
 
 def combinations(models):
@@ -196,10 +161,10 @@ def print_loading(point, measured, models):
     columns, worst = [], []
     for model, form in combinations(models):
         run = point.drive(model, form, path)
-        ratio = [p / measured.loading_pressure(v) for v, p in zip(run["strain_v"], run["p"]) if v > 0.0099]
-        strain = run["strain_v"][-len(ratio) :]
+        strain = run["strain_v"][run["strain_v"] > 0.0099]
+        ratio = run["p"][-len(strain) :] / measured.loading_pressure(strain)
         columns.append([interpolated(strain, ratio, wanted) for wanted in strains])
-        worst.append(max(abs(r - 1) for r in ratio))
+        worst.append(abs(ratio - 1).max())
     print("### Monotone hydrostatic loading: p over the measured hydrostat\n")
     rows = [[f"{strain:.2f}", *(f"{column[i]:.4f}" for column in columns)] for i, strain in enumerate(strains)]
     rows.append(["largest error from 1 % up", *(f"{100 * error:.3g} %" for error in worst)])
@@ -211,7 +176,7 @@ def unloading_errors(run, turn, plastic, curve):
     elastic strain, and at equal total strain, both from 1 % of elastic strain up; and at equal total strain everywhere,
     over the pressure at the turn."""
     elastic, pressure = zip(*curve)
-    i = min(range(len(run["p"])), key=lambda i: abs(run["strain_v"][i] - turn))
+    i = abs(run["strain_v"] - turn).argmin()
     at_elastic = at_total = over_top = 0.0
     while run["strain_v"][i] > plastic + 1e-9:
         by_elastic = interpolated(elastic, pressure, run["elastic_v"][i])
@@ -250,9 +215,9 @@ def print_general(point, paths, models):
         for model, form in combinations(models):
             run = point.drive(model, form, path)
             work = run["plastic_work"]
-            least = min(b - a for a, b in zip(work, work[1:])) / max(work[-1], 1e-300)
+            least = np.diff(work).min() / max(work[-1], 1e-300)
             change = change_by_half_increment(point, model, form, path)
-            rows.append([name, f"{model}, {form}", max(run["outside"]), least, f"{100 * change:.3g} %",
+            rows.append([name, f"{model}, {form}", f"{max(run['outside']):.3g}", f"{least:.3g}", f"{100 * change:.3g} %",
                          f"{sum(run['substeps']):.0f} in {len(work) - 1:.0f}"])
     print_table(["path", "model", "outside of the yield surface, over its length",
                  "least plastic work of an increment, over all of it", "half the increment changes stress by",
@@ -261,29 +226,25 @@ def print_general(point, paths, models):
 
 def print_objectivity(point, paths, models):
     print(f"### A superposed rotation by {TURN:.0f} degrees about {AXIS}: largest relative change of p and q\n")
-    rows = [[name, *(change_by_turning(point, model, form, path) for model, form in combinations(models))]
+    rows = [[name, *(f"{change_by_turning(point, model, form, path):.3g}" for model, form in combinations(models))]
             for name, path in paths.items()]
     print_table(["path", *(f"{model}, {form}" for model, form in combinations(models))], rows)
 
 
-def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--tamp", default="build/release/tamp", help="the program")
-    parser.add_argument("--models", nargs="+", default=["table", "svr", "mlp"])
-    parser.add_argument("path", nargs="*", help="files of prescribed deformation")
-    options = parser.parse_args()
+def add_arguments(parser):
+    parser.add_argument("paths", nargs="*", type=pathlib.Path, metavar="PATH", help="files of prescribed deformation")
+    parser.add_argument("--models", nargs="+", default=list(MODELS))
+    program.add_option(parser)
 
+
+def main(options):
     measured = Measured()
     with tempfile.TemporaryDirectory() as folder:
         point = Point(options.tamp, folder)
         print_loading(point, measured, options.models)
         print_unloading(point, measured, options.models)
-        paths = {name: write_path(pathlib.Path(folder) / f"{i}.inp", deformations)
+        paths = {name: write_path(point.folder / f"{i}.inp", deformations)
                  for i, (name, deformations) in enumerate(general_paths().items())}
-        paths.update((pathlib.Path(path).stem, path) for path in options.path)
+        paths.update((path.stem, path) for path in options.paths)
         print_general(point, paths, options.models)
         print_objectivity(point, paths, options.models)
-
-
-if __name__ == "__main__":
-    main()

@@ -1,8 +1,4 @@
-#!/usr/bin/env python3
 """What the depth and the angle of the projectile depend on, one thing at a time, beside the report's.
-
-    tools/studies/projectile_report.py [--program build/release/tamp] [--out runs/projectile-report] [--cells 5 2.5]
-                                       [--cases base own ...] [--end 8.5e-4] [--print-only]
 
 Runs inputs/uxo/quick.json with a base of settings that is given in full below, and once more for each case, which changes
 one thing. The box is a part of the scene's; sand that is torn comes apart, which takes a third of the steps. Runs that
@@ -10,22 +6,20 @@ are finished are kept in --out and not repeated; --print-only prints those and r
 nose and tail below the first surface and the angle of the axis below the horizontal at five times; what each case is
 worth; stresses and plastic strain near the nose; and an estimate from the momentum and from the exact shock of the
 piston. On one core a run to 0.85 ms takes about 20 s on cells of 5 mm and 6 to 8 minutes on 2.5 mm; the deformable
-projectile takes some 5 minutes on 5 mm."""
+projectile takes some 5 minutes on 5 mm.
+"""
 
-import argparse
 import bisect
-import csv
 import json
 import math
 import pathlib
-import resource
-import subprocess
 
-import ranks
-from markdown import print_table
+from tamp import files, program, results
+from tamp.markdown import print_table
+from tamp.options import positive
+from tamp.program import INPUTS, ROOT, SAND
 
-UXO = ranks.ROOT / "inputs" / "uxo"
-SAND = ranks.ROOT / "inputs" / "materials" / "concrete-sand"
+UXO = INPUTS / "uxo"
 SURFACE = 0.1075
 TIMES = [1e-4, 2e-4, 4e-4, 6e-4, 8.5e-4]
 NOSE = [0.045, 0.05, 0.1085]
@@ -52,7 +46,7 @@ def base(millimetres, end):
         "/materials/projectile/particles_per_axis": 6 if millimetres >= 5 else 5,
         "/bodies/projectile/rigid": True, "/contact/0/normal": "regression", "/contact/0/friction": 0.1,
         "/output/fields_interval": 1, "/output/history_interval": 2e-6, "/limits/energy_error": "off",
-    }  # fmt: skip
+    }
 
 
 def longer(density):
@@ -60,12 +54,12 @@ def longer(density):
     reach = 0.05 / math.sqrt(2)
     tail = [round(NOSE[0] - reach, 8), NOSE[1], round(NOSE[2] + reach, 8)]
     return {"/bodies/projectile/geometry/of/file": str(UXO / "projectile_50mm.json"), "/bodies/projectile/tail": tail,
-            "/materials/projectile/density": density, "/grid/upper": [*UPPER[:2], 0.17]}  # fmt: skip
+            "/materials/projectile/density": density, "/grid/upper": [*UPPER[:2], 0.17]}
 
 
 OWN = {"/contact/0/normal": "projectile", "/transfer": "flip"}
 SOLID = {"/bodies/projectile/rigid": False, "/time/rule": "published", "/time/multiplier": 0.2,
-         "/materials/projectile/particles_per_axis": 10}  # fmt: skip
+         "/materials/projectile/particles_per_axis": 10}
 SQRT_J2 = {"/materials/sand/yield/file": str(SAND / "yield_sqrt_J2.csv")}
 HEAVIER = 8204  # 15.9 g in the volume of 41 mm
 MESH = 4512  # 15.86 g, the published mesh's mass, in ours of 50 mm
@@ -106,21 +100,18 @@ CASES = {
     "own_def_50": ("and deformable, 15.9 g in 50 mm", {**OWN, **SOLID, **longer(MESH)}, "own"),
     "def": ("deformable", SOLID, "base"),
     "50_vis14": ("15.9 g in 50 mm, viscosity 1 / 4", {**longer(MESH), **viscosity(1, 4)}, "base"),
-}  # fmt: skip
+}
 
 
 def complete(folder, given):
     mark = folder / "given.json"
-    return (folder / "history.csv").exists() and mark.exists() and json.loads(mark.read_text()) == given
+    return (folder / "history.csv").exists() and mark.exists() and files.document(mark) == given
 
 
-def run(program, given, folder):
+def run(tamp, given, folder):
     """Runs, and marks the run with what was asked and its user time only when it is finished."""
-    sets = [word for key, value in given.items() for word in ("--set", f"{key}={json.dumps(value)}")]
-    before = resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime
-    command = [program, "run", UXO / "quick.json", "--out", folder, "--force", "--quiet", "--threads", "1", *sets]
-    subprocess.run(command, check=True)
-    user = resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime - before
+    folder.parent.mkdir(parents=True, exist_ok=True)
+    user, _ = program.timed_run(tamp, UXO / "quick.json", folder, settings=given)
     (folder / "user_s.txt").write_text(f"{user:.1f}\n")
     (folder / "given.json").write_text(json.dumps(given, indent=1))
 
@@ -129,15 +120,14 @@ class Run:
     """Rows of a finished run."""
 
     def __init__(self, folder):
-        with open(folder / "history.csv", newline="") as file:
-            self.rows = [{name: float(text) for name, text in row.items()} for row in csv.DictReader(file)]
+        self.rows = results.rows_of(results.history(folder))
         self.user = float((folder / "user_s.txt").read_text())
         self.steps = int(self.rows[-1]["step"])
 
     def at(self, time):
         """None beyond the end."""
-        row = min(self.rows, key=lambda one: abs(one["time[s]"] - time))
-        return row if abs(row["time[s]"] - time) < 4e-6 else None
+        row = min(self.rows, key=lambda one: abs(one["time"] - time))
+        return row if abs(row["time"] - time) < 4e-6 else None
 
     def deepest(self):
         return max(self.rows, key=depth)
@@ -145,15 +135,15 @@ class Run:
 
 def depth(row, end="nose"):
     """Below the first surface [mm]."""
-    return 1000 * (SURFACE - row[f"projectile.{end}_z[m]"])
+    return 1000 * (SURFACE - row[f"projectile.{end}_z"])
 
 
 def angle(row):
-    return row["projectile.axis_angle[deg]"]
+    return row["projectile.axis_angle"]
 
 
 def speed(row):
-    return math.hypot(*(row[f"projectile.velocity_{axis}[m/s]"] for axis in "xyz"))
+    return math.hypot(*(row[f"projectile.velocity_{axis}"] for axis in "xyz"))
 
 
 def position(row):
@@ -167,8 +157,8 @@ def print_positions(runs, millimetres):
     for name, one in runs.items():
         deepest = one.deepest()
         rows.append([CASES[name][0], *(position(one.at(time)) for time in TIMES),
-                     f"{depth(deepest):.1f} at {1e3 * deepest['time[s]']:.2f} ms", f"{speed(one.rows[-1]):.0f} m/s",
-                     f"{one.steps}", f"{one.user:.0f} s"])  # fmt: skip
+                     f"{depth(deepest):.1f} at {1e3 * deepest['time']:.2f} ms", f"{speed(one.rows[-1]):.0f} m/s",
+                     f"{one.steps}", f"{one.user:.0f} s"])
     print_table(header, rows)
 
 
@@ -185,7 +175,7 @@ def print_worth(of_cells):
             for time in (2e-4, 6e-4):
                 ends = [runs[one].at(time) if one in runs else None for one in (name, other)]
                 row.append("" if None in ends else f"{depth(ends[0]) - depth(ends[1]):+.1f}, "
-                                                   f"{angle(ends[0]) - angle(ends[1]):+.0f}")  # fmt: skip
+                                                   f"{angle(ends[0]) - angle(ends[1]):+.0f}")
         if any(row[1:]):
             rows.append(row)
     print_table(header, rows)
@@ -198,17 +188,16 @@ def print_stresses(runs, millimetres):
         row = [CASES[name][0]]
         for time in TIMES[:4]:
             at = one.at(time)
-            near = [] if at is None else [at[f"sand.near_nose.{key}"] for key in
-                                          ("p_max[Pa]", "q_max[Pa]", "plastic_volumetric_max[-]")]  # fmt: skip
+            near = [] if at is None else [at[f"sand.near_nose.{key}_max"] for key in ("p", "q", "plastic_volumetric")]
             row.append("" if at is None else f"{near[0] / 1e6:.0f}, {near[1] / 1e6:.0f}, {100 * near[2]:.1f}; "
-                                             f"{speed(at):.0f}")  # fmt: skip
+                                             f"{speed(at):.0f}")
         rows.append(row)
     print_table(["", *(f"{1e3 * time:g} ms" for time in TIMES[:4])], rows)
 
 
 # The estimate
 
-# Speed of a piston [m/s] and the exact axial stress behind its shock [Pa], q, rate form (tools/studies/hugoniot.py).
+# Speed of a piston [m/s] and the exact axial stress behind its shock [Pa], q, rate form (`hugoniot`).
 SHOCK = [(20, 12.979741e6), (50, 35.557124e6), (100, 93.113954e6), (200, 271.96231e6)]
 NOSE_LENGTH, RADIUS, TIP = 18.45e-3, 5.8e-3, 1e-3
 
@@ -255,7 +244,7 @@ def print_estimate():
     area, mass = math.pi * RADIUS**2, 9.69e-3
     stops = mass * SPEED / 6e-4 / area
     print(f"Momentum over area and time: {mass * 1e3:.1f} g at {SPEED} m/s over {area * 1e6:.0f} mm2 stop in 0.6 ms at a "
-          f"mean stress of {stops / 1e6:.0f} MPa.\n")  # fmt: skip
+          f"mean stress of {stops / 1e6:.0f} MPa.\n")
     rows = []
     for what, mass, scale in (("41 mm, 9.7 g", 9.69e-3, 1), ("41 mm, 15.9 g", 15.9e-3, 1), ("50 mm, 15.9 g", 15.86e-3, 50 / 41)):
         ways = straight_way(mass, scale)
@@ -263,15 +252,16 @@ def print_estimate():
     print_table(["straight at 45 degrees, depth of the nose", *(f"{1e3 * time:g} ms" for time in TIMES)], rows)
 
 
-def main():
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("--program", type=pathlib.Path, default=ranks.ROOT / "build/release/tamp")
-    parser.add_argument("--out", type=pathlib.Path, default=ranks.ROOT / "runs/projectile-report")
-    parser.add_argument("--cells", type=float, nargs="+", default=[5, 2.5], help="mm; 5 mm divided by a whole number")
+def add_arguments(parser):
+    program.add_option(parser)
+    parser.add_argument("--out", type=pathlib.Path, default=ROOT / "runs/projectile-report")
+    parser.add_argument("--cells", type=positive, nargs="+", default=[5, 2.5], help="mm; 5 mm divided by a whole number")
     parser.add_argument("--cases", nargs="+", default=list(CASES), choices=list(CASES))
-    parser.add_argument("--end", type=float, default=TIMES[-1], help="[s]")
+    parser.add_argument("--end", type=positive, default=TIMES[-1], help="[s]")
     parser.add_argument("--print-only", action="store_true", help="print the runs that --out has, whatever their end")
-    options = parser.parse_args()
+
+
+def main(options):
     of_cells = {}
     for millimetres in options.cells:
         runs = of_cells[millimetres] = {}
@@ -279,7 +269,7 @@ def main():
             folder = options.out / f"{millimetres:g}_{name}"
             given = {**base(millimetres, options.end), **CASES[name][1]}
             if not options.print_only and not complete(folder, given):
-                run(options.program, given, folder)
+                run(options.tamp, given, folder)
             if (folder / "given.json").exists():
                 runs[name] = Run(folder)
     for millimetres, runs in of_cells.items():
@@ -287,7 +277,3 @@ def main():
         print_stresses(runs, millimetres)
     print_worth(of_cells)
     print_estimate()
-
-
-if __name__ == "__main__":
-    main()

@@ -1,7 +1,4 @@
-#!/usr/bin/env python3
 """A sand whose curves are smooth, for verification: tables remade from formulas, compression positive.
-
-    python3 tools/studies/smooth_sand.py [FOLDER]
 
 Hydrostatic loading follows A (exp(B v) - 1), unloading from any plastic strain K / n (exp(n e) - 1), and yield is a
 cone of slope M from the tension vertex on. The constants make it about as stiff as the concrete sand. Rows are as close
@@ -10,7 +7,9 @@ as it takes for the curves between them, straight or cubic, to be within 1e-5 of
 
 import math
 import pathlib
-import sys
+
+from tamp import files
+from tamp.program import INPUTS
 
 A, B = 20e6, 10.0  # Pa, 1
 K, N = 0.4e9, 40.0  # Pa, 1
@@ -20,22 +19,20 @@ N_HYDROSTAT, N_UNLOADING = 700, 100
 
 
 def write(path, what, columns, rows):
-    lines = [
-        f"# {what} of a sand that is none: smooth curves, for verification.",
-        "# Made by tools/studies/smooth_sand.py.",
-        columns,
-    ]
-    lines += [",".join(f"{value:.10g}" for value in row) for row in rows]
-    path.write_text("\n".join(lines) + "\n")
+    remarks = [f"{what} of a sand that is none: smooth curves, for verification.", "Made by tools/python/tamp smooth-sand."]
+    files.write_table(path, remarks, columns, rows)
 
 
 def spaced(last, n):
     return [last * i / n for i in range(n + 1)]
 
 
-def main():
-    folder = pathlib.Path(sys.argv[1] if len(sys.argv) > 1 else "inputs/materials/smooth-sand")
-    folder.mkdir(parents=True, exist_ok=True)
+def add_arguments(parser):
+    parser.add_argument("--out", type=pathlib.Path, default=INPUTS / "materials/smooth-sand")
+
+
+def main(options):
+    folder = options.out
     hydrostat = [(v, A * math.expm1(B * v)) for v in spaced(LAST_TOTAL, N_HYDROSTAT)]
     unloading = [(e, K / N * math.expm1(N * e)) for e in spaced(LAST_ELASTIC, N_UNLOADING)]
     curves = [(plastic, *point) for plastic in (LAST_PLASTIC / 2, LAST_PLASTIC) for point in unloading]
@@ -44,7 +41,3 @@ def main():
     columns = "plastic_volumetric[-],elastic_volumetric[-],pressure[Pa]"
     write(folder / "unloading.csv", "Hydrostatic unloading", columns, curves)
     write(folder / "yield.csv", "Yield in triaxial compression", "pressure[Pa],sqrt_J2[Pa]", cone)
-
-
-if __name__ == "__main__":
-    main()

@@ -1,22 +1,20 @@
-#!/usr/bin/env python3
 """Tries what used to go wrong, and prints how it ends now: a table of commands, exit codes and first lines of stderr.
 
-    tools/studies/failures.py [--tamp build/release/tamp]
+It takes about two minutes. The exit code is 1 if any ended otherwise than the table says it should.
+"""
 
-It takes about two minutes. The exit code is 1 if any ended otherwise than the table says it should."""
-
-import argparse
 import json
 import os
 import pathlib
 import shutil
 import signal
 import subprocess
-import sys
 import tempfile
 import time
 
-ROOT = pathlib.Path(__file__).resolve().parents[2]
+from tamp import program
+from tamp.markdown import print_head, print_row
+
 BALL = '{"type":"ball","centre":[0.5,0.6],"radius":0.05}'
 
 
@@ -24,27 +22,27 @@ class Trials:
     def __init__(self, tamp, folder):
         self.tamp, self.folder = tamp.resolve(), folder
         self.n_wrong = 0
-        shutil.copytree(ROOT / "inputs", folder / "inputs")
-        print("| tried | command | exit code | says |\n| --- | --- | --- | --- |")
+        shutil.copytree(program.INPUTS, folder / "inputs")
+        print_head(["tried", "command", "exit code", "says"])
 
     def shell(self, command):
         done = subprocess.run(["bash", "-c", command], cwd=self.folder, capture_output=True, text=True, timeout=120,
                               env={**os.environ, "PATH": f"{self.tamp.parent}:{os.environ['PATH']}"})
         return done.returncode, done.stderr
 
-    def tell(self, what, command, code, expected, text):
+    def add(self, what, command, code, expected, text):
         self.n_wrong += code != expected
         said = [line for line in text.splitlines() if line.startswith("tamp: ")]
         line = said[0][6:] if said else ""
         line = line.replace(str(self.folder) + "/", "").replace("|", "\\|")
         mark = "" if code == expected else f" (expected {expected})"
-        print(f"| {what} | `{command}` | {code}{mark} | {line[:230]} |", flush=True)
+        print_row([what, f"`{command}`", f"{code}{mark}", line[:230]])
 
     def trial(self, what, command, expected, before=""):
         if before:
             self.shell(before)
         code, text = self.shell(command)
-        self.tell(what, command.replace("|", "\\|"), code, expected, text)
+        self.add(what, command.replace("|", "\\|"), code, expected, text)
 
     def in_background(self, what, arguments, number, expected):
         """A run that gets a signal once it has written a checkpoint."""
@@ -55,7 +53,7 @@ class Trials:
             time.sleep(0.05)
         process.send_signal(number)
         _, text = process.communicate()
-        self.tell(what, arguments, process.returncode, expected, text)
+        self.add(what, arguments, process.returncode, expected, text)
 
 
 def folders(trials):
@@ -123,17 +121,14 @@ def physics(trials):
     trials.trial("faster than any wave", "tamp check inputs/punch/quick.json --set /bodies/punch/velocity=[0,-9000]", 0)
 
 
-def main():
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("--tamp", type=pathlib.Path, default=ROOT / "build/release/tamp")
-    options = parser.parse_args()
+def add_arguments(parser):
+    program.add_option(parser)
+
+
+def main(options):
     with tempfile.TemporaryDirectory() as folder:
         trials = Trials(options.tamp, pathlib.Path(folder))
         for group in (folders, budgets, resources, physics):
             group(trials)
     print(f"\n{trials.n_wrong} ended otherwise than they should")
     return 1 if trials.n_wrong else 0
-
-
-if __name__ == "__main__":
-    sys.exit(main())

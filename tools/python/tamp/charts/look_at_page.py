@@ -1,25 +1,23 @@
-#!/usr/bin/env python3
 """Opens a page in Chromium without a window, wide, dark and as narrow as a phone, and says what its console says.
-
-    tools/studies/look_at_page.py PAGE.html OUT_FOLDER [--chromium chromium] [--height 4000] [--chosen]
 
 Written are OUT_FOLDER/wide.png, dark.png and phone.png. On each page it chooses points by script, as a person would, and
 measures whether the page is wider than the window. The exit code is 1 where the console complains, the page scrolls
-sideways, or a point that is chosen shows nothing. The tests do not need a browser; Debian's chromium is used."""
+sideways, or a point that is chosen shows nothing. The tests do not need a browser; Debian's chromium is used.
+"""
 
-import argparse
 import html
 import pathlib
 import re
 import subprocess
-import sys
 import tempfile
+
+from tamp.options import count
 
 # A window of Chromium is 500 pixels wide at least; a phone is a frame within it.
 LOOKS = {"wide": (1280, []), "dark": (1280, ["--blink-settings=preferredColorScheme=0"]), "phone": (360, [])}
 FLAGS = ["--headless", "--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run", "--disable-background-networking",
          "--disable-component-update", "--disable-sync", "--allow-file-access-from-files", "--enable-logging=stderr", "--v=0",
-         "--hide-scrollbars", "--virtual-time-budget=4000"]  # fmt: skip
+         "--hide-scrollbars", "--virtual-time-budget=4000"]
 
 # Chooses every point, and leaves what it finds in the title of the outer page.
 PROBE = """
@@ -46,7 +44,7 @@ frame.onload = () => {
 def framed(page, width, height, chosen):
     return (f'<!DOCTYPE html><html><head><title>not loaded</title><link rel="icon" href="data:,"></head><body style="margin:0">'
             f'<iframe src="{html.escape(page.resolve().as_uri())}" style="border:0;width:{width}px;height:{height}px"></iframe>'
-            f"<script>{PROBE.replace('CHOSEN', str(chosen).lower())}</script></body></html>")  # fmt: skip
+            f"<script>{PROBE.replace('CHOSEN', str(chosen).lower())}</script></body></html>")
 
 
 def chromium(options, folder, page, flags):
@@ -69,19 +67,16 @@ def look(options, name, width, flags, folder):
     return not complaints and ", 0 that show nothing, 0 panels" in said and too_wide is not None and int(too_wide[1]) <= 0
 
 
-def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("page", type=pathlib.Path)
-    parser.add_argument("out", type=pathlib.Path)
+def add_arguments(parser):
+    parser.add_argument("page", type=pathlib.Path, metavar="PAGE.html")
+    parser.add_argument("out", type=pathlib.Path, metavar="OUT_FOLDER")
     parser.add_argument("--chromium", default="chromium")
-    parser.add_argument("--height", type=int, default=4000, help="of the window (%(default)s)")
+    parser.add_argument("--height", type=count, default=4000, help="of the window (%(default)s)")
     parser.add_argument("--chosen", action="store_true", help="leave a point chosen in the pictures")
-    options = parser.parse_args()
+
+
+def main(options):
     options.out.mkdir(parents=True, exist_ok=True)
     with tempfile.TemporaryDirectory() as folder:
         sound = [look(options, name, width, flags, pathlib.Path(folder)) for name, (width, flags) in LOOKS.items()]
     return 0 if all(sound) else 1
-
-
-if __name__ == "__main__":
-    sys.exit(main())

@@ -1,0 +1,1 @@
+"""Checks of the program: the same bits, ends that are right, forecasts, restarts, scaling."""

@@ -1,0 +1,1 @@
+"""One material point along paths, and curves of materials."""

@@ -1,0 +1,1 @@
+"""What the choice of a method, or of what it is given, does to a run."""
