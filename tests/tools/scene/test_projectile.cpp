@@ -6,6 +6,7 @@
 
 #include "components/geometry/closed_mesh.hpp"
 #include "components/geometry/fill.hpp"
+#include "tests/tools/program.hpp"
 #include "tests/tools/scene/small_scene.hpp"
 
 namespace test_projectile
@@ -36,9 +37,17 @@ components::Solid<3> drawn()
   return projectile(R"({"file":")" TAMP_SOURCE_DIR R"(/inputs/uxo/projectile.json"})");
 }
 
+/// Its surface, in millimetres, as inputs/uxo/README.md has it made.
 components::Solid<3> meshed()
 {
-  return projectile(R"({"type":"mesh","stl":")" TAMP_SOURCE_DIR R"(/inputs/uxo/projectile.stl","scale":1e-3})");
+  const TemporaryFolder folder;
+  const std::string stl = (folder.path() / "projectile.stl").string();
+  const std::string root = TAMP_SOURCE_DIR;
+  const Outcome made = outcome_of("python3 " + root + "/tools/python/tamp projectile-mesh " + root +
+                                  "/inputs/uxo/projectile.json " + stl);
+  INFO(made.err);
+  REQUIRE(made.exit_code == 0);
+  return projectile(R"({"type":"mesh","stl":")" + stl + R"(","scale":1e-3})");
 }
 
 /// A place by its distance from the tip along the axis, from the axis, and its angle about it.

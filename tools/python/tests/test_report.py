@@ -88,7 +88,7 @@ class Figures(unittest.TestCase):
             self.assertTrue((pathlib.Path(folder) / "figure-09.png").exists())
 
     def test_the_mesh_of_the_projectile_is_as_long_as_the_report_says(self):
-        corners = projectile.read_mesh(projectile.MESH)
+        corners = projectile.mesh()
 
         self.assertAlmostEqual(np.ptp(corners[:, :, 0]), 41, places=3)
 

@@ -1,7 +1,5 @@
 """Figures 24 to 29: the projectile, where it goes, and the sand around it with three models."""
 
-import struct
-
 import numpy as np
 from matplotlib.figure import Figure
 from mpl_toolkits.mplot3d.art3d import Poly3DCollection
@@ -9,12 +7,13 @@ from mpl_toolkits.mplot3d.art3d import Poly3DCollection
 from tamp import results
 from tamp.charts import theme
 from tamp.program import INPUTS
+from tamp.projectile_mesh import read_projectile, surface
 from tamp.report.drawing import (
     COLOURS, Field, chart, colour_bar, coloured, frame, growth, panels, squares, three_digits,
 )
 
 MICRO, MILLI, MEGA, PERCENT = 1e-6, 1e-3, 1e6, 0.01
-MESH = INPUTS / "uxo/projectile.stl"
+SOLID = INPUTS / "uxo/projectile.json"
 MIDDLE = 0.05  # of the box, along y
 TIMES = (200e-6, 400e-6, 600e-6)
 LAST = 850e-6
@@ -28,21 +27,15 @@ PLASTIC = Field("plastic_volumetric", "plastic volumetric strain", "%", PERCENT,
 FIGURES = ((PRESSURE, "27", TIMES), (SHEAR, "28", TIMES), (PLASTIC, "29", TIMES), (SPEED, "26", (LAST,)))
 
 
-def read_mesh(path):
-    """Corners of the triangles of an STL file, text or binary."""
-    content = path.read_bytes()
-    if content[:5] == b"solid":
-        lines = (line.split() for line in content.decode().splitlines())
-        return np.array([[float(x) for x in words[1:]] for words in lines if words[:1] == ["vertex"]]).reshape(-1, 3, 3)
-    count = struct.unpack_from("<I", content, 80)[0]
-    facets = np.frombuffer(content, dtype=[("numbers", "<f4", (12,)), ("more", "<u2")], offset=84, count=count)
-    return facets["numbers"][:, 3:].reshape(-1, 3, 3)
+def mesh():
+    """Corners of the triangles of the projectile's surface [mm]."""
+    return 1000 * np.array(surface(*read_projectile(SOLID)))
 
 
 def draw_geometry(album, run):
     figure = Figure(figsize=(6.4, 3.4), facecolor=theme.LIGHT["paper"])
     axis = figure.add_axes([-0.15, -0.45, 1.3, 1.9], projection="3d", proj_type="ortho")
-    triangles = read_mesh(MESH)
+    triangles = mesh()
     lower, upper = triangles.min(axis=(0, 1)), triangles.max(axis=(0, 1))
     normals = np.cross(triangles[:, 1] - triangles[:, 0], triangles[:, 2] - triangles[:, 0])
     light = np.clip(normals @ [-0.4, -0.6, 0.7] / (np.linalg.norm(normals, axis=1) + 1e-30), 0, 1)
