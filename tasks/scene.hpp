@@ -14,6 +14,7 @@
 #include "components/loads/artificial_viscosity.hpp"
 #include "components/loads/pressure_load.hpp"
 #include "components/loads/rotating_frame.hpp"
+#include "components/loads/time_step.hpp"
 #include "components/materials/material_model.hpp"
 #include "components/problems/body_functions.hpp"
 #include "components/relief/relief.hpp"
@@ -33,9 +34,6 @@ using Triple = std::array<double, 3>;
 /// `friction`: a wall that may be left, with Coulomb's friction. `no_slip`: a wall to which what touches it sticks.
 enum class Face { symmetry, open, friction, no_slip, periodic };
 
-/// How the time step is bounded, see components/loads/time_step.hpp.
-enum class StepRule { published, viscous };
-
 /// When stress follows the motion in a step, and by which velocities of nodes particles deform (Bardenhagen, J. Comput.
 /// Phys. 180, 2002): last, by those that move particles; first, by those that particles bring; or last, by those that
 /// particles bring back once they have their new velocities.
@@ -47,6 +45,7 @@ using components::Transfer;
 
 using components::DeformationUpdate;
 using components::Relief;
+using components::StepRule;
 
 struct SceneTime {
   double end;

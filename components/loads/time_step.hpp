@@ -15,6 +15,9 @@
 namespace tamp::components
 {
 
+/// By which of the rules below a particle bounds the step.
+enum class StepRule { published, viscous };
+
 /// The rule of the published runs: no signal and no particle crosses a cell, axis by axis.
 template <int D, class Number = double>
 Number published_time_step(double cell_size, const std::type_identity_t<Number>& wave_speed,

@@ -5,9 +5,8 @@
 #include <span>
 
 #include "components/errors.hpp"
-#include "components/loads/time_step.hpp"
+#include "components/loads/stress_account.hpp"
 #include "components/materials/state_columns.hpp"
-#include "components/tensor_lanes.hpp"
 #include "tasks/labels.hpp"
 #include "tasks/phases/phases.hpp"
 #include "tasks/phases/places.hpp"
@@ -55,77 +54,46 @@ MaterialBatch<D, typename Model::State> batch_at(std::size_t first, const Data& 
   return batch;
 }
 
-/// What each particle of a batch adds to the totals of the step, and its bound on the next.
-struct BatchAccount {
-  std::array<double, batch_size> elastic, plastic, viscous, taken_at_end, stable_step;
+using Account = components::StressAccount<batch_size>;
 
-  /// Adds them up in the order of the particles, whatever lanes they have been worked out in.
-  void add_to(StepTotals& totals, std::size_t n) const
-  {
-    for (std::size_t k = 0; k < n; ++k) {
-      totals.elastic += elastic[k];
-      totals.plastic += plastic[k];
-      totals.viscous += viscous[k];
-      totals.taken_at_end += taken_at_end[k];
-      // Written so that what is not a number does not pass for a bound.
-      totals.stable_step = stable_step[k] >= totals.stable_step ? totals.stable_step : stable_step[k];
-    }
+/// Adds up what `n` particles add, in their order, whatever lanes it has been worked out in.
+void add_to(StepTotals& totals, const Account& account, std::size_t n)
+{
+  for (std::size_t k = 0; k < n; ++k) {
+    totals.elastic += account.elastic[k];
+    totals.plastic += account.plastic[k];
+    totals.viscous += account.viscous[k];
+    totals.taken_at_end += account.taken_at_end[k];
+    // Written so that what is not a number does not pass for a bound.
+    const double stable_step = account.stable_step[k];
+    totals.stable_step = stable_step >= totals.stable_step ? totals.stable_step : stable_step;
   }
-};
+}
 
-/// One batch after the material has answered: artificial viscosity, energies, and the bound on the next step.
+/// One batch after the material has answered.
 template <int D, class Data>
 void account(const Method<D>& method, double dt, const Data& data, std::size_t first,
              std::span<const SymmetricTensor<D>> old_stress, const BatchAnswer& answer)
 {
   const std::size_t n = old_stress.size();
   const auto of_batch = [&](const auto& field) { return field.subspan(first, n); };
-  const auto mass = of_batch(data[particle::mass.previous()]);
-  const auto velocity = of_batch(data[particle::velocity<D>]);
-  const auto old_volumes = of_batch(data[particle::volume.previous()]), volumes = of_batch(data[particle::volume]);
-  const auto strains = of_batch(data[particle::strain_increment<D>]);
-  const auto stress = of_batch(data[particle::stress<D>]);
-  const auto old_viscous_pressure = of_batch(data[particle::viscous_pressure.previous()]);
-  const auto viscous_pressure = of_batch(data[particle::viscous_pressure]);
-  const auto own_stiffness = of_batch(data[particle::own_stiffness]);
-  const std::optional<components::ArtificialViscosity>& viscosity = method.viscosity;
-  BatchAccount account;
-  for (std::size_t k = 0; k < n; k += n_lanes) {
-    const auto lanes = [n, k](const auto& values) { return lanes_at(std::span(values).first(n), k); };
-    const Lanes volume = lanes(volumes), old_volume = lanes(old_volumes);
-    const SymmetricTensor<D, Lanes> strain = lanes(strains);
-    const Lanes bulk_modulus = lanes(answer.bulk_modulus);
-    const Mask<Lanes> stiff = bulk_modulus > 0.0;
-    // Where nothing is stiff nothing has to be damped.
-    const Lanes volume_rate = select(stiff, trace(strain) / dt, Lanes(0.0));
-    const components::StiffParticle<D, Lanes> p{.density = lanes(mass) / volume,
-                                                .bulk_modulus = bulk_modulus,
-                                                .shear_modulus = lanes(answer.shear_modulus),
-                                                .velocity = lanes(velocity),
-                                                .volume_rate = volume_rate,
-                                                .own_stiffness = lanes(own_stiffness)};
-    const Lanes q = viscosity ? viscosity->pressure(p.density, p.bulk_modulus, p.volume_rate, method.cell_size) : 0.0;
-    set_lanes(viscous_pressure, k, q);
-
-    // Work at the middle of the step. What the viscous pressure of the step before takes in its second half is that of
-    // the step before: so both pressures have half of this step.
-    const Lanes mid_volume = 0.5 * (old_volume + volume);
-    const SymmetricTensor<D, Lanes> mid_stress = Lanes(0.5) * (lanes(old_stress) + lanes(stress));
-    const Lanes plastic = lanes(answer.plastic_work) * volume;
-    set_lanes(account.elastic, k, double_dot(mid_stress, strain) * mid_volume - plastic);
-    set_lanes(account.plastic, k, plastic);
-    set_lanes(account.viscous, k, 0.5 * (lanes(old_viscous_pressure) + q) * (old_volume - volume));
-    set_lanes(account.taken_at_end, k,
-              0.5 * (double_dot(lanes(stress), strain) * mid_volume + q * (old_volume - volume)));
-    const Lanes stable_step =
-        method.time_step_rule == StepRule::published
-            ? components::published_time_step<D>(
-                  method.cell_size, components::wave_speed(p.bulk_modulus, p.shear_modulus, p.density), p.velocity)
-            : components::viscous_time_step<D>(
-                  method.cell_size, p, viscosity.value_or(components::ArtificialViscosity{0, 0}), method.amplification);
-    set_lanes(account.stable_step, k, select(stiff, stable_step, components::part_of_step_apart * stable_step));
-  }
-  account.add_to(data[step_totals], n);
+  const components::StressedBatch<D> batch{
+      .mass = of_batch(data[particle::mass.previous()]),
+      .velocity = of_batch(data[particle::velocity<D>]),
+      .old_volume = of_batch(data[particle::volume.previous()]),
+      .volume = of_batch(data[particle::volume]),
+      .strain_increment = of_batch(data[particle::strain_increment<D>]),
+      .old_stress = old_stress,
+      .stress = of_batch(data[particle::stress<D>]),
+      .old_viscous_pressure = of_batch(data[particle::viscous_pressure.previous()]),
+      .own_stiffness = of_batch(data[particle::own_stiffness]),
+      .bulk_modulus = std::span(answer.bulk_modulus).first(n),
+      .shear_modulus = std::span(answer.shear_modulus).first(n),
+      .plastic_work = std::span(answer.plastic_work).first(n)};
+  Account account;
+  components::account_for_stress({method.cell_size, method.time_step_rule, method.viscosity, method.amplification}, dt,
+                                 batch, of_batch(data[particle::viscous_pressure]), account);
+  add_to(data[step_totals], account, n);
 }
 
 /// Throws SimulationError for the first of `n` particles whose stress or velocity is not finite.
