@@ -1,11 +1,11 @@
 #pragma once
 
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <string>
 
 #include "runtime/file_error.hpp"
+#include "runtime/storage/temporary_folder.hpp"
 #include "tools/system/errors.hpp"
 
 namespace tamp::fuzz
@@ -18,17 +18,12 @@ class InputFile
  public:
   InputFile()
   {
-    std::string name = (std::filesystem::temp_directory_path() / "tamp_fuzz_XXXXXX").string();
-    folder_ = mkdtemp(name.data());
-    std::filesystem::create_directory_symlink(TAMP_SOURCE_DIR "/inputs", folder_ / "inputs");
-    std::filesystem::create_directory_symlink(TAMP_SOURCE_DIR "/tests/fuzz/corpus", folder_ / "corpus");
+    std::filesystem::create_directory_symlink(TAMP_SOURCE_DIR "/inputs", folder_.path() / "inputs");
+    std::filesystem::create_directory_symlink(TAMP_SOURCE_DIR "/tests/fuzz/corpus", folder_.path() / "corpus");
   }
-  ~InputFile() { std::filesystem::remove_all(folder_); }
-  InputFile(const InputFile&) = delete;
-  InputFile& operator=(const InputFile&) = delete;
 
   /// Without an ending, so that the content tells what it is.
-  std::filesystem::path path() const { return folder_ / "input"; }
+  std::filesystem::path path() const { return folder_.path() / "input"; }
 
   /// Gives the bytes to a reader. What it throws but for its two sound answers is let through.
   void read_by(void (*reader)(const std::filesystem::path&), const char* bytes, std::size_t n_bytes) const
@@ -42,7 +37,7 @@ class InputFile
   }
 
  private:
-  std::filesystem::path folder_;
+  runtime::TemporaryFolder folder_;
 };
 
 }  // namespace tamp::fuzz

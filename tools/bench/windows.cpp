@@ -1,14 +1,10 @@
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <array>
-#include <cerrno>
 #include <chrono>
-#include <cstdlib>
-#include <cstring>
 
-#include "runtime/file_error.hpp"
+#include "runtime/storage/temporary_folder.hpp"
 #include "tasks/forecast/demand.hpp"
 #include "tools/bench/bench.hpp"
 #include "tools/bench/particle_steps.hpp"
@@ -26,27 +22,6 @@ namespace
 using Json = nlohmann::ordered_json;
 
 constexpr std::array windows_of_run{Window{"early", 0}, Window{"middle", 0.5}, Window{"late", 0.9}};
-
-/// For checkpoints, removed in the end.
-class ScratchFolder
-{
- public:
-  ScratchFolder()
-  {
-    std::string name = (std::filesystem::temp_directory_path() / "tamp_bench_XXXXXX").string();
-    if (mkdtemp(name.data()) == nullptr) throw runtime::FileError(name, std::strerror(errno));
-    path = name;
-  }
-  ~ScratchFolder()
-  {
-    std::error_code stays;
-    std::filesystem::remove_all(path, stays);
-  }
-  ScratchFolder(const ScratchFolder&) = delete;
-  ScratchFolder& operator=(const ScratchFolder&) = delete;
-
-  std::filesystem::path path;
-};
 
 /// What one thread can do at most, the medians of the rounds: bytes and multiplies or adds per second.
 struct Machine {
@@ -226,9 +201,9 @@ class WindowBenchmark
 
   Result result(const std::string& name)
   {
-    const ScratchFolder folder;
+    const runtime::TemporaryFolder folder;
     look_at_machine();
-    whole_ = run_whole(scene_, windows_of_run, folder.path);
+    whole_ = run_whole(scene_, windows_of_run, folder.path());
     n_steps_ = options_.n_steps > 0 ? options_.n_steps : steps_of_window(whole_.time, particles_of(scene_));
     for (const WindowStart& start : whole_.starts) {
       look_at_machine();

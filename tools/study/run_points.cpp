@@ -166,7 +166,7 @@ class PointRunner
     fs::remove_all(errors);  // a pipe would wait for a reader
     fs::create_directories(folder);
     const double limit = limit_of(task);
-    const Child run{command_into(study_, *task.measurement, folder), errors, limit};
+    const Child run{command_into(study_, *task.measurement, folder), errors, "", limit};
     const ChildEnd end = run_child(run);
     PointResult result{End::done, "", {}, limit, folder};
     if (end.done()) {

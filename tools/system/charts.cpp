@@ -1,14 +1,12 @@
 #include "tools/system/charts.hpp"
 
 #include <fmt/format.h>
-#include <spawn.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
 #include <cstdlib>
 #include <vector>
 
 #include "runtime/file_error.hpp"
+#include "tools/system/child_process.hpp"
 #include "tools/system/shell_word.hpp"
 #include "tools/system/shipped_inputs.hpp"
 
@@ -23,7 +21,7 @@ constexpr const char* usual_interpreter = "/usr/bin/python3";
 /// Exit code of the Python tools where the interpreter has no matplotlib; see tools/python/tamp/failure.py.
 constexpr int no_matplotlib = 3;
 /// Of an interpreter that is not there.
-constexpr int not_started = -1;
+constexpr int not_started = 127;
 
 std::vector<std::string> interpreters()
 {
@@ -32,25 +30,13 @@ std::vector<std::string> interpreters()
   return {usual_interpreter, "python3"};
 }
 
-int run_draw(std::string interpreter, std::string tools, std::string folder)
-{
-  std::string command = "draw";
-  char* arguments[] = {interpreter.data(), tools.data(), command.data(), folder.data(), nullptr};
-  pid_t child = 0;
-  if (posix_spawnp(&child, arguments[0], nullptr, nullptr, arguments, environ) != 0) return not_started;
-  int status = 0;
-  if (waitpid(child, &status, 0) != child || !WIFEXITED(status)) return EXIT_FAILURE;
-  // A shell's word, and posix_spawn's on some systems, for what could not be started.
-  return WEXITSTATUS(status) == 127 ? not_started : WEXITSTATUS(status);
-}
-
 }  // namespace
 
 void draw_page(const std::filesystem::path& folder)
 {
   const std::string tools = shipped_python_tools().string();
   for (const std::string& interpreter : interpreters()) {
-    const int code = run_draw(interpreter, tools, folder.string());
+    const int code = run_child({{tools, "draw", folder.string()}, "", interpreter}).exit_code;
     if (code == 0) return;
     if (code == not_started || code == no_matplotlib) continue;
     throw runtime::FileError(folder.string(), fmt::format("its figures are written, but could not be drawn; to try "

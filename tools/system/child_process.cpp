@@ -29,12 +29,14 @@ namespace
 
 /// What exec takes, made before the fork: a child of a process with threads may not ask for memory.
 struct ExecArguments {
-  explicit ExecArguments(const std::vector<std::string>& arguments) : texts(arguments)
+  explicit ExecArguments(const Child& child)
+      : file(child.program.empty() ? "/proc/self/exe" : child.program), texts(child.arguments)
   {
-    texts.insert(texts.begin(), "tamp");
+    texts.insert(texts.begin(), child.program.empty() ? "tamp" : child.program);
     for (std::string& text : texts) pointers.push_back(text.data());
     pointers.push_back(nullptr);
   }
+  std::string file;
   std::vector<std::string> texts;
   std::vector<char*> pointers;
 };
@@ -58,10 +60,10 @@ rlimit limit_of(double seconds)
     if (std::signal(signal, SIG_DFL) == SIG_IGN) std::signal(signal, SIG_IGN);
   }
   const int out = open("/dev/null", O_WRONLY);
-  const int err = open(errors, O_WRONLY | O_CREAT | O_TRUNC, 0666);
+  const int err = *errors == '\0' ? STDERR_FILENO : open(errors, O_WRONLY | O_CREAT | O_TRUNC, 0666);
   const bool ready = getppid() == parent && out >= 0 && err >= 0 && dup2(out, STDOUT_FILENO) >= 0 &&
                      dup2(err, STDERR_FILENO) >= 0 && setrlimit(RLIMIT_CPU, &limit) == 0;
-  if (ready) execv("/proc/self/exe", arguments.pointers.data());
+  if (ready) execvp(arguments.file.c_str(), arguments.pointers.data());
   _exit(127);
 }
 
@@ -72,7 +74,7 @@ double seconds(const timeval& time)
 
 pid_t start(const Child& child)
 {
-  const ExecArguments arguments(child.arguments);
+  const ExecArguments arguments(child);
   const std::string errors = child.errors.string();
   const pid_t parent = getpid();
   const pid_t pid = fork();

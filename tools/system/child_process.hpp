@@ -10,7 +10,7 @@
 namespace tamp::tools
 {
 
-/// How a process of this program ended.
+/// How a process ended.
 struct ChildEnd {
   /// -1 where a signal ended it.
   int exit_code = -1;
@@ -24,12 +24,16 @@ struct ChildEnd {
   std::string told() const;
 };
 
-/// A process of this program with other arguments, the command first. Its standard output is dropped, and what it says
-/// on standard error goes to the file `errors`, or is dropped too. It goes down with this one. After `cpu_limit` [s] of
-/// processor time, in whole seconds, it gets SIGXCPU, at which a run keeps its state and ends.
+/// A process of this program with other arguments, the command first, or of another `program`, which is looked for
+/// where the shell does; one that cannot be started ends with exit code 127. Its standard output is dropped, and its
+/// standard error goes to the file `errors`, or, where that is empty, to that of this program. It goes down with this
+/// one. After `cpu_limit` [s] of processor time, in whole seconds, it gets SIGXCPU, at which a run keeps its state and
+/// ends.
 struct Child {
   std::vector<std::string> arguments;
   std::filesystem::path errors{"/dev/null"};
+  /// Empty for this one.
+  std::string program{};
   double cpu_limit = std::numeric_limits<double>::infinity();
 };
 

@@ -7,9 +7,9 @@
 
 #include "runtime/file_error.hpp"
 #include "runtime/storage/csv_writer.hpp"
+#include "runtime/storage/temporary_folder.hpp"
 #include "runtime/storage/whole_file.hpp"
 #include "tests/runtime/storage/stored_data.hpp"
-#include "tests/runtime/storage/temporary_folder.hpp"
 
 namespace test_csv_writer
 {
@@ -22,17 +22,17 @@ namespace fs = std::filesystem;
 TEST_CASE("a row is in the file as soon as it has been written, with numbers that read back the same")
 {
   const TemporaryFolder folder;
-  CsvWriter writer(folder.path / "history.csv", {"step", "time[s]"});
+  CsvWriter writer(folder.path() / "history.csv", {"step", "time[s]"});
 
   writer.write_row(std::array{12.0, 0.1 + 0.2});
 
-  CHECK(read_text(folder.path / "history.csv") == "step,time[s]\n12,0.30000000000000004\n");
+  CHECK(read_text(folder.path() / "history.csv") == "step,time[s]\n12,0.30000000000000004\n");
 }
 
 TEST_CASE("a row with another number of values than there are columns is refused")
 {
   const TemporaryFolder folder;
-  CsvWriter writer(folder.path / "history.csv", {"step", "time[s]"});
+  CsvWriter writer(folder.path() / "history.csv", {"step", "time[s]"});
 
   CHECK_THROWS_AS(writer.write_row(std::array{1.0}), std::invalid_argument);
 }
@@ -70,7 +70,7 @@ CsvExtent written(const fs::path& file, const std::vector<double>& steps)
 TEST_CASE("a table goes on after the last step that is kept")
 {
   const TemporaryFolder folder;
-  const fs::path file = folder.path / "history.csv";
+  const fs::path file = folder.path() / "history.csv";
   const CsvExtent until_20 = written(file, {0, 10, 20, 30});
 
   CsvWriter table = CsvWriter::continued(file, step_and_time, 20, until_20);
@@ -79,13 +79,13 @@ TEST_CASE("a table goes on after the last step that is kept")
   CHECK(table.notice().empty());
   CHECK(table.extent().n_rows == 4);
   CHECK(read_text(file) == "step,time[s]\n0,0\n10,0.1\n20,0.2\n25,0.25\n");
-  CHECK_FALSE(fs::exists(folder.path / "history.csv.damaged"));
+  CHECK_FALSE(fs::exists(folder.path() / "history.csv.damaged"));
 }
 
 TEST_CASE("a row that was cut off by the end of a program is not kept")
 {
   const TemporaryFolder folder;
-  const fs::path file = folder.path / "history.csv";
+  const fs::path file = folder.path() / "history.csv";
   const CsvExtent until_20 = written(file, {0});
   write_text(file, "step,time[s]\n0,0\n1");
 
@@ -99,7 +99,7 @@ TEST_CASE("a row that was cut off by the end of a program is not kept")
 TEST_CASE("a table that is missing is begun anew where one is to go on, and told of")
 {
   const TemporaryFolder folder;
-  const fs::path file = folder.path / "history.csv";
+  const fs::path file = folder.path() / "history.csv";
 
   const CsvWriter table = CsvWriter::continued(file, step_and_time, 20, {3, 1});
 
@@ -110,7 +110,7 @@ TEST_CASE("a table that is missing is begun anew where one is to go on, and told
 TEST_CASE("a table that nobody has counted goes on with what can be read of it, and without a word")
 {
   const TemporaryFolder folder;
-  const fs::path file = folder.path / "machine.csv";
+  const fs::path file = folder.path() / "machine.csv";
   const auto [text, kept] =
       GENERATE(std::pair{"step,time[s]\n0,0\n10,0.x\n20,0.2\n30,0.3\n", "step,time[s]\n0,0\n20,0.2\n"},
                std::pair{"", "step,time[s]\n"});
@@ -120,7 +120,7 @@ TEST_CASE("a table that nobody has counted goes on with what can be read of it, 
 
   CHECK(table.notice().empty());
   CHECK(read_text(file) == kept);
-  CHECK_FALSE(fs::exists(folder.path / "machine.csv.damaged"));
+  CHECK_FALSE(fs::exists(folder.path() / "machine.csv.damaged"));
 }
 
 TEST_CASE("of a damaged table the rows that can be read are kept, the file is set aside, and both are told of")
@@ -136,7 +136,7 @@ TEST_CASE("of a damaged table the rows that can be read are kept, the file is se
                                       Damage{header + "0,0\n10,0.7\n20,0.2\n", "0,0\n10,0.7\n20,0.2\n"},
                                       Damage{"step,ti", ""}, Damage{"", ""}, Damage{"step,depth[m]\n0,0\n", ""});
   const TemporaryFolder folder;
-  const fs::path file = folder.path / "history.csv";
+  const fs::path file = folder.path() / "history.csv";
   const CsvExtent until_20 = written(file, {0, 10, 20});
   write_text(file, damage.text);
 
@@ -145,39 +145,39 @@ TEST_CASE("of a damaged table the rows that can be read are kept, the file is se
   CHECK_THAT(table.notice(),
              Catch::Contains("is damaged: of 3 rows until step 20") && Catch::EndsWith("history.csv.damaged"));
   CHECK(read_text(file) == header + damage.kept);
-  CHECK(read_text(folder.path / "history.csv.damaged") == damage.text);
+  CHECK(read_text(folder.path() / "history.csv.damaged") == damage.text);
 }
 
 TEST_CASE("a file written whole replaces the old one and leaves nothing beside it")
 {
   const TemporaryFolder folder;
-  write_whole_file(folder.path / "summary.json", "old and long");
+  write_whole_file(folder.path() / "summary.json", "old and long");
 
-  write_whole_file(folder.path / "summary.json", "new");
+  write_whole_file(folder.path() / "summary.json", "new");
 
-  CHECK(read_text(folder.path / "summary.json") == "new");
-  CHECK(std::distance(fs::directory_iterator(folder.path), fs::directory_iterator()) == 1);
+  CHECK(read_text(folder.path() / "summary.json") == "new");
+  CHECK(std::distance(fs::directory_iterator(folder.path()), fs::directory_iterator()) == 1);
 }
 
 TEST_CASE("a link stays a link, and the file it points to is written whole")
 {
   const TemporaryFolder folder;
-  fs::create_directory(folder.path / "elsewhere");
-  write_text(folder.path / "elsewhere" / "summary.json", "old");
-  fs::create_symlink("elsewhere/summary.json", folder.path / "summary.json");
-  fs::create_symlink("summary.json", folder.path / "latest.json");
+  fs::create_directory(folder.path() / "elsewhere");
+  write_text(folder.path() / "elsewhere" / "summary.json", "old");
+  fs::create_symlink("elsewhere/summary.json", folder.path() / "summary.json");
+  fs::create_symlink("summary.json", folder.path() / "latest.json");
 
-  write_whole_file(folder.path / "latest.json", "new");
+  write_whole_file(folder.path() / "latest.json", "new");
 
-  CHECK(fs::is_symlink(folder.path / "latest.json"));
-  CHECK(fs::is_symlink(folder.path / "summary.json"));
-  CHECK(read_text(folder.path / "elsewhere" / "summary.json") == "new");
+  CHECK(fs::is_symlink(folder.path() / "latest.json"));
+  CHECK(fs::is_symlink(folder.path() / "summary.json"));
+  CHECK(read_text(folder.path() / "elsewhere" / "summary.json") == "new");
 }
 
 TEST_CASE("a pipe is written to, and stays one")
 {
   const TemporaryFolder folder;
-  const fs::path pipe = folder.path / "pipe";
+  const fs::path pipe = folder.path() / "pipe";
   REQUIRE(mkfifo(pipe.c_str(), 0600) == 0);
   std::string found;
   std::thread reader([&] { found = read_text(pipe); });
@@ -195,21 +195,21 @@ TEST_CASE("what was not published leaves nothing")
 {
   const TemporaryFolder folder;
   {
-    WholeFile file(folder.path / "trace.json");
+    WholeFile file(folder.path() / "trace.json");
     file.write("half of");
   }
 
-  CHECK(fs::is_empty(folder.path));
+  CHECK(fs::is_empty(folder.path()));
 }
 
 TEST_CASE("a file that cannot be replaced is an error, and is left as it was")
 {
   const TemporaryFolder folder;
-  fs::create_directory(folder.path / "summary.json");
+  fs::create_directory(folder.path() / "summary.json");
 
-  CHECK_THROWS_AS(write_whole_file(folder.path / "summary.json", "new"), FileError);
-  CHECK(fs::is_directory(folder.path / "summary.json"));
-  CHECK_FALSE(fs::exists(folder.path / "summary.json.part"));
+  CHECK_THROWS_AS(write_whole_file(folder.path() / "summary.json", "new"), FileError);
+  CHECK(fs::is_directory(folder.path() / "summary.json"));
+  CHECK_FALSE(fs::exists(folder.path() / "summary.json.part"));
 }
 
 }  // namespace test_csv_writer

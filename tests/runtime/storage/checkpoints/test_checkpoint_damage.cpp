@@ -4,9 +4,9 @@
 
 #include "runtime/storage/checkpoints/checkpoint.hpp"
 #include "runtime/storage/checkpoints/sealed_file.hpp"
+#include "runtime/storage/temporary_folder.hpp"
 #include "tests/runtime/storage/checkpoints/state_scene.hpp"
 #include "tests/runtime/storage/stored_data.hpp"
-#include "tests/runtime/storage/temporary_folder.hpp"
 
 namespace test_checkpoint_damage
 {
@@ -22,17 +22,17 @@ struct Damaged {
   {
     StateScene scene;
     scene.fill();
-    for (const int step : {10, 20}) write_checkpoint(folder.path, {step, 0, ""}, {}, scene.warehouse, groups, 2);
+    for (const int step : {10, 20}) write_checkpoint(folder.path(), {step, 0, ""}, {}, scene.warehouse, groups, 2);
     whole = read_text(file());
   }
 
-  std::filesystem::path file() const { return folder.path / "step_00000020.h5"; }
+  std::filesystem::path file() const { return folder.path() / "step_00000020.h5"; }
 
   /// The step that is found, and why not the other.
   std::pair<std::int64_t, std::string> find() const
   {
     std::vector<std::string> refused;
-    const auto found = newest_checkpoint(folder.path, refused);
+    const auto found = newest_checkpoint(folder.path(), refused);
     return {found ? found->header.step : -1, refused.size() == 1 ? refused[0] : ""};
   }
 
@@ -146,9 +146,9 @@ TEST_CASE("where every checkpoint is damaged none is found")
   const Damaged damaged;
   std::vector<std::string> refused;
 
-  for (const char* name : {"step_00000010.h5", "step_00000020.h5"}) write_text(damaged.folder.path / name, "");
+  for (const char* name : {"step_00000010.h5", "step_00000020.h5"}) write_text(damaged.folder.path() / name, "");
 
-  CHECK_FALSE(newest_checkpoint(damaged.folder.path, refused));
+  CHECK_FALSE(newest_checkpoint(damaged.folder.path(), refused));
   CHECK(refused.size() == 2);
 }
 

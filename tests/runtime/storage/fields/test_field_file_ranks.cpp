@@ -4,9 +4,9 @@
 
 #include "runtime/file_error.hpp"
 #include "runtime/storage/fields/field_file.hpp"
+#include "runtime/storage/temporary_folder.hpp"
 #include "tests/runtime/storage/file_size_limit.hpp"
 #include "tests/runtime/storage/stored_data.hpp"
-#include "tests/runtime/storage/temporary_folder.hpp"
 
 namespace test_field_file_ranks
 {
@@ -86,9 +86,9 @@ TEST_CASE("rows and boxes that a rank gives in any order stand in a field file w
                         {{"mass", ColumnKind::scalar, std::span(mass)}},
                         std::vector<IndexBox>{{{0, 0, 0}, {2, 2, 1}}, {{2, 0, 0}, {4, 2, 1}}}};
 
-  FieldFile(folder.path).write_step(0, 0, std::vector{block}, nodes);
+  FieldFile(folder.path()).write_step(0, 0, std::vector{block}, nodes);
 
-  const fs::path file = folder.path / "fields.h5";
+  const fs::path file = folder.path() / "fields.h5";
   CHECK(read_dataset(file, "/step_00000000/particles/a/id").values == std::vector<double>{0, 1, 2, 3, 4});
   CHECK(read_dataset(file, "/step_00000000/nodes/mass").values == std::vector<double>{10, 11, 12, 13, 14, 15, 16, 17});
 }
@@ -99,7 +99,7 @@ TEST_CASE("rows or boxes that do not fit are refused by a field file")
   const std::vector<double> position(6, 0), mass(4, 0);
   ParticleBlock block{"a", 2, {{"position", ColumnKind::vector, std::span(position)}}, RowShare{5, {{0, 1}}}};
   NodeBlock nodes{{0, 0, 0}, 1, {4, 2, 1}, {{"mass", ColumnKind::scalar, std::span(mass)}}};
-  FieldFile file(folder.path);
+  FieldFile file(folder.path());
 
   CHECK_THROWS_AS(file.write_step(0, 0, std::vector{block}), std::invalid_argument);
   block.share = RowShare{5, {{4, 2}}};
@@ -116,19 +116,19 @@ TEST_CASE("ranks together write the field file that one process writes", "[ranks
   const TemporaryFolder together(world), alone(world);
   const Share own = share_of(world), all([](std::size_t) { return true; });
   if (world.is_first()) {
-    FieldFile file(alone.path);
+    FieldFile file(alone.path());
     for (const int step : {0, 10}) file.write_step(step, 0.1 * step, all.particles(), all.nodes());
   }
 
-  FieldFile file(together.path, world);
+  FieldFile file(together.path(), world);
   for (const int step : {0, 10}) file.write_step(step, 0.1 * step, own.particles(), own.nodes());
   world.barrier();
 
-  CHECK(all_datasets(together.path / "fields.h5") == all_datasets(alone.path / "fields.h5"));
-  CHECK(read_text(together.path / "fields.xdmf") == read_text(alone.path / "fields.xdmf"));
-  const Dataset id = read_dataset(together.path / "fields.h5", "/step_00000010/particles/sand/id");
+  CHECK(all_datasets(together.path() / "fields.h5") == all_datasets(alone.path() / "fields.h5"));
+  CHECK(read_text(together.path() / "fields.xdmf") == read_text(alone.path() / "fields.xdmf"));
+  const Dataset id = read_dataset(together.path() / "fields.h5", "/step_00000010/particles/sand/id");
   CHECK(id.values == std::vector<double>{10, 20, 21, 30, 31, 32, 50, 60, 61});
-  CHECK(fs::file_size(together.path / "fields.h5") < 2 * 16384);
+  CHECK(fs::file_size(together.path() / "fields.h5") < 2 * 16384);
 }
 
 TEST_CASE("a field file is continued by all ranks", "[ranks]")
@@ -137,17 +137,17 @@ TEST_CASE("a field file is continued by all ranks", "[ranks]")
   const TemporaryFolder folder(world);
   const Share own = share_of(world);
   {
-    FieldFile file(folder.path, world);
+    FieldFile file(folder.path(), world);
     for (const int step : {0, 10, 20}) file.write_step(step, 0.1 * step, own.particles(), own.nodes());
   }
 
-  FieldFile file = FieldFile::continued(folder.path, 10, 2, world);
+  FieldFile file = FieldFile::continued(folder.path(), 10, 2, world);
   file.write_step(15, 1.5, own.particles(), own.nodes());
   world.barrier();
 
   CHECK(file.notice().empty());
-  CHECK(all_datasets(folder.path / "fields.h5").size() == 3 * 3 + 1);
-  CHECK(count(read_text(folder.path / "fields.xdmf"), "<Time Value=") == 6);
+  CHECK(all_datasets(folder.path() / "fields.h5").size() == 3 * 3 + 1);
+  CHECK(count(read_text(folder.path() / "fields.xdmf"), "<Time Value=") == 6);
 }
 
 TEST_CASE("a rank without particles and a group without any are fine in a field file", "[ranks]")
@@ -159,10 +159,10 @@ TEST_CASE("a rank without particles and a group without any are fine in a field 
   std::vector<ParticleBlock> blocks = own.particles();
   blocks.push_back({"void", 0, none.particles().front().columns, RowShare{}});
 
-  FieldFile(folder.path, world).write_step(0, 0, blocks, own.nodes());
+  FieldFile(folder.path(), world).write_step(0, 0, blocks, own.nodes());
 
-  CHECK(read_dataset(folder.path / "fields.h5", "/step_00000000/particles/sand/id").values.size() == 9);
-  CHECK(read_dataset(folder.path / "fields.h5", "/step_00000000/particles/void/id").values.empty());
+  CHECK(read_dataset(folder.path() / "fields.h5", "/step_00000000/particles/sand/id").values.size() == 9);
+  CHECK(read_dataset(folder.path() / "fields.h5", "/step_00000000/particles/void/id").values.empty());
 }
 
 TEST_CASE("what stops one rank from writing a step is an error on all, and the steps before stay readable", "[ranks]")
@@ -170,7 +170,7 @@ TEST_CASE("what stops one rank from writing a step is an error on all, and the s
   const Communicator world = Communicator::world();
   const TemporaryFolder folder(world);
   const Share own = share_of(world);
-  FieldFile file(folder.path, world);
+  FieldFile file(folder.path(), world);
   file.write_step(0, 0, own.particles(), own.nodes());
   std::vector<ParticleBlock> wrong = own.particles();
   if (world.is_first()) wrong.front().n += 1;
@@ -184,7 +184,7 @@ TEST_CASE("what stops one rank from writing a step is an error on all, and the s
   file.write_step(3, 0.3, own.particles(), own.nodes());
   world.barrier();
 
-  CHECK(all_datasets(folder.path / "fields.h5").size() == 2 * 3 + 1);
+  CHECK(all_datasets(folder.path() / "fields.h5").size() == 2 * 3 + 1);
 }
 
 }  // namespace test_field_file_ranks
