@@ -1,6 +1,5 @@
 #pragma once
 
-#include <functional>
 #include <vector>
 
 #include "runtime/engine.hpp"
@@ -13,13 +12,12 @@ namespace tamp::tasks
 /// Places of the graphs of a scene in its engine.
 constexpr std::size_t step_graph = 0, report_graph = 1;
 
-/// The graphs of a step and of a report. A step that is not `accepted` leaves the state before it whole.
+/// The graphs of a step and of a report.
 template <int D>
-std::vector<runtime::GraphTasks> graphs_of(const Method<D>& method, std::function<bool(const StepTotals&)> accepted)
+std::vector<runtime::GraphTasks> graphs_of(const Method<D>& method)
 {
   const runtime::HostData host = host_data(method);
-  return {{time_step(method, std::move(accepted)), host},
-          {report_tasks(method), {host.state, {&particle_report, &nose_report}}}};
+  return {{time_step(method), host}, {report_tasks(method), {host.state, {&particle_report, &nose_report}}}};
 }
 
 }  // namespace tamp::tasks

@@ -9,6 +9,7 @@
 #include "components/shapes/node_sums.hpp"
 #include "components/tensors.hpp"
 #include "runtime/data/label.hpp"
+#include "tasks/energy_ledger.hpp"
 #include "tasks/rigid_body.hpp"
 #include "tasks/step_totals.hpp"
 
@@ -121,15 +122,22 @@ struct HostRequests {
 };
 inline const runtime::ReductionLabel<HostRequests, "host requests"> host_requests;
 
-/// What a step adds to the energies, and how long the next may be.
+/// Accumulated from the start: what a step adds to the energies, and how long the next may be.
 inline const runtime::ReductionLabel<StepTotals, "step totals"> step_totals;
 inline const runtime::ReductionLabel<GridTotals, "grid totals"> grid_totals;
+inline const runtime::ReductionLabel<LostParticles, "lost particles"> lost_particles;
 /// Where a scene has body forces.
 inline const runtime::ReductionLabel<BodyForceWork, "body force work"> body_force_work;
+/// Accumulated from the time when the host last took their means, `forces_taken_at` [s]; loads where a scene has any.
 inline const runtime::ReductionLabel<ContactImpulses, "contact impulses"> contact_impulses;
-/// Where a scene has pressure loads.
 inline const runtime::ReductionLabel<LoadTotals, "load totals"> load_totals;
+inline const runtime::GlobalLabel<double, "forces taken at"> forces_taken_at;
 inline const runtime::ReductionLabel<RigidCouplings, "rigid couplings"> rigid_couplings;
+
+/// Since the start.
+inline const runtime::GlobalLabel<EnergyLedger, "energy ledger"> energy_ledger;
+/// The longest next step that is stable, before the multiplier [s].
+inline const runtime::GlobalLabel<double, "longest step"> longest_step;
 
 /// Where rigid bodies are and how they move; like the velocities of particles, their momenta are half a step behind.
 inline const runtime::GlobalLabel<RigidStates, "rigid states"> rigid_states;

@@ -74,9 +74,8 @@ class SimulationOf : public Simulation
     make_rigid_bodies(particles);
     profiler_.emplace(engine_->schedule(step_graph), engine_->bound(step_graph), n_threads());
     forecast_bytes_ = communicator_.sum(engine_->warehouse().forecast_bytes());
-    lost_.emplace(engine_->layout().size());
-    stable_step_ = initial_stable_step(particles);
-    energies_.elastic = particles.stored_energy();
+    warehouse().global_state(longest_step) = initial_stable_step(particles);
+    warehouse().global_state(energy_ledger).elastic = particles.stored_energy();
   }
 
   void advance(double end) override
@@ -84,11 +83,9 @@ class SimulationOf : public Simulation
     balance_if_due();
     const double size = next_step_size(end);
     run_step({n_steps_, time_, size, last_step_size_, std::exchange(requests_, 0U)});
-    check_failed_updates();
     engine_->warehouse().advance();
     if (engine_->schedule(step_graph).recording) profiler_->add_step();
-    take_totals();
-    lost_->take<D>(*engine_->bound(step_graph).migration(), engine_->layout(), engine_->warehouse().n_groups());
+    asked_ = engine_->warehouse().result(host_requests).bits;
     ++n_steps_;
     time_ = time_ + size >= end * (1 - 1e-14) ? end : time_ + size;
     last_step_size_ = size;
@@ -103,12 +100,6 @@ class SimulationOf : public Simulation
   NoseReport near_noses() const override
   {
     return scene_.has_nose() ? engine_->warehouse().result(nose_report) : NoseReport{};
-  }
-
-  LostParticles lost() override
-  {
-    lost_->share(engine_->layout(), communicator_);
-    return lost_->sum();
   }
 
   const runtime::TaskGraph& graph() const override { return engine_->graph(step_graph); }
@@ -152,15 +143,6 @@ class SimulationOf : public Simulation
     time_ = found.header.time;
     runtime::ByteReader own(found.host);
     own.read(last_step_size_);
-    own.read(stable_step_);
-    own.read(energies_);
-    own.read(updates_);
-    own.read(grid_totals_);
-    own.read(contact_);
-    own.read(contact_since_);
-    own.read(loads_);
-    own.read(loads_since_);
-    lost_->read(own);
     return {own.rest().begin(), own.rest().end()};
   }
 
@@ -190,9 +172,8 @@ class SimulationOf : public Simulation
  private:
   std::unique_ptr<runtime::Engine> make_engine(const runtime::PatchLayout& layout)
   {
-    return std::make_unique<runtime::Engine>(
-        layout, material_names(scene_), graphs_of(method_, [this](const StepTotals& step) { return accepts(step); }),
-        n_threads(), communicator_);
+    return std::make_unique<runtime::Engine>(layout, material_names(scene_), graphs_of(method_), n_threads(),
+                                             communicator_);
   }
 
   runtime::CheckpointHeader header(const std::string& fingerprint) const { return {n_steps_, time_, fingerprint}; }
@@ -202,16 +183,6 @@ class SimulationOf : public Simulation
   {
     runtime::ByteWriter own;
     own.add(last_step_size_);
-    own.add(stable_step_);
-    own.add(energies_);
-    own.add(updates_);
-    own.add(grid_totals_);
-    own.add(contact_);
-    own.add(contact_since_);
-    own.add(loads_);
-    own.add(loads_since_);
-    lost_->share(engine_->layout(), communicator_);
-    lost_->write(own);
     own.add_bytes(host);
     return own.bytes();
   }
@@ -227,12 +198,6 @@ class SimulationOf : public Simulation
     }
   }
 
-  bool accepts(const StepTotals& step) const
-  {
-    const std::size_t failures = updates_.failures + step.updates.failures;
-    return failures <= static_cast<std::size_t>(scene_.failed_updates_allowed);
-  }
-
   bool used_in_step(const runtime::Label& label) const
   {
     for (const runtime::TaskDeclaration& task : engine_->graph(step_graph).declarations()) {
@@ -245,7 +210,7 @@ class SimulationOf : public Simulation
 
   double next_step_size(double end) const
   {
-    const double size = std::min(scene_.time.multiplier * stable_step_, scene_.time.maximum_step);
+    const double size = std::min(scene_.time.multiplier * stable_step(), scene_.time.maximum_step);
     if (!(size >= scene_.time.minimum_step)) {
       throw SimulationError(
           fmt::format("the time step {:.3g} s is below the minimum of {:.3g} s", size, scene_.time.minimum_step), "",
@@ -306,35 +271,6 @@ class SimulationOf : public Simulation
     throw_common_failure(own, n_steps_, after_failure_);
   }
 
-  void check_failed_updates()
-  {
-    const StepTotals& step = engine_->warehouse().result(step_totals);
-    if (accepts(step)) return;
-    const std::size_t failures = updates_.failures + step.updates.failures;
-    const FailedUpdate& failed = step.failed;
-    const SceneMaterial& material = scene_.materials[static_cast<std::size_t>(failed.material)];
-    throw SimulationError(fmt::format("{}; {} stress updates have failed, {} are allowed",
-                                      failed.reason(material.model), failures, scene_.failed_updates_allowed),
-                          material.name, failed.particle, {failed.position.begin(), failed.position.begin() + D});
-  }
-
-  void take_totals()
-  {
-    auto& results = engine_->warehouse();
-    const StepTotals& step = results.result(step_totals);
-    const GridTotals& nodes = results.result(tasks::grid_totals);
-    const bool is_pressed = !method_.pressed_materials.empty();
-    const LoadTotals loads = is_pressed ? results.result(load_totals) : LoadTotals{};
-    const BodyForceWork body_forces = scene_.has_body_force() ? results.result(body_force_work) : BodyForceWork{};
-    stable_step_ = step.stable_step;
-    energies_.add(step, nodes, body_forces, loads, method_.deforms_by_other_velocities());
-    updates_.add(step.updates);
-    runtime::combine(grid_totals_, nodes);
-    runtime::combine(contact_, results.result(contact_impulses));
-    runtime::combine(loads_, loads);
-    asked_ = results.result(host_requests).bits;
-  }
-
   /// Looks at what the patches have cost since the last look, and deals them anew if that pays.
   void balance_if_due()
   {
@@ -360,7 +296,6 @@ class SimulationOf : public Simulation
 
   void redistribute(const std::vector<int>& ranks)
   {
-    lost_->share(engine_->layout(), communicator_);
     runtime::PatchLayout layout = engine_->layout();
     layout.give_to_ranks(ranks, communicator_.size());
     auto engine = make_engine(layout);
@@ -373,36 +308,24 @@ class SimulationOf : public Simulation
   Method<D> method_;
   /// Ranks that failed at different places meet here, where no other messages are.
   runtime::Communicator after_failure_ = communicator_.duplicate();
-  std::unique_ptr<runtime::Engine> engine_;
   std::optional<runtime::Profiler> profiler_;
   std::size_t forecast_bytes_ = 0;
-  std::optional<LostByPatch> lost_;
 };
 
 }  // namespace
 
-std::vector<ContactForce> Simulation::take_contact_forces()
+MeanForces Simulation::take_mean_forces()
 {
-  const double span = time_ - contact_since_;
-  std::vector<ContactForce> forces(scene_.materials.size());
-  for (std::size_t m = 0; m < forces.size() && span > 0; ++m) {
-    forces[m] = {contact_.by_material[m].linear / span, contact_.by_material[m].angular / span};
+  const ContactImpulses contact = warehouse().take(contact_impulses);
+  const LoadTotals loads = warehouse().take(load_totals);
+  const double span = time_ - std::exchange(warehouse().global_state(forces_taken_at), time_);
+  MeanForces mean{std::vector<ContactForce>(scene_.materials.size()),
+                  std::vector<Eigen::Vector3d>(scene_.materials.size(), Eigen::Vector3d::Zero())};
+  for (std::size_t m = 0; m < scene_.materials.size() && span > 0; ++m) {
+    mean.contact[m] = {contact.by_material[m].linear / span, contact.by_material[m].angular / span};
+    mean.loads[m] = Eigen::Vector3d(loads.impulse[m].data()) / span;
   }
-  contact_ = {};
-  contact_since_ = time_;
-  return forces;
-}
-
-std::vector<Eigen::Vector3d> Simulation::take_load_forces()
-{
-  const double span = time_ - loads_since_;
-  std::vector<Eigen::Vector3d> forces(scene_.materials.size(), Eigen::Vector3d::Zero());
-  for (std::size_t m = 0; m < forces.size() && span > 0; ++m) {
-    forces[m] = Eigen::Vector3d(loads_.impulse[m].data()) / span;
-  }
-  loads_ = {};
-  loads_since_ = time_;
-  return forces;
+  return mean;
 }
 
 std::unique_ptr<Simulation> Simulation::make(Scene scene, int n_threads)

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "runtime/data/memory_ledger.hpp"
+#include "runtime/engine.hpp"
 #include "runtime/execute/executor.hpp"
 #include "runtime/graph/task_graph.hpp"
 #include "runtime/profile/profiler.hpp"
@@ -15,7 +16,7 @@
 #include "runtime/storage/checkpoints/checkpoint.hpp"
 #include "runtime/storage/fields/field_copy.hpp"
 #include "tasks/energy_ledger.hpp"
-#include "tasks/report/lost_particles.hpp"
+#include "tasks/labels.hpp"
 #include "tasks/report/report.hpp"
 #include "tasks/rigid_body.hpp"
 #include "tasks/scene.hpp"
@@ -49,6 +50,13 @@ struct ContactForce {
   Eigen::Vector3d torque = Eigen::Vector3d::Zero();
 };
 
+/// By material, means over a time.
+struct MeanForces {
+  std::vector<ContactForce> contact;
+  /// By pressure loads [N].
+  std::vector<Eigen::Vector3d> loads;
+};
+
 /// A scene in time. Made with all particles in place; each `advance` is one time step. Over several ranks every call is
 /// collective unless it says otherwise, and what it returns is the same on all of them.
 ///
@@ -73,18 +81,17 @@ class Simulation
   int n_threads() const { return executor_->n_threads(); }
   const runtime::Communicator& communicator() const { return communicator_; }
   /// The longest next step that is stable, before the multiplier [s].
-  double stable_step() const { return stable_step_; }
-  const EnergyLedger& energies() const { return energies_; }
+  double stable_step() const { return warehouse().global_state(longest_step); }
+  const EnergyLedger& energies() const { return warehouse().global_state(energy_ledger); }
   /// Stress updates of all materials since the start.
-  const components::UpdateCounts& updates() const { return updates_; }
+  const components::UpdateCounts& updates() const { return warehouse().total(step_totals).updates; }
   /// Sums over the nodes since the start.
-  const GridTotals& grid_totals() const { return grid_totals_; }
+  const GridTotals& grid_totals() const { return warehouse().total(tasks::grid_totals); }
+  /// Since the start.
+  const LostParticles& lost() const { return warehouse().total(lost_particles); }
 
-  /// By material, the means since the last call, or the start; not collective, but to be called by all ranks alike.
-  std::vector<ContactForce> take_contact_forces();
-
-  /// By material, the mean force of pressure loads since the last call, or the start [N]; called as the one above.
-  std::vector<Eigen::Vector3d> take_load_forces();
+  /// Those since the last call, or the start; not collective, but to be called by all ranks alike.
+  MeanForces take_mean_forces();
 
   /// Bits that this rank tells all ranks with the next step; not collective. A rank without patches is not heard.
   void ask(unsigned requests) { requests_ |= requests; }
@@ -99,7 +106,6 @@ class Simulation
   virtual ParticleReport report() = 0;
   /// Peaks near noses in the last report; those of no particle where the scene has no nose.
   virtual NoseReport near_noses() const = 0;
-  virtual LostParticles lost() = 0;
 
   virtual const runtime::TaskGraph& graph() const = 0;
   /// This rank's.
@@ -141,6 +147,8 @@ class Simulation
   {
   }
 
+  runtime::Warehouse& warehouse() const { return engine_->warehouse(); }
+
   Scene scene_;
   std::shared_ptr<runtime::Executor> executor_;
   runtime::Communicator communicator_;
@@ -151,16 +159,7 @@ class Simulation
   long n_steps_ = 0;
   double time_ = 0;
   double last_step_size_ = 0;
-  double stable_step_ = std::numeric_limits<double>::infinity();
-  EnergyLedger energies_;
-  components::UpdateCounts updates_;
-  GridTotals grid_totals_;
-  /// Since the forces of contact were last taken.
-  ContactImpulses contact_;
-  double contact_since_ = 0;
-  /// Since the forces of loads were last taken.
-  LoadTotals loads_;
-  double loads_since_ = 0;
+  std::unique_ptr<runtime::Engine> engine_;
   /// Last asked for.
   runtime::FieldCopy particles_;
   runtime::FieldCopy nodes_;

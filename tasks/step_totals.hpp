@@ -1,5 +1,6 @@
 #pragma once
 
+#include <Eigen/Core>
 #include <algorithm>
 #include <array>
 #include <cstddef>
@@ -100,6 +101,17 @@ struct GridTotals {
       std::tuple{&GridTotals::impulse,         &GridTotals::taken_by_walls,      &GridTotals::taken_by_damping,
                  &GridTotals::gained_by_nodes, &GridTotals::gained_by_particles, &GridTotals::gained_by_rigid_bodies,
                  &GridTotals::gravity_work,    &GridTotals::gravity_work_at_end, &GridTotals::taken_by_forces};
+};
+
+/// Particles that leave the domain through its open faces.
+struct LostParticles {
+  std::size_t count = 0;
+  double mass = 0;                                     ///< kg
+  double kinetic = 0;                                  ///< J
+  Eigen::Vector3d momentum = Eigen::Vector3d::Zero();  ///< N s
+
+  static constexpr auto fields =
+      std::tuple{&LostParticles::count, &LostParticles::mass, &LostParticles::kinetic, &LostParticles::momentum};
 };
 
 /// What pressure loads do in one step.

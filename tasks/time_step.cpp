@@ -35,16 +35,16 @@ runtime::TaskDeclaration hear_hosts()
 
 /// At the end of a step particles go to the patches that they are in by then.
 template <int D>
-runtime::TaskDeclaration migrate(const Method<D>& method, std::function<bool(const StepTotals&)> accepted)
+runtime::TaskDeclaration migrate(const Method<D>& method)
 {
-  return runtime::migration(particle::position<D>, step_totals, std::move(accepted),
+  return runtime::migration(particle::position<D>, energy_ledger,
                             method.scene.is_periodic() ? &particle::laps : nullptr);
 }
 
 }  // namespace
 
 template <int D>
-runtime::TaskList time_step(const Method<D>& method, std::function<bool(const StepTotals&)> accepted)
+runtime::TaskList time_step(const Method<D>& method)
 {
   runtime::TaskList step;
   for (const runtime::TaskList& phase : {runtime::TaskList{hear_hosts()},
@@ -68,7 +68,9 @@ runtime::TaskList time_step(const Method<D>& method, std::function<bool(const St
                                          grid_to_particles(method),
                                          work_of_body_force(method),
                                          update_stress_last(method),
-                                         runtime::TaskList{migrate(method, std::move(accepted))}}) {
+                                         count_lost(method),
+                                         account_for_step(method),
+                                         runtime::TaskList{migrate(method)}}) {
     step.insert(step.end(), phase.begin(), phase.end());
   }
   return step;
@@ -77,21 +79,21 @@ runtime::TaskList time_step(const Method<D>& method, std::function<bool(const St
 template <int D>
 runtime::HostData host_data(const Method<D>& method)
 {
-  runtime::HostData data{{&particle::id, &particle::body, &particle::reference_position<D>, &particle::mass,
-                          &particle::position<D>, &particle::velocity<D>, &particle::deformation_gradient<D>,
-                          &particle::volume, &particle::stress<D>, &particle::viscous_pressure, &rigid_states},
-                         {&step_totals, &grid_totals, &contact_impulses, &host_requests}};
+  runtime::HostData data{
+      {&particle::id, &particle::body, &particle::reference_position<D>, &particle::mass, &particle::position<D>,
+       &particle::velocity<D>, &particle::deformation_gradient<D>, &particle::volume, &particle::stress<D>,
+       &particle::viscous_pressure, &rigid_states, &step_totals, &grid_totals, &lost_particles, &contact_impulses,
+       &load_totals, &forces_taken_at, &energy_ledger, &longest_step},
+      {&host_requests}};
   for (const SceneMaterial& material : method.materials) add_state_of(material.model, data);
-  if (!method.pressed_materials.empty()) data.results.push_back(&load_totals);
   if (method.scene.is_periodic()) data.state.push_back(&particle::laps);
   if (method.brings_gradients()) data.state.push_back(&particle::velocity_gradient<D>);
   if (method.brings_moments()) data.state.push_back(&particle::velocity_moment<D>);
-  if (method.scene.has_body_force()) data.results.push_back(&body_force_work);
   return data;
 }
 
-template runtime::TaskList time_step(const Method<2>&, std::function<bool(const StepTotals&)>);
-template runtime::TaskList time_step(const Method<3>&, std::function<bool(const StepTotals&)>);
+template runtime::TaskList time_step(const Method<2>&);
+template runtime::TaskList time_step(const Method<3>&);
 template runtime::HostData host_data(const Method<2>&);
 template runtime::HostData host_data(const Method<3>&);
 

@@ -30,11 +30,12 @@ struct Argument {
   using Value = std::conditional_t<ReadOnly, const typename L::Value, typename L::Value>;
 
   /// A span of particles, or a GridView, or one for each group; of a reduction or a global the value itself. Empty
-  /// without an argument, where the label was not declared.
+  /// or a default without an argument, where the label was not declared.
   static decltype(auto) view(const BoundArgument* bound)
   {
     if constexpr (has_one_value(L::centre)) {
-      return *reinterpret_cast<Value*>(bound->fields[0]->buffer(bound->buffer).data());
+      static Value none{};
+      return bound == nullptr ? none : *reinterpret_cast<Value*>(bound->fields[0]->buffer(bound->buffer).data());
     } else if constexpr (EveryGroup) {
       PerGroup<decltype(one(*bound, 0))> views;
       for (std::size_t g = 0; bound != nullptr && g < bound->n_fields; ++g) views.push_back(one(*bound, g));

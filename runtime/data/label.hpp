@@ -74,7 +74,8 @@ class Label
 /// A label with the type of its values. T must survive being copied as bytes: it travels between patches and into
 /// files.
 ///
-/// For a reduction, a default T is the neutral value, and its parts combine as `combine.hpp` says.
+/// For a reduction, a default T is the neutral value, and its parts combine as `combine.hpp` says. One that is state is
+/// accumulated: its value of each step is combined into that of all steps before, which `previous()` reads.
 template <class T, Centring C>
 class TypedLabel : public Label
 {
@@ -142,8 +143,9 @@ struct Reference {
   {
     return {label, halo_width, is_declared, is_anew, of_previous_step};
   }
-  /// Declared only on this condition, which is asked once, here. Without it the body gets an empty span or view.
-  Reference when(bool condition) const requires(!has_one_value(L::centre))
+  /// Declared only on this condition, which is asked once, here. Without it the body gets an empty span or view; of a
+  /// reduction or a global, which it can only read so, a default value.
+  Reference when(bool condition) const
   {
     return {label, halo_width, is_declared && condition, is_anew, of_previous_step};
   }

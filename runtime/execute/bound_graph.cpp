@@ -175,11 +175,7 @@ void BoundGraph::run(int i, const Step& step)
       combine(bound);
       break;
     case InstanceKind::send_particles:
-      if (may_move(instance)) {
-        migration_->send(instance.patch, instance.group);
-      } else {
-        migration_->hold(instance.patch, instance.group);
-      }
+      migration_->send(instance.patch, instance.group);
       break;
     case InstanceKind::receive_particles:
       migration_->receive(instance.patch, instance.group);
@@ -235,14 +231,6 @@ void BoundGraph::make_nothing(const Instance& instance, const Bound& bound)
       }
     }
   }
-}
-
-bool BoundGraph::may_move(const Instance& instance)
-{
-  const TaskDeclaration& migration = graph_.declaration(instance);
-  if (!migration.may_move) return true;
-  const Label& last_check = *migration.accesses.back().label;
-  return migration.may_move(warehouse_.field(last_check, -1, -1).current_buffer.data());
 }
 
 /// The whole value, and the parts by patch, then group, whichever rank's they are.

@@ -75,7 +75,6 @@ class BoundGraph final : public Work
   void prepare(const Instance& instance, const Bound& bound);
   static bool takes_nothing(const Bound& bound);
   void make_nothing(const Instance& instance, const Bound& bound);
-  bool may_move(const Instance& instance);
   Bound bind_reduction(const Label& label);
   static void combine(const Bound& bound);
 

@@ -42,15 +42,10 @@ const Label* laps_label(const TaskDeclaration& migration)
   return accesses.size() > 1 && accesses[1].mode == Mode::update ? accesses[1].label : nullptr;
 }
 
-double cells_from_lower(const Grid& grid, std::size_t axis, double x)
-{
-  return (x - grid.lower[axis]) / grid.cell_size;
-}
-
 /// Number of the cell in which a coordinate is, as far outside of the grid as it may be.
 double cell_along(const Grid& grid, std::size_t axis, double x)
 {
-  return std::floor(cells_from_lower(grid, axis, x));
+  return std::floor(grid.cells_from_lower(axis, x));
 }
 
 void clear(ParticleParcel& parcel)
@@ -84,7 +79,7 @@ bool Migration::stays(const IndexBox& cells, const std::byte* position) const
   for (std::size_t k = 0; k < static_cast<std::size_t>(grid.dimension); ++k) {
     double x = 0;
     std::memcpy(&x, position + k * sizeof(double), sizeof(double));
-    const double place = cells_from_lower(grid, k, x);
+    const double place = grid.cells_from_lower(k, x);
     if (!(place >= cells.lower[k] && place < cells.upper[k])) return false;
   }
   return true;
@@ -139,20 +134,15 @@ void Migration::pack(ParticleParcel& parcel, std::size_t particle, const std::ve
   ++parcel.n_particles;
 }
 
-void Migration::hold(int patch, int group)
-{
-  Outbox& out = box(patch, group);
-  if (out.leavers.empty()) return;
-  for (auto& [destination_patch, parcel] : out.to_patch) clear(*parcel);
-  out.leavers.clear();
-}
-
 void Migration::send(int patch, int group)
 {
-  hold(patch, group);
+  Outbox& out = box(patch, group);
+  if (!out.leavers.empty()) {
+    for (auto& [destination_patch, parcel] : out.to_patch) clear(*parcel);
+    out.leavers.clear();
+  }
   const std::size_t n = warehouse_.n_particles(patch, group);
   if (n == 0) return;
-  Outbox& out = box(patch, group);
   Field& positions = warehouse_.field(position_, patch, group);
   Index uncounted{0, 0, 0};
   Index* const laps =
@@ -165,9 +155,8 @@ void Migration::send(int patch, int group)
     if (to == patch) continue;
     if (fields.empty()) fields = state_fields(warehouse_, patch, group);
     out.leavers.push_back(p);
-    if (to < 0) {
-      pack(out.lost, p, fields);
-    } else if (const auto parcel = out.to_patch.find(to); parcel != out.to_patch.end()) {
+    if (to < 0) continue;
+    if (const auto parcel = out.to_patch.find(to); parcel != out.to_patch.end()) {
       pack(*parcel->second, p, fields);
     } else {
       throw std::runtime_error("a particle moved past a whole patch in one step");
@@ -219,19 +208,6 @@ const std::byte* Migration::read_parcel(const MessagePart& part, const std::byte
     from = end;
   }
   return from;
-}
-
-const std::byte* Migration::field_bytes(const ParticleParcel& parcel, const Label& label, int patch, int group) const
-{
-  if (parcel.n_particles == 0) return nullptr;
-  const std::vector<Field*> fields = state_fields(warehouse_, patch, group);
-  const auto found = std::find_if(fields.begin(), fields.end(), [&](const Field* f) { return f->label == &label; });
-  return parcel.fields[static_cast<std::size_t>(found - fields.begin())].data();
-}
-
-void Migration::clear_lost()
-{
-  for (Outbox& out : outboxes_) clear(out.lost);
 }
 
 }  // namespace tamp::runtime

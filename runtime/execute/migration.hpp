@@ -26,10 +26,9 @@ class Migration
   /// placed, and the one that counts their laps if there is one.
   Migration(Warehouse& warehouse, const TaskDeclaration& declaration);
 
-  /// Packs the particles of a patch and group that have left it and closes the gaps.
+  /// Packs the particles of a patch and group that have left it and closes the gaps. Those outside of the grid are
+  /// gone.
   void send(int patch, int group);
-  /// Packs nothing: all particles stay where they are stored.
-  void hold(int patch, int group);
   /// Takes in what the neighbours packed for this patch.
   void receive(int patch, int group);
 
@@ -38,21 +37,9 @@ class Migration
   void write_parcel(const MessagePart& part, std::vector<std::byte>& message) const;
   const std::byte* read_parcel(const MessagePart& part, const std::byte* from);
 
-  /// Particles that left the grid from a patch since `clear_lost`, and the values of one of their state labels.
-  std::size_t n_lost(int patch, int group) const { return box(patch, group).lost.n_particles; }
-  template <class T>
-  std::vector<T> lost(const TypedLabel<T, Centring::particle>& label, int patch, int group) const
-  {
-    const ParticleParcel& parcel = box(patch, group).lost;
-    const T* first = reinterpret_cast<const T*>(field_bytes(parcel, label, patch, group));
-    return std::vector<T>(first, first + parcel.n_particles);
-  }
-  void clear_lost();
-
  private:
   struct Outbox {
     std::map<int, ParticleParcel*> to_patch;
-    ParticleParcel lost;
     std::vector<std::size_t> leavers;
   };
 
@@ -60,7 +47,6 @@ class Migration
   int destination(std::byte* position, Index& laps) const;
   double put_back(std::size_t axis, std::byte* coordinate, Index& laps) const;
   void pack(ParticleParcel& parcel, std::size_t particle, const std::vector<Field*>& fields) const;
-  const std::byte* field_bytes(const ParticleParcel& parcel, const Label& label, int patch, int group) const;
   std::size_t place(int patch, int group) const
   {
     return static_cast<std::size_t>(patch * warehouse_.n_groups() + group);

@@ -45,8 +45,8 @@ const std::byte* read_patch(Warehouse& warehouse, int patch, const std::byte* fr
   return from;
 }
 
-/// Globals are on every rank already.
-void copy_globals(Warehouse& from, Warehouse& to)
+/// Globals and accumulated reductions are on every rank already.
+void copy_single_values(Warehouse& from, Warehouse& to)
 {
   for (Field* f : state_of(from, -1)) {
     std::memcpy(to.field(*f->label, -1, -1).previous_buffer.data(), f->previous_buffer.data(), f->n_bytes());
@@ -57,7 +57,7 @@ void copy_globals(Warehouse& from, Warehouse& to)
 
 void move_patches(Warehouse& from, Warehouse& to, const Communicator& communicator)
 {
-  copy_globals(from, to);
+  copy_single_values(from, to);
   const auto rank_of = [](const Warehouse& w, int patch) { return static_cast<std::size_t>(w.layout()[patch].rank); };
   std::vector<std::vector<std::byte>> to_each(static_cast<std::size_t>(communicator.size()));
   for (const Patch& patch : from.layout()) {

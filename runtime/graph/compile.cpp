@@ -344,8 +344,9 @@ class Compiler
           if (same && touches_particles(at(declaration))) step_.edge(body, sender, position, 0, 0);
         }
         for (const Access& access : at(d).accesses) {
-          if (access.mode == Mode::read)
-            step_.edge(combiners_.at({access.label, patch.rank}), sender, access.label, 0, 0);
+          if (access.mode != Mode::read) continue;
+          const Use& maker = *stream_at(streams_, access.label, -1, d).version_before(d);
+          step_.edge(one_value_on(maker, patch.rank), sender, access.label, 0, 0);
         }
         step_.edge(sender, receiver, position, 0, 0);
         for (const int other : patch.neighbours) {

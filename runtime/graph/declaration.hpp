@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <functional>
+#include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
@@ -66,8 +67,6 @@ struct TaskDeclaration {
   /// See TaskBuilder::sparse.
   bool sparse = false;
   std::function<void(const TaskContext&, const BoundArgument*)> body;
-  /// For a migration that waits for a reduction: whether particles may move, given its value.
-  std::function<bool(const void*)> may_move;
 };
 
 using TaskList = std::vector<TaskDeclaration>;
@@ -195,6 +194,9 @@ class TaskBuilder
   /// Its place among the accesses; none if it is not declared.
   int add(const Access& access, bool is_declared)
   {
+    if (!is_declared && has_one_value(access.label->centring()) && access.mode != Mode::read) {
+      throw std::logic_error("'" + declaration_.name + "' makes " + access.label->name() + " on a condition");
+    }
     if (!is_declared) return no_argument;
     declaration_.accesses.push_back(access);
     return static_cast<int>(declaration_.accesses.size()) - 1;
@@ -227,19 +229,15 @@ TaskDeclaration migration(const TypedLabel<Point, Centring::particle>& position,
   return declaration;
 }
 
-/// The same, but it waits for the whole reduction `last_check`, and moves nothing if that is not `accepted`: the state
-/// before the step is still whole then.
-template <class Point, class T>
-TaskDeclaration migration(const TypedLabel<Point, Centring::particle>& position,
-                          const TypedLabel<T, Centring::reduction>& last_check,
-                          std::function<bool(const T&)> accepted = nullptr,
+/// The same, but it waits for a reduction or a global: where a task before that throws, no particle has moved, and the
+/// state before the step is still whole.
+template <class Point, class T, Centring C>
+TaskDeclaration migration(const TypedLabel<Point, Centring::particle>& position, const TypedLabel<T, C>& last_check,
                           const TypedLabel<Index, Centring::particle>* laps = nullptr)
 {
+  static_assert(has_one_value(C));
   TaskDeclaration declaration = migration(position, laps);
   declaration.accesses.push_back({Mode::read, &last_check});
-  if (accepted) {
-    declaration.may_move = [f = std::move(accepted)](const void* value) { return f(*static_cast<const T*>(value)); };
-  }
   return declaration;
 }
 

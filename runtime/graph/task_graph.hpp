@@ -101,7 +101,7 @@ struct LabelUse {
 
 /// What the host, outside of the graph, gives and takes.
 struct HostData {
-  /// State that the host sets before the first step.
+  /// State that the host sets before the first step; reductions here are accumulated.
   std::vector<const Label*> state;
   /// Results that the host reads after a step.
   std::vector<const Label*> results;

@@ -22,6 +22,14 @@ struct Grid {
   /// Place along `axis` of node or cell face number `index`.
   double coordinate(int axis, int index) const { return lower[static_cast<std::size_t>(axis)] + cell_size * index; }
   double length(std::size_t axis) const { return cell_size * n_cells[axis]; }
+  /// How many cells a place is beyond the lower end of an axis; and whether it is between the two ends, the lower one
+  /// counting, which is false for what is not a number.
+  double cells_from_lower(std::size_t axis, double x) const { return (x - lower[axis]) / cell_size; }
+  bool spans(std::size_t axis, double x) const
+  {
+    const double place = cells_from_lower(axis, x);
+    return place >= 0 && place < n_cells[axis];
+  }
 };
 
 /// A patch as another one sees it, along a periodic axis perhaps beyond an end of the grid.

@@ -40,14 +40,16 @@ Warehouse::Warehouse(std::span<const TaskGraph* const> graphs, int rank)
   int halo = 0;
   for (const TaskGraph* graph : graphs) halo = std::max(halo, graph->storage_halo());
   for (const LabelUse& use : merged_uses(graphs)) {
-    // A reduction has a part on every patch and for every group, and the total, as a global, at (-1, -1).
+    // A reduction has a part on every patch and for every group, and the whole, as a global, at (-1, -1): only that is
+    // accumulated.
     if (has_one_value(use.label->centring())) add_field(use, -1, halo);
     if (use.label->centring() == Centring::global) continue;
     for (const Patch& patch : *layout_) {
-      add_field(use, patch.id, halo);
+      LabelUse part = use;
+      part.state &= use.label->centring() != Centring::reduction;
+      add_field(part, patch.id, halo);
       if (use.label->centring() != Centring::reduction) continue;
       for (int g = 0; g < n_groups_; ++g) {
-        LabelUse part = use;
         part.group = g;
         add_field(part, patch.id, halo);
       }
@@ -96,13 +98,14 @@ void Warehouse::add_field(const LabelUse& use, int patch, int halo)
       f.box = grown(centring == Centring::node ? p.nodes : p.cells, halo, layout_->grid().dimension);
     }
     const bool reduction = centring == Centring::reduction;
-    const bool local = centring == Centring::global || (patch >= 0 && is_local((*layout_)[patch]));
+    const bool local = patch < 0 || is_local((*layout_)[patch]);
     if (f.state && local) f.previous_buffer.reserve(f.n_bytes());
     if (reduction || (use.computed && local)) f.current_buffer.reserve(f.n_bytes());
     if (use.accumulated && local) f.part_buffer.reserve(f.n_bytes());
   }
   // A part that no task reduces must not count.
   if (centring == Centring::reduction) use.label->reduction()->reset(f.current_buffer.data());
+  if (centring == Centring::reduction && f.state) use.label->reduction()->reset(f.previous_buffer.data());
   lookup_[{use.label, patch, use.group}] = &f;
 }
 
@@ -162,7 +165,12 @@ void Warehouse::set_n_particles(int patch, int group, std::size_t n)
 void Warehouse::advance()
 {
   for (Field& f : fields_) {
-    if (f.state && !f.carried) f.previous_buffer.swap(f.current_buffer);
+    if (!f.state || f.carried) continue;
+    if (f.label->centring() == Centring::reduction) {
+      f.label->reduction()->combine(f.previous_buffer.data(), f.current_buffer.data());
+    } else {
+      f.previous_buffer.swap(f.current_buffer);
+    }
   }
 }
 

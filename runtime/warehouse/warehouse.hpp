@@ -4,6 +4,7 @@
 #include <map>
 #include <span>
 #include <tuple>
+#include <utility>
 #include <vector>
 
 #include "runtime/data/field.hpp"
@@ -71,6 +72,19 @@ class Warehouse
   const T& result(const TypedLabel<T, Centring::reduction>& label)
   {
     return *reinterpret_cast<const T*>(field(label, -1, -1).current_buffer.data());
+  }
+
+  /// What an accumulated reduction has come to since the start, or since it was last taken.
+  template <class T>
+  T& total(const TypedLabel<T, Centring::reduction>& label)
+  {
+    return *reinterpret_cast<T*>(field(label, -1, -1).previous_buffer.data());
+  }
+  /// The same, which begins anew. To be called by all ranks alike.
+  template <class T>
+  T take(const TypedLabel<T, Centring::reduction>& label)
+  {
+    return std::exchange(total(label), T{});
   }
 
   /// Makes what the step computed the state for the next.

@@ -71,7 +71,7 @@ void add_fields(const Scene& scene, const std::vector<std::size_t>& n_particles,
   const runtime::PatchLayout layout(scene.grid, scene.n_patches);
   std::deque<runtime::TaskGraph> graphs;
   std::vector<const runtime::TaskGraph*> pointers;
-  for (auto& [tasks, host] : graphs_of(method, [](const StepTotals&) { return true; })) {
+  for (auto& [tasks, host] : graphs_of(method)) {
     pointers.push_back(&graphs.emplace_back(tasks, layout, names, host));
   }
   demand.fields = runtime::Warehouse::forecast_bytes(pointers, n_particles);

@@ -96,4 +96,13 @@ runtime::TaskList update_stress_first(const Method<D>& method);
 template <int D>
 runtime::TaskList update_stress_last(const Method<D>& method);
 
+/// Particles that leave the grid, which nothing is known of after the step.
+template <int D>
+runtime::TaskList count_lost(const Method<D>& method);
+
+/// Where the energy has gone by the end of the step, and how long the next may be. Throws SimulationError where more
+/// stress updates have failed than the scene allows; particles do not move to other patches before.
+template <int D>
+runtime::TaskList account_for_step(const Method<D>& method);
+
 }  // namespace tamp::tasks

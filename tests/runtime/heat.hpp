@@ -20,7 +20,7 @@ struct Heat {
 
   Heat(int n_cells, Index n_patches, int n_threads)
       : grid{2, {0, 0, 0}, 1.0 / n_cells, {n_cells, n_cells, 1}},
-        engine({grid, n_patches}, {"heat"}, {{{diffusion(grid)}, {{&temperature}, {&total}}}}, n_threads),
+        engine({grid, n_patches}, {"heat"}, {{{diffusion(grid)}, {{&temperature, &total}, {}}}}, n_threads),
         executor(n_threads)
   {
     for (const Patch& patch : engine.layout()) {

@@ -53,4 +53,47 @@ TEST_CASE("a reduction has the same bits for any number of threads", "[runtime]"
   CHECK(std::abs(alone) < 1e-12);
 }
 
+TEST_CASE("an accumulated reduction is the sum over all steps since it was last taken", "[runtime]")
+{
+  Heat heat(24, {4, 3, 1}, 2);
+  double sum = 0;
+  const auto run = [&](int n_steps) {
+    for (int n = 0; n < n_steps; ++n) {
+      heat.run(1, 1e-4);
+      sum += heat.engine.warehouse().result(Heat::total);
+    }
+  };
+
+  run(5);
+  CHECK(heat.engine.warehouse().total(Heat::total) == sum);
+  CHECK(heat.engine.warehouse().take(Heat::total) == sum);
+  CHECK(heat.engine.warehouse().total(Heat::total) == 0);
+  sum = 0;
+  run(3);
+  CHECK(heat.engine.warehouse().total(Heat::total) == sum);
+  CHECK(sum != 0);
+}
+
+TEST_CASE("a task reads what an accumulated reduction came to before the step", "[runtime]")
+{
+  const ReductionLabel<double, "cells"> cells;
+  const GlobalLabel<double, "cells before"> before;
+  const TaskDeclaration count = task("count").over_patches().reduces(cells).body(
+      [&](const TaskContext& at, auto data) { data[cells] = static_cast<double>(at.patch.cells.size()); });
+  const TaskDeclaration look =
+      task("look")
+          .over_ranks()
+          .reads(cells.previous(), cells)
+          .computes(before)
+          .body([&](const TaskContext&, auto data) { data[before] = data[cells.previous()] + data[cells] / 1000; });
+  const Grid grid{2, {0, 0, 0}, 1, {4, 4, 1}};
+  Engine engine({grid, {2, 2, 1}}, {"all"}, {{{count, look}, {{&cells, &before}, {}}}}, 1);
+  Executor executor(1);
+
+  for (long n = 0; n < 3; ++n) engine.advance(executor, {n, 0, 1, 1});
+
+  CHECK(engine.warehouse().global_state(before) == 32.016);
+  CHECK(engine.warehouse().total(cells) == 48);
+}
+
 }  // namespace tamp::test::test_heat

@@ -103,7 +103,7 @@ TEST_CASE("a driven body is where its motion takes it, and feels what the column
   const auto simulation = Simulation::make(pressed_column(0.05), 1);
 
   advance_to(*simulation, 4);
-  simulation->take_contact_forces();
+  simulation->take_mean_forces();
   advance_to(*simulation, 4.1);
 
   const ParticleReport report = simulation->report();
@@ -111,7 +111,7 @@ TEST_CASE("a driven body is where its motion takes it, and feels what the column
   const std::vector<Particle> column = particles_of_material(particles_of(*simulation), 0);
   const double strain = std::log(1 - 0.05);
   CHECK(mean_stress_yy(column, 0, 1) == Approx(uniaxial_modulus(1e6, 0.25) * strain).epsilon(0.01));
-  const std::vector<ContactForce> forces = simulation->take_contact_forces();
+  const std::vector<ContactForce> forces = simulation->take_mean_forces().contact;
   // The particles at the plate share its nodes, and are strained less than the others.
   CHECK(forces[1].force.y() == Approx(-0.4 * mean_stress_yy(column, 0.1, 0.6)).epsilon(0.005));
   CHECK(forces[0].force.y() == Approx(-forces[1].force.y()).epsilon(1e-10));
@@ -136,8 +136,8 @@ TEST_CASE("half a driven body on a mirror feels half the force of the whole")
   advance_to(*whole, 0.7);
   advance_to(*half, 0.7);
 
-  const Eigen::Vector3d of_whole = whole->take_contact_forces()[1].force;
-  const Eigen::Vector3d of_half = half->take_contact_forces()[1].force;
+  const Eigen::Vector3d of_whole = whole->take_mean_forces().contact[1].force;
+  const Eigen::Vector3d of_half = half->take_mean_forces().contact[1].force;
   REQUIRE(of_whole.y() > 1000);
   CHECK(of_half.y() == Approx(of_whole.y() / 2).epsilon(1e-9));
   CHECK(std::abs(of_whole.x()) < 1e-9 * of_whole.y());
@@ -156,7 +156,7 @@ TEST_CASE("a driven body is turned by what it meets only where its rotation is f
   const double way = push(0.2).way(0, 0.6).y();
   CHECK(way_of(of_held).y() == Approx(way).epsilon(1e-10));
   CHECK(way_of(of_turning).y() == Approx(way).epsilon(1e-10));
-  const std::vector<ContactForce> forces = held->take_contact_forces();
+  const std::vector<ContactForce> forces = held->take_mean_forces().contact;
   const double arm = forces[1].torque.z() / forces[1].force.y();
   CHECK(arm > 0.2);
   CHECK(arm < 0.4);
@@ -175,7 +175,7 @@ TEST_CASE("a driven body ends with the same bits on any ranks and threads", "[ra
     advance_to(*simulation, 0.6);
     CHECK(simulation->digest() == alone->digest());
     CHECK(simulation->energies().driving == alone->energies().driving);
-    CHECK(simulation->take_contact_forces()[1].torque.z() != 0);
+    CHECK(simulation->take_mean_forces().contact[1].torque.z() != 0);
   }
 }
 

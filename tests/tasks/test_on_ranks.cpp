@@ -149,7 +149,7 @@ TEST_CASE("a body under pressure ends with the same bits on any ranks and thread
   scene.interpolator = interpolator;
   add_disk(scene, add_elastic(scene, 1000, 1e6, 0.3), 0, 0.6, 0.5, {0, 0, 0}).pressure =
       BodyPressure{components::PressureCurve({{0, 1e3}, {0.1, 1e4}}), {{0, 0.4, 0}, {1, 2, 0}}};
-  const auto pushed = [](Simulation& simulation) { return Eigen::Vector3d(simulation.take_load_forces().at(0)); };
+  const auto pushed = [](Simulation& simulation) { return Eigen::Vector3d(simulation.take_mean_forces().loads.at(0)); };
   const auto single = Simulation::make(scene, 1);
   advance_to(*single, 0.1);
 

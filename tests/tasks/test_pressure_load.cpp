@@ -60,7 +60,7 @@ Eigen::Vector3d first_force(const Scene& scene)
 {
   const auto simulation = Simulation::make(scene, 1);
   simulation->advance(1);
-  return 2 * simulation->take_load_forces().at(0);
+  return 2 * simulation->take_mean_forces().loads.at(0);
 }
 
 }  // namespace
@@ -104,7 +104,7 @@ TEST_CASE("a quarter of a disk between mirrors is pressed as the whole is, and n
   }
   CAPTURE(error / pressure);
   CHECK(error < 0.01 * pressure);
-  const Eigen::Vector3d force = simulation->take_load_forces().at(0);
+  const Eigen::Vector3d force = simulation->take_mean_forces().loads.at(0);
   CHECK(force.x() == Approx(-pressure * 0.5).epsilon(0.03));
   CHECK(force.y() == Approx(-pressure * 0.5).epsilon(0.03));
 }
@@ -116,7 +116,7 @@ TEST_CASE("a column under pressure bears it in every layer, and is shortened by 
   const auto at_start = particles_of(*simulation);
 
   advance_to(*simulation, 9 * period_of_column());
-  simulation->take_load_forces();
+  simulation->take_mean_forces();
   advance_to(*simulation, 10 * period_of_column());
 
   const auto now = particles_of(*simulation);
@@ -130,7 +130,7 @@ TEST_CASE("a column under pressure bears it in every layer, and is shortened by 
   CAPTURE(stress_error, settlement_error);
   CHECK(stress_error < 0.01);
   CHECK(settlement_error < 0.01);
-  const Eigen::Vector3d force = simulation->take_load_forces().at(0);
+  const Eigen::Vector3d force = simulation->take_mean_forces().loads.at(0);
   CHECK(force.y() == Approx(-pressure * 0.4).epsilon(0.005));
   CHECK(std::abs(force.x()) < 1e-9 * pressure);
 }
@@ -217,7 +217,7 @@ TEST_CASE("a block pressed on one side by a load that comes and goes has the mom
   CHECK(momentum.y() == Approx(-given).epsilon(0.005));
   CHECK(std::abs(momentum.x()) < 1e-9 * given);
   CHECK(simulation->grid_totals().impulse[1] == Approx(momentum.y()).epsilon(1e-9));
-  CHECK(simulation->take_load_forces().at(0).y() * 0.08 == Approx(momentum.y()).epsilon(1e-9));
+  CHECK(simulation->take_mean_forces().loads.at(0).y() * 0.08 == Approx(momentum.y()).epsilon(1e-9));
   const double work = simulation->energies().driving;
   CHECK(simulation->report().kinetic + worked(simulation->energies()) == Approx(work).epsilon(0.01));
 }

@@ -173,7 +173,7 @@ void RunHistory::add_body_columns(std::size_t body)
   const int dimension = simulation_.scene().grid.dimension;
   const auto sums = [this, body]() -> const tasks::BodySums& { return report_.bodies[body]; };
   const auto contact = [this, &given]() -> const tasks::ContactForce& {
-    return contact_forces_[static_cast<std::size_t>(given.material)];
+    return mean_forces_.contact[static_cast<std::size_t>(given.material)];
   };
   const auto first = static_cast<std::ptrdiff_t>(columns_.size());
   columns_.push_back({given.name + ".depth[m]", [this, body] { return depth(body); }});
@@ -189,7 +189,7 @@ void RunHistory::add_body_columns(std::size_t body)
   }
   if (given.pressure) {
     add_vector(given.name + ".load", "N",
-               [this, &given] { return load_forces_[static_cast<std::size_t>(given.material)]; });
+               [this, &given] { return mean_forces_.loads[static_cast<std::size_t>(given.material)]; });
   }
   if (given.axis) {
     const Eigen::Vector3d nose(given.axis->nose.data()), tail(given.axis->tail.data());
@@ -315,7 +315,7 @@ double RunHistory::depth(std::size_t body) const
 
 const Eigen::Vector3d& RunHistory::contact_force(std::size_t body) const
 {
-  return contact_forces_[static_cast<std::size_t>(simulation_.scene().bodies[body].material)].force;
+  return mean_forces_.contact[static_cast<std::size_t>(simulation_.scene().bodies[body].material)].force;
 }
 
 double RunHistory::axis_angle(std::size_t body) const
@@ -330,8 +330,7 @@ double RunHistory::axis_angle(std::size_t body) const
 void RunHistory::write_row()
 {
   measure();
-  contact_forces_ = simulation_.take_contact_forces();
-  load_forces_ = simulation_.take_load_forces();
+  mean_forces_ = simulation_.take_mean_forces();
   std::vector<double> row;
   for (const Column& column : columns_) {
     row.push_back(column.value());

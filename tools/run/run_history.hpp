@@ -131,8 +131,7 @@ class RunHistory
   LargestSoFar largest_;
   double momentum_error_ = 0;
   /// By material, since the row before.
-  std::vector<tasks::ContactForce> contact_forces_;
-  std::vector<Eigen::Vector3d> load_forces_;
+  tasks::MeanForces mean_forces_;
   std::vector<Column> columns_;
   std::map<std::string, Extremes> extremes_;
   /// On the first rank only.

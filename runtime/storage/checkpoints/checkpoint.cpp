@@ -181,7 +181,7 @@ RowShare share_of(const StateTable& table, const CheckpointTable& stored, const 
 std::vector<std::byte> gathered(std::vector<std::byte> own, const StateTable& table, const CheckpointTable& stored,
                                 const PatchLayout& layout, const Communicator& communicator)
 {
-  if (table.is_global) return own;  // the first rank's
+  if (table.is_one_value) return own;  // the first rank's
   std::vector<std::uint64_t> n_bytes;
   for (const PatchEntry& entry : stored.entries) n_bytes.push_back(entry.n_values * stored.value_bytes);
   return gather_by_patch(std::move(own), n_bytes, layout, communicator);

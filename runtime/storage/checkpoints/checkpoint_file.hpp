@@ -18,7 +18,7 @@ namespace tamp::runtime
 {
 
 /// Version of what stands where in a checkpoint.
-inline constexpr std::int64_t checkpoint_format = 7;
+inline constexpr std::int64_t checkpoint_format = 8;
 
 /// What this rank gives of a table.
 struct OwnRows {

@@ -73,13 +73,13 @@ std::vector<StateTable> state_tables(Warehouse& warehouse, std::span<const std::
   const PatchLayout& layout = warehouse.layout();
   std::map<std::string, StateTable> by_path;
   for (Field& field : warehouse.fields()) {
-    if (!field.state || field.label->centring() == Centring::reduction) continue;
+    if (!field.state) continue;
     const std::string path = path_of(field, group_names);
     StateTable& table = by_path[path];
     table.path = path;
     table.value_bytes = field.label->value_bytes();
-    if (field.label->centring() == Centring::global) {
-      table.is_global = true;
+    if (has_one_value(field.label->centring())) {
+      table.is_one_value = true;
       table.patches.push_back({&field, {}});
       continue;
     }

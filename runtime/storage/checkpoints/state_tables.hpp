@@ -30,21 +30,21 @@ struct StateTable {
   /// Such as particles/sand/position, cells/sand/temperature, or common/nodes/mass of a field of no group.
   std::string path;
   std::size_t value_bytes = 0;
-  /// A global has one entry instead of one a patch, which all ranks have.
-  bool is_global = false;
+  /// A global or an accumulated reduction has one entry instead of one a patch, which all ranks have.
+  bool is_one_value = false;
   /// By patch.
   std::vector<PatchState> patches;
 
   /// Whether it is this rank that writes a patch's values: of what all have, the first.
   bool is_written_by(const Communicator& rank, std::size_t patch) const
   {
-    return patches[patch].field != nullptr && (!is_global || rank.is_first());
+    return patches[patch].field != nullptr && (!is_one_value || rank.is_first());
   }
   /// The bytes of all values that this rank writes, patch after patch.
   std::vector<std::byte> bytes_written_by(const Communicator& rank) const;
 };
 
-/// All state that a step leaves to the next, the same tables on all ranks. Reductions are none.
+/// All state that a step leaves to the next, the same tables on all ranks.
 std::vector<StateTable> state_tables(Warehouse& warehouse, std::span<const std::string> group_names);
 
 /// What a file says of one patch in a table: how many values it has, and the checksum of their bytes.

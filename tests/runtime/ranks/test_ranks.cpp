@@ -163,7 +163,7 @@ struct World {
   World(const Communicator& communicator_, const std::vector<int>& ranks, int n_threads, bool periodic = false)
       : communicator(communicator_),
         layout(dealt(ranks, periodic)),
-        graph(wandering(), layout, {"only"}, {{&place, &warmth, &smooth, &trace}, {&total}}),
+        graph(wandering(), layout, {"only"}, {{&place, &warmth, &smooth, &trace, &total}, {}}),
         warehouse(std::vector<const TaskGraph*>{&graph}, communicator.rank()),
         bound(graph, warehouse, communicator),
         schedule(bound, n_threads),
@@ -208,10 +208,10 @@ struct World {
     }
   }
 
-  /// The last total, every rank's trace being the same, and all other state: by patch.
+  /// The last total and that of all steps, every rank's trace being the same, and all other state: by patch.
   std::vector<double> values()
   {
-    std::vector<double> all{warehouse.result(total), warehouse.global_state(trace)};
+    std::vector<double> all{warehouse.result(total), warehouse.total(total), warehouse.global_state(trace)};
     for (const double theirs : communicator.gather_value(all.back())) CHECK(theirs == all.back());
     for (const Patch& patch : layout) {
       std::vector<double> own;

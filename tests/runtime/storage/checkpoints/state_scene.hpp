@@ -26,13 +26,15 @@ inline const CellLabel<double, "warmth"> warmth;
 inline const NodeLabel<Point, "drift"> drift;
 inline const CellLabel<std::int64_t, "age"> age;
 inline const GlobalLabel<Colour, "season"> season;
+inline const ReductionLabel<double, "rain"> rain;
 
 inline const std::vector<std::string> groups{"sand", "clay"};
 
 /// State of every kind on a square of 8 x 8 cells, patch p on rank (p + shift) modulo the number of ranks.
 struct StateScene {
   explicit StateScene(const Communicator& communicator = {}, int shift = 0, Index n_patches = {2, 2, 1},
-                      std::vector<const Label*> state = {&place, &number, &colour, &warmth, &drift, &age, &season})
+                      std::vector<const Label*> state = {&place, &number, &colour, &warmth, &drift, &age, &season,
+                                                         &rain})
       : layout(given({{2, {0, 0, 0}, 1, {8, 8, 1}}, n_patches}, communicator.size(), shift)),
         graph({ageing()}, layout, groups, {std::move(state), {}}),
         warehouse(std::vector<const TaskGraph*>{&graph}, communicator.rank())
@@ -61,7 +63,10 @@ struct StateScene {
   /// Sets all state of this rank to numbers that differ for each place, group and `variant`.
   void fill(int variant = 0)
   {
-    if (has_season()) warehouse.global_state(season) = {static_cast<unsigned char>(variant), 0xff, 7};
+    if (has_single_values()) {
+      warehouse.global_state(season) = {static_cast<unsigned char>(variant), 0xff, 7};
+      warehouse.total(rain) = 0.1 * variant;
+    }
     for_each_own([&](int patch, int group) {
       warehouse.set_n_particles(patch, group, n_particles(patch, group));
       for (std::size_t p = 0; p < n_particles(patch, group); ++p) {
@@ -87,7 +92,10 @@ struct StateScene {
   {
     std::string all;
     const auto add = [&](const auto& value) { all.append(reinterpret_cast<const char*>(&value), sizeof value); };
-    if (has_season()) add(warehouse.global_state(season));
+    if (has_single_values()) {
+      add(warehouse.global_state(season));
+      add(warehouse.total(rain));
+    }
     for_each_own([&](int patch, int group) {
       for (const Point& x : warehouse.state(place, patch, group)) add(x);
       for (const std::int64_t n : warehouse.state(number, patch, group)) add(n);
@@ -106,7 +114,7 @@ struct StateScene {
   Warehouse warehouse;
 
  private:
-  bool has_season() const
+  bool has_single_values() const
   {
     const auto& uses = graph.label_uses();
     return std::any_of(uses.begin(), uses.end(), [](const LabelUse& use) { return use.label == &season; });

@@ -208,7 +208,7 @@ TEST_CASE("a checkpoint of other patches, groups or labels is refused with what 
   std::vector<std::string> refused;
   const FoundCheckpoint found = newest_checkpoint(folder.path(), refused).value();
   StateScene scene, four_in_a_row({}, 0, {4, 1, 1}),
-      colourless({}, 0, {2, 2, 1}, {&place, &number, &warmth, &drift, &age, &season});
+      colourless({}, 0, {2, 2, 1}, {&place, &number, &warmth, &drift, &age, &season, &rain});
 
   CHECK_THROWS_WITH(read_checkpoint(found, four_in_a_row.warehouse, groups),
                     Catch::Contains("is of another scene: patches 2 x 2 x 1, expected 4 x 1 x 1"));
@@ -227,7 +227,7 @@ TEST_CASE("ranks together write the checkpoint that one process writes", "[ranks
 
   CHECK(all_datasets(folder.path() / "together" / "step_00000007.h5") ==
         all_datasets(folder.path() / "alone" / "step_00000007.h5"));
-  CHECK(all_datasets(folder.path() / "together" / "step_00000007.h5").size() == 26);
+  CHECK(all_datasets(folder.path() / "together" / "step_00000007.h5").size() == 28);
 }
 
 TEST_CASE("a checkpoint of any number of ranks resumes on any other", "[ranks]")

@@ -138,7 +138,7 @@ TEST_CASE("a checkpoint of another format is refused with both versions")
   tamper(damaged.file(), "format", 1);
 
   CHECK(damaged.find().first == 10);
-  CHECK_THAT(damaged.find().second, Catch::EndsWith("is of format 1, this program reads 7"));
+  CHECK_THAT(damaged.find().second, Catch::EndsWith("is of format 1, this program reads 8"));
 }
 
 TEST_CASE("where every checkpoint is damaged none is found")
