@@ -176,7 +176,7 @@ struct Scene {
   /// Coefficients of the faces with friction.
   std::array<std::array<double, 2>, 3> wall_friction{};
   SceneTime time;
-  Interpolator interpolator = Interpolator::gimp;
+  Interpolator interpolator = "gimp";
   Transfer transfer = Transfer::flip;
   /// Of a blend.
   double flip_part = 0.99;

@@ -3,8 +3,6 @@
 #include <Eigen/QR>
 #include <cstddef>
 
-#include "components/shapes/interpolators.hpp"
-
 namespace tamp::components
 {
 
@@ -17,30 +15,48 @@ Eigen::VectorXd continuum_stress(const LayerColumn& column, double density, cons
   return density * (at_end - integral.array()).matrix();
 }
 
-template <class Interpolator>
-std::vector<double> settled_stress(const Interpolator& interpolator, const LayerColumn& column, double density,
-                                   const LinearForce& force)
+namespace
 {
-  static_assert(Interpolator::dimension == 1);
+
+/// Of each node and layer the weight, and its slope [1/m].
+struct LayerWeights {
+  Eigen::MatrixXd weight, slope;
+};
+
+template <class Shape>
+LayerWeights layer_weights(const Shape& shape, const LayerColumn& column)
+{
   const auto n_layers = static_cast<Eigen::Index>(column.layers.size());
-  const Eigen::Index n_nodes = column.nodes.n_nodes[0], last = n_nodes - 1;
-  Eigen::MatrixXd weight = Eigen::MatrixXd::Zero(n_nodes, n_layers), slope = weight;
+  const Eigen::MatrixXd none = Eigen::MatrixXd::Zero(column.nodes.n_nodes[0], n_layers);
+  LayerWeights weights{none, none};
   for (Eigen::Index l = 0; l < n_layers; ++l) {
     const Vector<1> x(column.layers[static_cast<std::size_t>(l)]);
     const auto set = [&](std::ptrdiff_t node, double w, double s) {
-      weight(node, l) = w;
-      slope(node, l) = s;
+      weights.weight(node, l) = w;
+      weights.slope(node, l) = s;
     };
-    if constexpr (Dense<Interpolator>) {
-      for_each_node(column.nodes, interpolator.at(column.nodes, x, Matrix<1>::Identity()),
+    if constexpr (Dense<Shape>) {
+      for_each_node(column.nodes, shape.at(column.nodes, x, Matrix<1>::Identity()),
                     [&](std::ptrdiff_t node, double w, const Vector<1>& gradient) { set(node, w, gradient[0]); });
     } else {
-      const auto stencil = interpolator.at(column.nodes, x);
+      const auto stencil = shape.at(column.nodes, x);
       for (std::size_t k = 0; k < stencil.weight[0].size(); ++k) {
         set(stencil.first + static_cast<std::ptrdiff_t>(k), stencil.weight[0][k], stencil.slope[0][k]);
       }
     }
   }
+  return weights;
+}
+
+}  // namespace
+
+std::vector<double> settled_stress(Interpolator interpolator, int n_per_axis, const LayerColumn& column, double density,
+                                   const LinearForce& force)
+{
+  LayerWeights weights =
+      with_shape<1>(interpolator, n_per_axis, [&](const auto& shape) { return layer_weights(shape, column); });
+  Eigen::MatrixXd &weight = weights.weight, &slope = weights.slope;
+  const Eigen::Index last = column.nodes.n_nodes[0] - 1;
   const auto fold = [&](Eigen::Index ghost, Eigen::Index inside) {
     weight.row(inside) += weight.row(ghost);
     slope.row(inside) -= slope.row(ghost);
@@ -67,11 +83,5 @@ std::vector<double> settled_stress(const Interpolator& interpolator, const Layer
   for (int pass = 0; pass < 2; ++pass) stress += least_norm.solve(load - balance * stress);
   return {stress.begin(), stress.end()};
 }
-
-template std::vector<double> settled_stress(const Linear<1>&, const LayerColumn&, double, const LinearForce&);
-template std::vector<double> settled_stress(const Gimp<1>&, const LayerColumn&, double, const LinearForce&);
-template std::vector<double> settled_stress(const Cpgimp<1>&, const LayerColumn&, double, const LinearForce&);
-template std::vector<double> settled_stress(const Cpdi<1>&, const LayerColumn&, double, const LinearForce&);
-template std::vector<double> settled_stress(const CubicSpline<1>&, const LayerColumn&, double, const LinearForce&);
 
 }  // namespace tamp::components

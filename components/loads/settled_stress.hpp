@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "components/shapes/grid_block.hpp"
+#include "components/shapes/interpolator.hpp"
 #include "components/tensors.hpp"
 
 namespace tamp::components
@@ -45,8 +46,7 @@ Eigen::VectorXd continuum_stress(const LayerColumn& column, double density, cons
 /// images counted. Of all such stresses it is the one nearest to that of the continuum. Where bodies fill whole walls
 /// of a box, layers of three such columns across each other are at rest in the plane and in space too, as weights are
 /// products of weights along the axes.
-template <class Interpolator>
-std::vector<double> settled_stress(const Interpolator& interpolator, const LayerColumn& column, double density,
+std::vector<double> settled_stress(Interpolator interpolator, int n_per_axis, const LayerColumn& column, double density,
                                    const LinearForce& force);
 
 }  // namespace tamp::components

@@ -5,6 +5,7 @@
 #include <cassert>
 #include <cmath>
 #include <cstddef>
+#include <string_view>
 
 #include "components/shapes/dense_stencil.hpp"
 #include "components/shapes/grid_block.hpp"
@@ -24,12 +25,16 @@ template <int D>
 class Cpdi
 {
  public:
+  static constexpr std::string_view word = "cpdi";
+  static constexpr std::string_view meaning = "their means over parallelograms or parallelepipeds that deform";
   static constexpr int dimension = D;
   static constexpr int support = 4;
+  static constexpr bool is_spline = false;
 
   /// `n_per_axis` particles along each axis of a cell, each as large as its share at first; at least 1.
   explicit Cpdi(int n_per_axis) : half_size_(0.5 / n_per_axis) {}
 
+  double reach() const { return 2; }
   /// See components::greatest_own_stiffness: of a particle that is not deformed.
   double greatest_stiffness_along_axis() const { return 1 / half_size_ + 1 / (1 - half_size_); }
 

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstddef>
+#include <string_view>
 
 #include "components/lanes.hpp"
 #include "components/shapes/product_shape.hpp"
@@ -17,6 +18,8 @@ template <int D>
 class Cpgimp : public ProductShape<Cpgimp<D>, D, 4>
 {
  public:
+  static constexpr std::string_view word = "cpgimp";
+  static constexpr std::string_view meaning = "their means over particles of a size that follows the deformation";
   static constexpr bool deforms = true;
 
   /// `n_per_axis` particles along each axis of a cell, each as large as its share at first; at least 1.

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <string_view>
 
 #include "components/lanes.hpp"
 #include "components/shapes/product_shape.hpp"
@@ -14,7 +15,12 @@ template <int D>
 class CubicSpline : public ProductShape<CubicSpline<D>, D, 4>
 {
  public:
+  static constexpr std::string_view word = "cubic_spline";
+  static constexpr std::string_view meaning = "cubic B-splines";
   static constexpr bool deforms = false;
+  static constexpr bool is_spline = true;
+
+  explicit CubicSpline(int /*n_per_axis*/) {}
 
   /// See components::greatest_own_stiffness; 3.137 at 0.27 cells beyond a node is the greatest.
   double greatest_stiffness_along_axis() const { return 3.14; }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <string_view>
 
 #include "components/lanes.hpp"
 #include "components/shapes/product_shape.hpp"
@@ -14,6 +15,8 @@ template <int D>
 class Gimp : public ProductShape<Gimp<D>, D, 3>
 {
  public:
+  static constexpr std::string_view word = "gimp";
+  static constexpr std::string_view meaning = "their means over particles of constant size";
   static constexpr bool deforms = false;
 
   /// `n_per_axis` particles along each axis of a cell, each as large as its share; at least 1.
@@ -24,6 +27,7 @@ class Gimp : public ProductShape<Gimp<D>, D, 3>
 
   /// Half the edge of the box averaged over, in cells.
   double half_size() const { return half_size_; }
+  double reach() const { return 1 + half_size_; }
   /// See components::greatest_own_stiffness: the particle just reaches the node behind.
   double greatest_stiffness_along_axis() const { return 2 / half_size_ + 1 / (1 - half_size_); }
 
@@ -53,6 +57,18 @@ class Gimp : public ProductShape<Gimp<D>, D, 3>
   Gimp(double half_size, OfHalfSize) : half_size_(half_size) {}
 
   double half_size_;
+};
+
+/// Quadratic B-splines, whatever the size of particles.
+template <int D>
+class QuadraticSpline : public Gimp<D>
+{
+ public:
+  static constexpr std::string_view word = "quadratic_spline";
+  static constexpr std::string_view meaning = "quadratic B-splines";
+  static constexpr bool is_spline = true;
+
+  explicit QuadraticSpline(int /*n_per_axis*/) : Gimp<D>(Gimp<D>::quadratic_spline()) {}
 };
 
 }  // namespace tamp::components

@@ -5,7 +5,6 @@
 
 #include "components/loads/time_step.hpp"
 #include "components/shapes/dense_transfer.hpp"
-#include "components/shapes/interpolators.hpp"
 
 namespace tamp::components
 {

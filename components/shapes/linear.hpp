@@ -2,6 +2,7 @@
 
 #include <array>
 #include <limits>
+#include <string_view>
 
 #include "components/lanes.hpp"
 #include "components/shapes/product_shape.hpp"
@@ -15,7 +16,12 @@ template <int D>
 class Linear : public ProductShape<Linear<D>, D, 2>
 {
  public:
+  static constexpr std::string_view word = "linear";
+  static constexpr std::string_view meaning =
+      "the functions of the grid at a point, which need the time step's rule `\"published\"`";
   static constexpr bool deforms = false;
+
+  explicit Linear(int /*n_per_axis*/) {}
 
   /// No bound: the squared slope stays while the weight vanishes.
   double greatest_stiffness_along_axis() const { return std::numeric_limits<double>::infinity(); }

@@ -29,6 +29,10 @@ class ProductShape
   static constexpr int dimension = D;
   /// Nodes along an axis.
   static constexpr int support = Support;
+  static constexpr bool is_spline = false;
+
+  /// Of a particle anywhere in a cell, in cells; see interpolator.hpp.
+  double reach() const { return 0.5 * Support; }
 
   /// That of a particle at `x` that is not deformed.
   Stencil<D, Support> at(const GridBlock<D>& block, const Vector<D>& x) const

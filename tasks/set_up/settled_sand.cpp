@@ -9,7 +9,6 @@
 
 #include "components/errors.hpp"
 #include "components/materials/invariants.hpp"
-#include "components/shapes/interpolators.hpp"
 #include "tasks/set_up/body_sites.hpp"
 
 namespace tamp::tasks
@@ -118,9 +117,7 @@ SettledSand<D>::SettledSand(const Scene& scene, const SceneBody& body) : sand_(&
   const auto force = body_force<D>(scene);
   const double density = scene.materials[static_cast<std::size_t>(body.material)].density;
   for (std::size_t k = 0; k < D; ++k) {
-    along_[k] = components::with_shape<1>(scene.interpolator, particles_per_axis, [&](const auto& shape) {
-      return components::settled_stress(shape, columns_[k], density, force[k]);
-    });
+    along_[k] = components::settled_stress(scene.interpolator, particles_per_axis, columns_[k], density, force[k]);
   }
 }
 

@@ -53,7 +53,7 @@ TEST_CASE("bodies that collide in free space keep their mass and momentum")
   scene.transfer = GENERATE(Transfer::flip, Transfer::pic, Transfer::blend, Transfer::affine, Transfer::apic,
                             Transfer::tpic, Transfer::xpic, Transfer::fmpm);
   scene.filter_order = 3;
-  scene.interpolator = GENERATE(Interpolator::gimp, Interpolator::quadratic_spline);
+  scene.interpolator = GENERATE(Interpolator("gimp"), Interpolator("quadratic_spline"));
   const auto simulation = Simulation::make(scene, 2);
   const ParticleReport before = simulation->report();
 
@@ -78,7 +78,7 @@ TEST_CASE("bodies that collide in free space keep their mass and momentum")
 TEST_CASE("what walls and gravity give is what the particles have gained")
 {
   Scene scene = punch();
-  scene.interpolator = GENERATE(Interpolator::gimp, Interpolator::quadratic_spline);
+  scene.interpolator = GENERATE(Interpolator("gimp"), Interpolator("quadratic_spline"));
   scene.transfer = GENERATE(Transfer::flip, Transfer::affine, Transfer::apic, Transfer::xpic, Transfer::fmpm);
   const auto simulation = Simulation::make(scene, 2);
   const ParticleReport before = simulation->report();

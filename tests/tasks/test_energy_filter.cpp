@@ -24,7 +24,7 @@ Scene spinning_balls(int dimension)
 {
   Scene scene = empty_scene(dimension, {16, 12, dimension == 3 ? 10 : 1}, cell);
   scene.n_patches = {2, 2, 1};
-  scene.interpolator = Interpolator::quadratic_spline;
+  scene.interpolator = Interpolator("quadratic_spline");
   const int soft = add_elastic(scene, 1000, 1e5, 0.3);
   const auto add = [&](const Triple& centre, const Triple& velocity) -> SceneBody& {
     if (dimension == 2) return add_disk(scene, soft, centre[0], centre[1], 0.25, velocity);
@@ -232,7 +232,7 @@ TEST_CASE("with what particles filter out the energy of balls that meet and spin
 {
   Scene scene = spinning_balls(GENERATE(2, 3));
   scene.transfer = GENERATE(Transfer::flip, Transfer::affine);
-  scene.interpolator = GENERATE(Interpolator::gimp, Interpolator::quadratic_spline);
+  scene.interpolator = GENERATE(Interpolator("gimp"), Interpolator("quadratic_spline"));
   const double given = kinetic_at_start(scene);
 
   const Closing seen = closing(scene, 0.05);

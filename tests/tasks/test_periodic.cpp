@@ -54,7 +54,7 @@ TEST_CASE("matter that fills a periodic domain flies around in it undeformed")
   scene.grid.periodic = {true, true, dimension == 3};
   scene.n_patches = n_patches;
   scene.transfer = GENERATE(Transfer::flip, Transfer::affine);
-  scene.interpolator = GENERATE(Interpolator::gimp, Interpolator::quadratic_spline);
+  scene.interpolator = GENERATE(Interpolator("gimp"), Interpolator("quadratic_spline"));
   const Eigen::Vector3d v(3, -1.7, dimension == 3 ? 0.9 : 0);
   add_box(scene, add_elastic(scene, 7800, 2e5, 0.3), {-9, -9, -9}, {9, 9, 9}, {v[0], v[1], v[2]});
   const auto simulation = Simulation::make(scene, 2);
@@ -258,7 +258,7 @@ TEST_CASE("waves in an endless bar run at the speed of sound, also while it drif
   Scene scene = endless_bar(48);
   scene.n_patches = {2, 1, 1};
   scene.transfer = GENERATE(Transfer::flip, Transfer::affine);
-  scene.interpolator = GENERATE(Interpolator::gimp, Interpolator::quadratic_spline);
+  scene.interpolator = GENERATE(Interpolator("gimp"), Interpolator("quadratic_spline"));
   // Once around in a period.
   const double drift = GENERATE(0.0, 10.0);
 

@@ -70,7 +70,7 @@ TEST_CASE("a damped disk under pressure from all sides comes to that pressure in
   Scene scene = empty_scene(2, {14, 14, 1}, 0.1);
   scene.n_patches = {2, 2, 1};
   scene.local_damping = 0.3;
-  scene.interpolator = GENERATE(Interpolator::gimp, Interpolator::quadratic_spline);
+  scene.interpolator = GENERATE(Interpolator("gimp"), Interpolator("quadratic_spline"));
   add_disk(scene, add_elastic(scene, density, E, nu), 0.71, 0.68, 0.45, {0, 0, 0}).pressure = everywhere(pressure);
   const auto simulation = Simulation::make(scene, 1);
 
@@ -111,7 +111,7 @@ TEST_CASE("a quarter of a disk between mirrors is pressed as the whole is, and n
 
 TEST_CASE("a column under pressure bears it in every layer, and is shortened by p H / M")
 {
-  const auto interpolator = GENERATE(Interpolator::gimp, Interpolator::quadratic_spline);
+  const auto interpolator = GENERATE(Interpolator("gimp"), Interpolator("quadratic_spline"));
   const auto simulation = Simulation::make(pressed_column(0.3, interpolator), 1);
   const auto at_start = particles_of(*simulation);
 
@@ -138,7 +138,7 @@ TEST_CASE("a column under pressure bears it in every layer, and is shortened by 
 TEST_CASE("the work of a load is p A u")
 {
   const double damping = GENERATE(0.0, 0.3);
-  const auto simulation = Simulation::make(pressed_column(damping, Interpolator::gimp), 1);
+  const auto simulation = Simulation::make(pressed_column(damping, Interpolator("gimp")), 1);
   const auto top = [&] {
     double y = 0;
     for (const Particle& p : particles_of(*simulation)) y = std::max(y, p.position.y());
@@ -154,7 +154,7 @@ TEST_CASE("the work of a load is p A u")
 
 TEST_CASE("the work of a load that grows is what the body stores, moves with and loses")
 {
-  Scene scene = pressed_column(GENERATE(0.0, 0.3), GENERATE(Interpolator::gimp, Interpolator::quadratic_spline));
+  Scene scene = pressed_column(GENERATE(0.0, 0.3), GENERATE(Interpolator("gimp"), Interpolator("quadratic_spline")));
   scene.bodies[0].pressure->curve = components::PressureCurve({{0, 0}, {period_of_column(), pressure}});
   const auto simulation = Simulation::make(scene, 1);
 
@@ -187,7 +187,7 @@ TEST_CASE("a cube in space is pressed with p times the area of its side, by eith
 {
   Scene scene = empty_scene(3, {8, 8, 8}, 0.1);
   scene.n_patches = {2, 1, 2};
-  scene.interpolator = GENERATE(Interpolator::gimp, Interpolator::quadratic_spline);
+  scene.interpolator = GENERATE(Interpolator("gimp"), Interpolator("quadratic_spline"));
   add_box(scene, add_elastic(scene, density, E, nu), {0.2, 0.2, 0.2}, {0.6, 0.5, 0.6}).pressure =
       within(pressure, {0, 0, 0.59}, {0.8, 0.8, 0.8});
 

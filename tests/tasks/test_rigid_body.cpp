@@ -107,7 +107,7 @@ TEST_CASE("a rigid body that spins flies on undeformed through cells and patches
 TEST_CASE("the particles of a rigid disk on rings stay sectors of it, whatever the interpolator")
 {
   Scene scene = empty_scene(2, {12, 12, 1}, 0.1);
-  scene.interpolator = GENERATE(Interpolator::cpdi, Interpolator::gimp);
+  scene.interpolator = GENERATE(Interpolator("cpdi"), Interpolator("gimp"));
   scene.time.maximum_step = 1e-3;
   SceneBody& disk = add_disk(scene, add_elastic(scene, 3000, 1e9, 0.3), 0.6, 0.6, 0.3, {0, 0, 0});
   disk.rigid = true;

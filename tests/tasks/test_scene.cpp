@@ -25,7 +25,7 @@ Scene block_on_patches(int patch_width)
 
 TEST_CASE("a step needs patches of the least width, and no more")
 {
-  const int least_width = least_patch_width(GENERATE(Interpolator::gimp, Interpolator::quadratic_spline));
+  const int least_width = least_patch_width(GENERATE(Interpolator("gimp"), Interpolator("quadratic_spline")));
   CHECK_NOTHROW(Simulation::make(block_on_patches(least_width), 1));
   CHECK_THROWS_AS(Simulation::make(block_on_patches(least_width - 1), 1), runtime::GraphError);
 }

@@ -60,7 +60,7 @@ TEST_CASE("settled sand stays at rest in a centrifuge and under gravity")
 {
   const bool turns = GENERATE(true, false);
   Scene scene = turns ? sand_in_centrifuge() : sand_under_gravity();
-  scene.interpolator = GENERATE(Interpolator::gimp, Interpolator::quadratic_spline);
+  scene.interpolator = GENERATE(Interpolator("gimp"), Interpolator("quadratic_spline"));
   const auto simulation = Simulation::make(scene, 2);
 
   for (int i = 0; i < n_steps; ++i) simulation->advance(1);
@@ -76,7 +76,7 @@ TEST_CASE("settled sand that fills a periodic domain from side to side stays at 
   scene.gravity = {0, 0, -9.81};
   scene.grid.periodic[0] = true;
   scene.n_patches = {GENERATE(1, 2), 1, 1};
-  scene.interpolator = GENERATE(Interpolator::gimp, Interpolator::quadratic_spline);
+  scene.interpolator = GENERATE(Interpolator("gimp"), Interpolator("quadratic_spline"));
   const auto simulation = Simulation::make(scene, 2);
 
   for (int i = 0; i < n_steps; ++i) simulation->advance(1);

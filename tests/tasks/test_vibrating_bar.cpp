@@ -103,7 +103,7 @@ TEST_CASE("a bar swings at the frequency of its length and waves, and goes on sw
       GENERATE(std::pair{false, Transfer::flip}, std::pair{false, Transfer::affine}, std::pair{true, Transfer::flip});
   Scene scene = bar(n_cells, held);
   scene.transfer = transfer;
-  scene.interpolator = GENERATE(Interpolator::gimp, Interpolator::quadratic_spline);
+  scene.interpolator = GENERATE(Interpolator("gimp"), Interpolator("quadratic_spline"));
   if (hyperelastic) {
     const auto solid = std::get<components::Hypoelastic>(scene.materials[0].model);
     scene.materials[0].model = components::NeoHookean{solid.bulk_modulus, solid.shear_modulus};

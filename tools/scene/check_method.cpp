@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <variant>
 
 namespace tamp::tools
@@ -10,8 +11,11 @@ namespace tamp::tools
 
 void check_method(const JsonReader& reader, const tasks::Scene& scene)
 {
-  if (scene.interpolator == tasks::Interpolator::linear && scene.time.rule == tasks::StepRule::viscous) {
-    reader.add_problem("interpolator", "\"linear\" with the time step's rule \"viscous\"",
+  const bool has_stable_step = components::with_shape<1>(
+      scene.interpolator, 1, [](const auto& shape) { return std::isfinite(shape.greatest_stiffness_along_axis()); });
+  if (!has_stable_step && scene.time.rule == tasks::StepRule::viscous) {
+    reader.add_problem("interpolator",
+                       fmt::format("\"{}\" with the time step's rule \"viscous\"", scene.interpolator.word()),
                        "expected the rule \"published\", as a particle that hardly reaches a node would have no stable "
                        "step; or another interpolator");
   }

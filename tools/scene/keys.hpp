@@ -1,10 +1,13 @@
 #pragma once
 
+#include <fmt/core.h>
+
 #include <string>
 #include <utility>
 #include <variant>
 #include <vector>
 
+#include "components/choice.hpp"
 #include "components/range.hpp"
 #include "tools/scene/document.hpp"
 
@@ -138,15 +141,26 @@ struct ObjectKeys {
   bool may_be_a_file = false;
 };
 
-/// A key whose words stand for values of an enumeration.
-template <class Enum>
-Key choice(std::string name, Enum default_value, const std::vector<std::pair<std::string, Enum>>& words,
-           std::string meaning, KeysOf instead = nullptr, std::string shown_instead = "")
+/// What the words of a list mean, one after another.
+template <class T>
+std::string meanings_of(const std::vector<components::Word<T>>& words)
+{
+  std::string text;
+  for (const auto& [word, value, meaning] : words) {
+    text += fmt::format("{}`\"{}\"`: {}", text.empty() ? "" : "; ", word, meaning);
+  }
+  return text;
+}
+
+/// A key whose words stand for values of an enumeration, or of a Choice.
+template <class T>
+Key choice(std::string name, T default_value, const std::vector<components::Word<T>>& words, std::string meaning,
+           KeysOf instead = nullptr, std::string shown_instead = "")
 {
   Choice choice{.words = {}, .instead = instead, .shown_instead = std::move(shown_instead)};
   Default left_out;
-  for (const auto& [word, value] : words) {
-    choice.words.push_back(word);
+  for (const auto& [word, value, meaning_of_word] : words) {
+    choice.words.emplace_back(word);
     choice.values.push_back(static_cast<int>(value));
     if (value == default_value) left_out.value = word;
   }

@@ -103,8 +103,8 @@ std::vector<Key> keys_of<components::TabularCap>()
 {
   using components::ElasticUpdate, components::TabularCapParameters;
   constexpr int most_substeps = 1'000'000;
-  const std::vector<std::pair<std::string, StrainMeasure>> strains{{"logarithmic", StrainMeasure::logarithmic},
-                                                                   {"engineering", StrainMeasure::engineering}};
+  const std::vector<components::Word<StrainMeasure>> strains{{"logarithmic", StrainMeasure::logarithmic},
+                                                             {"engineering", StrainMeasure::engineering}};
   Key tested_strain = choice<StrainMeasure>(
       "tested_strain", StrainMeasure::logarithmic, strains,
       "which strains the tests measured; `tamp check` warns where `strain_measure` reads them as others");

@@ -75,9 +75,8 @@ void doubt_gravity(const tasks::Scene& scene, Warnings& warnings)
 /// block beside them, which then pushes the ground ahead of it.
 void doubt_contact(const tasks::Scene& scene, Warnings& warnings)
 {
-  using components::Interpolator;
   const bool are_splines =
-      scene.interpolator == Interpolator::quadratic_spline || scene.interpolator == Interpolator::cubic_spline;
+      components::with_shape<1>(scene.interpolator, 1, [](const auto& shape) { return shape.is_spline; });
   for (std::size_t i = 0; are_splines && i < scene.contacts.size(); ++i) {
     if (scene.contacts[i].normal_of != components::ContactTable::flatter) continue;
     warnings.push_back(

@@ -185,19 +185,9 @@ const ObjectKeys& scene_keys()
            {"grid", Object{grid_keys}, "", compulsory, ""},
            {"boundaries", Object{boundary_keys}, "", empty, ""},
            {"time", Object{time_keys}, "", compulsory, ""},
-           choice<tasks::Interpolator>(
-               "interpolator", scene.interpolator,
-               {{"linear", tasks::Interpolator::linear},
-                {"gimp", tasks::Interpolator::gimp},
-                {"cpgimp", tasks::Interpolator::cpgimp},
-                {"cpdi", tasks::Interpolator::cpdi},
-                {"quadratic_spline", tasks::Interpolator::quadratic_spline},
-                {"cubic_spline", tasks::Interpolator::cubic_spline}},
-               "how far particles reach, and with what weights: `\"linear\"`, the functions of the grid at a point; "
-               "`\"gimp\"`, their means over particles of constant size, `\"cpgimp\"`, of a size that follows the "
-               "deformation; `\"cpdi\"`, over parallelograms or parallelepipeds that deform; `\"quadratic_spline\"`, "
-               "`\"cubic_spline\"`, B-splines; see [method.md](method.md). `\"linear\"` needs the time step's rule "
-               "`\"published\"`"),
+           choice<tasks::Interpolator>("interpolator", scene.interpolator, tasks::Interpolator::words(),
+                                       "how far particles reach, and with what weights: " +
+                                           meanings_of(tasks::Interpolator::words()) + "; see [method.md](method.md)"),
            choice<tasks::Transfer>(
                "transfer", scene.transfer,
                {{"flip", tasks::Transfer::flip},

@@ -69,7 +69,7 @@ TEST_CASE("one layer in each cell carries the layers above it and half of itself
 {
   const double g = 10;
 
-  const auto stress = settled_stress(Gimp<1>(1), layers_above_wall(2, 1, 3), density, {-g, 0});
+  const auto stress = settled_stress("gimp", 1, layers_above_wall(2, 1, 3), density, {-g, 0});
 
   REQUIRE(stress.size() == 3);
   for (std::size_t l = 0; l < 3; ++l) {
@@ -84,7 +84,7 @@ TEST_CASE("settled layers are at rest on every free node, whatever their number 
   const LinearForce force{-200, GENERATE(0.0, 36.0)};
   const LayerColumn column = layers_above_wall(0.005, n_per_cell, height);
 
-  const auto stress = settled_stress(Gimp<1>(n_per_cell), column, density, force);
+  const auto stress = settled_stress("gimp", n_per_cell, column, density, force);
 
   CHECK(greatest_acceleration(column, stress, n_per_cell, force) < 1e-12 * 200);
   const Eigen::VectorXd weight = continuum_stress(column, density, force);
@@ -100,7 +100,7 @@ TEST_CASE("layers between two walls balance a force that grows along them, with 
   const LinearForce force{-36 * 0.013, 36};
   const LayerColumn column = layers_above_wall(0.005, n_per_cell, 8, true);
 
-  const auto stress = settled_stress(Gimp<1>(n_per_cell), column, density, force);
+  const auto stress = settled_stress("gimp", n_per_cell, column, density, force);
 
   CHECK(greatest_acceleration(column, stress, n_per_cell, force) < 1e-12);
   double mean = 0;

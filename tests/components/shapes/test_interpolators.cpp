@@ -9,7 +9,7 @@
 #include "components/loads/time_step.hpp"
 #include "components/shapes/dense_transfer.hpp"
 #include "components/shapes/interpolation.hpp"
-#include "components/shapes/interpolators.hpp"
+#include "components/shapes/interpolator.hpp"
 #include "components/shapes/transfer.hpp"
 #include "tests/components/shapes/shape_reference.hpp"
 
@@ -25,9 +25,12 @@ namespace
 
 constexpr double cell_size = 0.04;
 
-constexpr std::array all_interpolators{Interpolator::linear,           Interpolator::gimp,
-                                       Interpolator::cpgimp,           Interpolator::cpdi,
-                                       Interpolator::quadratic_spline, Interpolator::cubic_spline};
+std::vector<Interpolator> all_interpolators()
+{
+  std::vector<Interpolator> all;
+  for (const auto& word : Interpolator::words()) all.push_back(word.value);
+  return all;
+}
 
 /// Weight and gradient [1/m].
 template <int D>
@@ -108,7 +111,7 @@ double smoothed_hat(double x)
 
 TEMPLATE_TEST_CASE_SIG("any interpolator takes linear fields to deformed particles as they are", "", ((int D), D), 2, 3)
 {
-  const Interpolator interpolator = GENERATE(from_range(all_interpolators));
+  const Interpolator interpolator = GENERATE(from_range(all_interpolators()));
   const int n_per_axis = GENERATE(1, 2, 3);
   const auto block = block_of_nodes<D>(6, cell_size);
   std::mt19937 random(1);
@@ -137,7 +140,7 @@ TEMPLATE_TEST_CASE_SIG("any interpolator takes linear fields to deformed particl
 
 TEST_CASE("a particle on the face of its patch reaches no nodes but those of the patch and one layer more")
 {
-  const Interpolator interpolator = GENERATE(from_range(all_interpolators));
+  const Interpolator interpolator = GENERATE(from_range(all_interpolators()));
   const double h = GENERATE(0.1, 0.07, 0.3), lower = GENERATE(0.0, -0.7);
   constexpr int n_cells = 3;
   for (int face = 1; face < 40; ++face) {
@@ -170,7 +173,7 @@ TEMPLATE_TEST_CASE_SIG("cpGIMP averages over a box as long as the particle is st
     const Vector<D> x = random_place(block, random),
                     stretches = Vector<D>::NullaryExpr([&] { return stretch(random); });
 
-    const auto shape = shape_of<D>(Interpolator::cpgimp, n_per_axis, block, x, stretches.asDiagonal());
+    const auto shape = shape_of<D>(Interpolator("cpgimp"), n_per_axis, block, x, stretches.asDiagonal());
 
     for (std::size_t i = 0; i < shape.size(); ++i) {
       const Vector<D> away = (x - node_position(block, static_cast<std::ptrdiff_t>(i))) / cell_size;
@@ -197,8 +200,8 @@ TEMPLATE_TEST_CASE_SIG("a particle that is only turned has the weights of GIMP u
   Matrix<D> turn = Matrix<D>::Identity();
   turn.template topLeftCorner<2, 2>() << 0.6, -0.8, 0.8, 0.6;
 
-  const auto gimp = shape_of<D>(Interpolator::gimp, 2, block, x, turn);
-  const auto cpgimp = shape_of<D>(Interpolator::cpgimp, 2, block, x, turn);
+  const auto gimp = shape_of<D>(Interpolator("gimp"), 2, block, x, turn);
+  const auto cpgimp = shape_of<D>(Interpolator("cpgimp"), 2, block, x, turn);
 
   for (std::size_t i = 0; i < gimp.size(); ++i) {
     REQUIRE(cpgimp[i].weight == Approx(gimp[i].weight).margin(1e-15));
@@ -215,7 +218,7 @@ TEST_CASE("CPDI has its published weights in the plane")
     const Vector<2> x = random_place(block, random);
     const Matrix<2> f = random_deformation<2>(0.3, random);
 
-    const auto shape = shape_of<2>(Interpolator::cpdi, n_per_axis, block, x, f);
+    const auto shape = shape_of<2>(Interpolator("cpdi"), n_per_axis, block, x, f);
 
     for (std::size_t i = 0; i < shape.size(); ++i) {
       const Vector<2> node = node_position(block, static_cast<std::ptrdiff_t>(i)) / cell_size;
@@ -235,7 +238,7 @@ TEST_CASE(
     const Vector<3> x = random_place(block, random);
     const Matrix<3> f = random_deformation<3>(0.25, random), edges = 0.25 * f;
 
-    const auto shape = shape_of<3>(Interpolator::cpdi, 2, block, x, f);
+    const auto shape = shape_of<3>(Interpolator("cpdi"), 2, block, x, f);
 
     for (std::size_t i = 0; i < shape.size(); ++i) {
       const Vector<3> node = node_position(block, static_cast<std::ptrdiff_t>(i)) / cell_size;
@@ -262,7 +265,7 @@ TEST_CASE(
 TEMPLATE_TEST_CASE_SIG("what is stretched beyond a cell reaches no further than one layer of nodes", "", ((int D), D),
                        2, 3)
 {
-  const Interpolator interpolator = GENERATE(Interpolator::cpgimp, Interpolator::cpdi);
+  const Interpolator interpolator = GENERATE(Interpolator("cpgimp"), Interpolator("cpdi"));
   const auto block = block_of_nodes<D>(6, cell_size);
   std::mt19937 random(6);
   for (int sample = 0; sample < 40; ++sample) {
@@ -291,7 +294,7 @@ TEST_CASE("cubic splines are the mean over a cell of quadratic ones")
   for (int sample = 0; sample < 20; ++sample) {
     const Vector<2> x = random_place(block, random);
 
-    const auto shape = shape_of<2>(Interpolator::cubic_spline, 2, block, x, Matrix<2>::Identity());
+    const auto shape = shape_of<2>(Interpolator("cubic_spline"), 2, block, x, Matrix<2>::Identity());
 
     for (std::size_t i = 0; i < shape.size(); ++i) {
       const Vector<2> away = (x - node_position(block, static_cast<std::ptrdiff_t>(i))) / cell_size;
@@ -307,8 +310,8 @@ TEST_CASE("cubic splines are the mean over a cell of quadratic ones")
 TEMPLATE_TEST_CASE_SIG("no place of a particle alone is stiffer than its interpolator's greatest", "", ((int D), D), 2,
                        3)
 {
-  const Interpolator interpolator = GENERATE(Interpolator::gimp, Interpolator::cpgimp, Interpolator::cpdi,
-                                             Interpolator::quadratic_spline, Interpolator::cubic_spline);
+  const Interpolator interpolator = GENERATE(Interpolator("gimp"), Interpolator("cpgimp"), Interpolator("cpdi"),
+                                             Interpolator("quadratic_spline"), Interpolator("cubic_spline"));
   const int n_per_axis = GENERATE(1, 2, 3, 4);
   const auto block = block_of_nodes<D>(7, 1.0);
   const auto interpolation = Interpolation<D>::make(interpolator, n_per_axis);
@@ -342,8 +345,8 @@ TEMPLATE_TEST_CASE_SIG("dense stencils take from the grid what they give to it",
   const std::vector<Matrix<D>> deformation{random_deformation<D>(0.3, random)},
       gradient{random_deformation<D>(3, random)};
   const std::vector<double> mass{1.7};
-  const auto interpolation = Interpolation<D>::make(Interpolator::cpdi, 2);
-  const auto shape = shape_of<D>(Interpolator::cpdi, 2, block, position[0], deformation[0]);
+  const auto interpolation = Interpolation<D>::make(Interpolator("cpdi"), 2);
+  const auto shape = shape_of<D>(Interpolator("cpdi"), 2, block, position[0], deformation[0]);
   std::vector<ParticleMotion<D>> motion(1);
   std::vector<NodeSums<D>> sums(nodes.size());
 

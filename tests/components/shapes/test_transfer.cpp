@@ -165,7 +165,7 @@ TEMPLATE_TEST_CASE_SIG("without surface gradients particles give the grid the re
   const auto block = block_of_nodes<D>(5, cell_size);
   std::mt19937 random(12);
   const Cloud<D> cloud(block, 60, random);
-  const auto interpolation = Interpolation<D>::make(Interpolator::gimp, 2);
+  const auto interpolation = Interpolation<D>::make(Interpolator("gimp"), 2);
   std::vector<NodeSums<D>> with(static_cast<std::size_t>(n_nodes_of(block))), without = with;
 
   interpolation->particles_to_grid(block, cloud.sources(), true, with.data());
@@ -274,7 +274,7 @@ TEMPLATE_TEST_CASE_SIG("vectors go to particles and back to the nodes as plain l
     node.set(Vector<D>::NullaryExpr([&] { return std::uniform_real_distribution<double>(-1, 1)(random); }));
   }
   std::vector<Vector<D>> values(cloud.position.size());
-  const auto interpolation = Interpolation<D>::make(Interpolator::gimp, n_per_axis);
+  const auto interpolation = Interpolation<D>::make(Interpolator("gimp"), n_per_axis);
 
   interpolation->interpolate(block, {cloud.position}, nodes.data(), values);
   interpolation->add_vectors(block, {cloud.position}, cloud.velocity, sums.data());
@@ -301,7 +301,7 @@ TEMPLATE_TEST_CASE_SIG(
   const Cloud<D> cloud(block, 30, random);
   auto nodes = random_motion<D>(n_nodes_of(block), random);
   std::vector<Matrix<D>> of_weights(cloud.position.size()), of_velocities = of_weights, of_linear = of_weights;
-  const auto interpolation = Interpolation<D>::make(Interpolator::gimp, n_per_axis);
+  const auto interpolation = Interpolation<D>::make(Interpolator("gimp"), n_per_axis);
 
   interpolation->second_moments(block, {cloud.position}, of_weights);
   interpolation->velocity_moments(block, {cloud.position}, nodes.data(), of_velocities);

@@ -1,0 +1,70 @@
+#pragma once
+
+#include <cstddef>
+#include <string_view>
+#include <vector>
+
+#include "components/alternatives.hpp"
+
+namespace tamp::components
+{
+
+/// A word of scenes, what it stands for, and what that is: half a line for people, in Markdown.
+template <class Value>
+struct Word {
+  std::string_view word;
+  Value value;
+  std::string_view meaning{};
+};
+
+/// One of the alternatives of a variant, each of which has a `word`, its name in scenes, and a `meaning`.
+template <class Alternatives>
+class Choice
+{
+ public:
+  /// By its word, `Choice("flip")`; a word that there is not does not compile.
+  consteval Choice(const char* word) : number_(number_of(word)) {}  // NOLINT(google-explicit-constructor)
+  /// By its place among the alternatives.
+  explicit constexpr Choice(int number) : number_(number) {}
+  explicit constexpr operator int() const { return number_; }
+
+  friend constexpr bool operator==(Choice, Choice) = default;
+
+  /// All there are.
+  static std::vector<Word<Choice>> words()
+  {
+    std::vector<Word<Choice>> all;
+    for_each_alternative<Alternatives>([&]<class T>(std::type_identity<T>) {
+      all.push_back({T::word, Choice(static_cast<int>(all.size())), T::meaning});
+    });
+    return all;
+  }
+
+  std::string_view word() const
+  {
+    return visit([]<class T>(std::type_identity<T>) -> std::string_view { return T::word; });
+  }
+
+  /// Calls `visit(std::type_identity<T>())` with the type that is chosen.
+  template <class Visit>
+  auto visit(Visit&& visit) const
+  {
+    return with_alternative<Alternatives>(static_cast<std::size_t>(number_), visit);
+  }
+
+ private:
+  static consteval int number_of(std::string_view word)
+  {
+    int n = 0, found = -1;
+    for_each_alternative<Alternatives>([&]<class T>(std::type_identity<T>) {
+      if (T::word == word) found = n;
+      ++n;
+    });
+    if (found < 0) throw "no such word";
+    return found;
+  }
+
+  int number_;
+};
+
+}  // namespace tamp::components
