@@ -68,7 +68,7 @@ struct Method {
   template <class Visit>
   auto with_transfer(Visit&& visit) const
   {
-    return components::with_transfer(scene.transfer_choice(), std::forward<Visit>(visit));
+    return components::with_transfer(scene.transfer, scene.transfer_numbers, std::forward<Visit>(visit));
   }
   /// Whether contact or a pressure load asks where the surface of a material is.
   bool needs_surface_of(int material) const;

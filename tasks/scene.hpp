@@ -8,6 +8,7 @@
 #include <variant>
 #include <vector>
 
+#include "components/choice.hpp"
 #include "components/contact/contact_table.hpp"
 #include "components/geometry/solid.hpp"
 #include "components/kinematics/deformation_update.hpp"
@@ -16,6 +17,7 @@
 #include "components/loads/rotating_frame.hpp"
 #include "components/loads/time_step.hpp"
 #include "components/materials/material_model.hpp"
+#include "components/parameter.hpp"
 #include "components/problems/body_functions.hpp"
 #include "components/relief/relief.hpp"
 #include "components/rigid/prescribed_motion.hpp"
@@ -30,14 +32,30 @@ namespace tamp::tasks
 
 using Triple = std::array<double, 3>;
 
-/// `symmetry`: the material has its mirror image beyond the face, a smooth wall. `open`: what crosses the face leaves.
-/// `friction`: a wall that may be left, with Coulomb's friction. `no_slip`: a wall to which what touches it sticks.
+/// What the faces of the grid are. `friction`, a wall that may be left, with Coulomb's friction, has a coefficient in
+/// place of a word.
 enum class Face { symmetry, open, friction, no_slip, periodic };
 
+inline std::vector<components::Word<Face>> words_of(Face)
+{
+  return {{"symmetry", Face::symmetry, "a smooth wall, with the mirror image of the material behind it"},
+          {"open", Face::open, "what crosses leaves the simulation"},
+          {"no_slip", Face::no_slip, "material that touches the wall does not move"},
+          {"periodic", Face::periodic,
+           "on both faces of an axis or on neither, what leaves at one enters at the other, see below"}};
+}
+
 /// When stress follows the motion in a step, and by which velocities of nodes particles deform (Bardenhagen, J. Comput.
-/// Phys. 180, 2002): last, by those that move particles; first, by those that particles bring; or last, by those that
-/// particles bring back once they have their new velocities.
+/// Phys. 180, 2002).
 enum class StressTiming { usl, usf, musl };
+
+inline std::vector<components::Word<StressTiming>> words_of(StressTiming)
+{
+  return {{"usl", StressTiming::usl, "last, by those that move particles"},
+          {"usf", StressTiming::usf,
+           "first, by those that particles bring, not for `\"affine\"` with sand that `comes_apart`"},
+          {"musl", StressTiming::musl, "last, by those that particles bring back with their new velocities"}};
+}
 
 using components::Interpolator;
 
@@ -54,7 +72,25 @@ struct SceneTime {
   double multiplier = 0.8;
   double minimum_step = 1e-12;
   double maximum_step = std::numeric_limits<double>::infinity();
+
+  /// All but the rule.
+  static constexpr std::array<components::Parameter<SceneTime>, 4> parameters();
 };
+
+constexpr std::array<components::Parameter<SceneTime>, 4> SceneTime::parameters()
+{
+  using components::above_zero;
+  return {{{"end", "s", above_zero, &SceneTime::end, "simulated time"},
+           {"multiplier",
+            "",
+            {.lower = 0, .upper = 1, .holds_lower = false},
+            &SceneTime::multiplier,
+            "the part of that bound that is used, above 0 and up to 1",
+            true},
+           {"minimum_step", "s", above_zero, &SceneTime::minimum_step,
+            "the run stops as unstable if its time step has to be shorter", true},
+           {"maximum_step", "s", above_zero, &SceneTime::maximum_step, "longest time step", true}}};
+}
 
 using components::MaterialModel;
 
@@ -177,12 +213,9 @@ struct Scene {
   std::array<std::array<double, 2>, 3> wall_friction{};
   SceneTime time;
   Interpolator interpolator = "gimp";
-  Transfer transfer = Transfer::flip;
-  /// Of a blend.
-  double flip_part = 0.99;
-  /// Of XPIC and FMPM.
-  int filter_order = 2;
-  DeformationUpdate deformation_update = DeformationUpdate::exact;
+  Transfer transfer = "flip";
+  components::TransferNumbers transfer_numbers{};
+  DeformationUpdate deformation_update = "exact";
   Relief relief = Relief::none;
   StressTiming stress_timing = StressTiming::usl;
   /// Along each axis of a cell.
@@ -213,7 +246,6 @@ struct Scene {
   {
     return std::any_of(bodies.begin(), bodies.end(), [](const SceneBody& body) { return body.axis.has_value(); });
   }
-  components::TransferChoice transfer_choice() const { return {transfer, flip_part, filter_order}; }
   int particles_per_axis_of(int material) const
   {
     return materials[static_cast<std::size_t>(material)].own_particles_per_axis.value_or(particles_per_axis);

@@ -1,7 +1,9 @@
 #pragma once
 
-#include <stdexcept>
+#include <type_traits>
+#include <variant>
 
+#include "components/choice.hpp"
 #include "components/kinematics/exact_update.hpp"
 #include "components/kinematics/exponential_update.hpp"
 #include "components/kinematics/first_order_update.hpp"
@@ -9,22 +11,17 @@
 namespace tamp::components
 {
 
-/// How the deformation of a step follows from g, dt times the velocity gradient; docs/method.md compares them.
-enum class DeformationUpdate { exact, first_order, exponential };
+/// All the updates there are, with the functions of ExactUpdate; one more is added here.
+using DeformationUpdates = std::variant<ExactUpdate, FirstOrderUpdate, ExponentialUpdate>;
 
-/// Calls `visit(update)` with what an update is made of: the one list of all updates.
+/// How the deformation of a step follows from g, dt times the velocity gradient; docs/method.md compares them.
+using DeformationUpdate = Choice<DeformationUpdates>;
+
+/// Calls `visit(update)` with what an update is made of.
 template <class Visit>
 auto with_update(DeformationUpdate update, Visit&& visit)
 {
-  switch (update) {
-    case DeformationUpdate::exact:
-      return visit(ExactUpdate());
-    case DeformationUpdate::first_order:
-      return visit(FirstOrderUpdate());
-    case DeformationUpdate::exponential:
-      return visit(ExponentialUpdate());
-  }
-  throw std::logic_error("unknown deformation update");
+  return update.visit([&]<class T>(std::type_identity<T>) { return visit(T()); });
 }
 
 }  // namespace tamp::components

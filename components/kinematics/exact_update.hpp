@@ -1,5 +1,7 @@
 #pragma once
 
+#include <string_view>
+
 #include "components/lanes.hpp"
 #include "components/portable_math.hpp"
 #include "components/tensors.hpp"
@@ -36,6 +38,9 @@ SymmetricTensor<D, Number> strain_between(const Matrix<D, Number>& f, const Matr
 /// f = 1 + g: just what the increments v dt of the positions do to a neighbourhood. An update is made of the functions
 /// below, of a number that may be Lanes.
 struct ExactUpdate {
+  static constexpr std::string_view word = "exact";
+  static constexpr std::string_view meaning = "by 1 + g, with a strain free of rotations";
+
   /// f, which takes F from the start of the step to its end.
   template <int D, class Number>
   static Matrix<D, Number> map(const Matrix<D, Number>& g)

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <numbers>
+#include <string_view>
 
 #include "components/kinematics/exact_update.hpp"
 
@@ -24,6 +25,9 @@ Matrix<D, Number> exponential_of(const Matrix<D, Number>& a)
 /// trace of the strain is tr g, so that no step turns a particle inside out. As g is taken over the shape at the start
 /// of the step, particles drift from where their deformations have them by |g|^2 / 2 a step.
 struct ExponentialUpdate {
+  static constexpr std::string_view word = "exponential";
+  static constexpr std::string_view meaning = "by exp(g), which turns nothing inside out";
+
   template <int D, class Number>
   static Matrix<D, Number> map(const Matrix<D, Number>& g)
   {

@@ -1,6 +1,9 @@
 #pragma once
 
+#include <array>
+
 #include "components/lanes.hpp"
+#include "components/parameter.hpp"
 
 namespace tamp::components
 {
@@ -11,6 +14,8 @@ namespace tamp::components
 struct ArtificialViscosity {
   double linear = 0.2;
   double quadratic = 2;
+
+  static constexpr std::array<Parameter<ArtificialViscosity>, 2> parameters();
 
   /// q [Pa], compression positive: to be added to the pressure in the internal force, not to the stress. It is 0 while
   /// the material expands. Density [kg/m^3], bulk modulus [Pa, 0 or above], `volume_rate` = tr D [1/s, expansion
@@ -25,5 +30,12 @@ struct ArtificialViscosity {
     return select(volume_rate >= 0.0, Number(0.0), q);
   }
 };
+
+constexpr std::array<Parameter<ArtificialViscosity>, 2> ArtificialViscosity::parameters()
+{
+  return {{{"linear", "", zero_or_above, &ArtificialViscosity::linear, "its coefficient of the rate", true},
+           {"quadratic", "", zero_or_above, &ArtificialViscosity::quadratic,
+            "its coefficient of the square of the rate", true}}};
+}
 
 }  // namespace tamp::components

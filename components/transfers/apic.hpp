@@ -1,5 +1,7 @@
 #pragma once
 
+#include <string_view>
+
 #include "components/transfers/pic.hpp"
 
 namespace tamp::components
@@ -10,6 +12,9 @@ namespace tamp::components
 /// second moments of the weights by which they are then brought: so angular momentum, with that of B_p, is exact for
 /// any weights. Weights have to have second moments wherever the particle is.
 struct Apic : Pic {
+  static constexpr std::string_view word = "apic";
+  static constexpr std::string_view meaning = "`\"pic\"` with the gradients by which angular momentum is exact";
+
   static constexpr Surroundings surroundings = Surroundings::moment;
 };
 

@@ -1,13 +1,14 @@
 #pragma once
 
+#include <array>
+#include <string_view>
+
+#include "components/parameter.hpp"
 #include "components/shapes/transfer.hpp"
 #include "components/tensors.hpp"
 
 namespace tamp::components
 {
-
-/// How velocities go between particles and grid, by the names in scenes; docs/method.md says what each is for.
-enum class Transfer { flip, pic, blend, affine, apic, tpic, xpic, fmpm };
 
 /// What particles bring to the nodes of the velocities around them, beside their own: nothing; the gradient of velocity
 /// [1/s]; or its first moment sum S_ip v_i (x) (x_i - x_p) [m^2/s], which becomes a gradient by the second moments of
@@ -18,7 +19,33 @@ enum class Surroundings { none, gradient, moment };
 /// nodes: nowhere, at the nodes' velocities of the start of the step, or at those that contact and walls have left.
 enum class Passes { none, from_start, from_end };
 
-/// What every transfer has; these are the values for most:
+/// The numbers that some transfers have; each of those names its own as `own_key`.
+struct TransferNumbers {
+  double flip_part = 0.99;
+  int filter_order = 2;
+
+  static constexpr std::array<Parameter<TransferNumbers>, 2> parameters();
+};
+
+constexpr std::array<Parameter<TransferNumbers>, 2> TransferNumbers::parameters()
+{
+  return {{{"flip_part",
+            "",
+            {.lower = 0, .upper = 1},
+            &TransferNumbers::flip_part,
+            "with `\"blend\"` only: the part of `\"flip\"`, from 0 to 1; the rest is `\"pic\"`",
+            true},
+           {"filter_order",
+            "",
+            {.lower = 1, .upper = 100},
+            &TransferNumbers::filter_order,
+            "with `\"xpic\"` and `\"fmpm\"` only: their order; 1 is `\"pic\"`, and each one more takes another "
+            "pass over the particles",
+            true}}};
+}
+
+/// What every transfer has beside `word`, its name in scenes, and `meaning`, how velocities go, for people; where it
+/// has numbers it is made from a TransferNumbers. These are the values for most:
 ///
 ///  - `surroundings`, what particles bring;
 ///  - `filters`, whether the nodes' part of their velocity is all that particles keep, in which walls and their images

@@ -1,7 +1,9 @@
 #pragma once
 
-#include <stdexcept>
+#include <type_traits>
+#include <variant>
 
+#include "components/choice.hpp"
 #include "components/transfers/affine.hpp"
 #include "components/transfers/apic.hpp"
 #include "components/transfers/blend.hpp"
@@ -14,43 +16,35 @@
 namespace tamp::components
 {
 
-/// What a scene says of a transfer.
-struct TransferChoice {
-  Transfer transfer;
-  /// Of a blend, 0 to 1.
-  double flip_part;
-  /// Of XPIC and FMPM, at least 1.
-  int filter_order;
-};
+/// All the transfers there are, see transfer.hpp; one more is added here.
+using Transfers = std::variant<Flip, Pic, Blend, Affine, Apic, Tpic, Xpic, Fmpm>;
 
-/// Calls `visit(transfer)` with what `choice` names: the one list of all transfers.
+/// How velocities go between particles and grid; docs/method.md says what each is for.
+using Transfer = Choice<Transfers>;
+
+/// Calls `visit(transfer)` with what `choice` names.
 template <class Visit>
-auto with_transfer(const TransferChoice& choice, Visit&& visit)
+auto with_transfer(Transfer choice, const TransferNumbers& numbers, Visit&& visit)
 {
-  switch (choice.transfer) {
-    case Transfer::flip:
-      return visit(Flip{});
-    case Transfer::pic:
-      return visit(Pic{});
-    case Transfer::blend:
-      return visit(Blend{{}, choice.flip_part});
-    case Transfer::affine:
-      return visit(Affine{});
-    case Transfer::apic:
-      return visit(Apic{});
-    case Transfer::tpic:
-      return visit(Tpic{});
-    case Transfer::xpic:
-      return visit(Xpic{{}, choice.filter_order});
-    case Transfer::fmpm:
-      return visit(Fmpm{{}, choice.filter_order});
-  }
-  throw std::logic_error("unknown transfer");
+  return choice.visit([&]<class T>(std::type_identity<T>) {
+    if constexpr (requires { T(numbers); }) {
+      return visit(T(numbers));
+    } else {
+      return visit(T());
+    }
+  });
 }
 
-inline Surroundings surroundings_of(const TransferChoice& choice)
+inline Surroundings surroundings_of(Transfer choice)
 {
-  return with_transfer(choice, [](const auto& transfer) { return transfer.surroundings; });
+  return choice.visit([]<class T>(std::type_identity<T>) { return T::surroundings; });
+}
+
+/// Whether particles bring gradients beside velocities of their own, which no node slows.
+inline bool brings_own_gradients(Transfer choice)
+{
+  return choice.visit(
+      []<class T>(std::type_identity<T>) { return T::surroundings == Surroundings::gradient && !T::filters; });
 }
 
 }  // namespace tamp::components

@@ -41,7 +41,7 @@ void deform(const Method<D>& method, const runtime::TaskContext& at, const Data&
   if (!inside_out) return;
   const std::size_t p = first + *inside_out;
   const Vector<D>& x = data[particle::position<D>.previous()][p];
-  const bool has_limit = method.deformation_update == DeformationUpdate::exponential;
+  const bool has_limit = method.deformation_update == "exponential";
   throw SimulationError(
       has_limit ? "a particle turns or shears by more than half a turn in one step" : "a particle is turned inside out",
       method.materials[static_cast<std::size_t>(at.group)].name, data[particle::id.previous()][p],

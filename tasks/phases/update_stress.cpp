@@ -184,7 +184,8 @@ template <class Model>
 bool forgets_gradients(const Model& model, const Scene& scene)
 {
   if constexpr (requires { model.may_come_apart(); }) {
-    return model.may_come_apart() && scene.transfer == Transfer::affine && scene.stress_timing != StressTiming::usf;
+    return model.may_come_apart() && components::brings_own_gradients(scene.transfer) &&
+           scene.stress_timing != StressTiming::usf;
   } else {
     return false;
   }

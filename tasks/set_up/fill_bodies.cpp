@@ -205,7 +205,7 @@ void BodyParticles<D>::store(const Particles& particles, int patch, int material
   warehouse.set_n_particles(patch, material, n);
   const auto state = [&](const auto& label) { return warehouse.state(label, patch, material); };
   const double density = scene_.materials[static_cast<std::size_t>(material)].density;
-  const Surroundings surroundings = surroundings_of(scene_.transfer_choice());
+  const Surroundings surroundings = surroundings_of(scene_.transfer);
   for (std::size_t p = 0; p < n; ++p) {
     const auto number = static_cast<std::size_t>(particles.body[p]);
     const SceneBody& body = scene_.bodies[number];

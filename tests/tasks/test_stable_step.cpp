@@ -78,7 +78,7 @@ TEST_CASE("free elastic bodies stay bounded up to the bound on the step, and not
   const auto body = GENERATE(FreeBody{"block", 2, 4}, FreeBody{"block", 3, 2.5}, FreeBody{"ball", 3, 3});
   const bool viscous = GENERATE(false, true), affine = GENERATE(false, true), smooth = GENERATE(false, true);
   Scene scene = free_body(body, viscous);
-  scene.transfer = affine ? Transfer::affine : Transfer::flip;
+  scene.transfer = affine ? Transfer("affine") : Transfer("flip");
   scene.interpolator = smooth ? Interpolator("quadratic_spline") : Interpolator("gimp");
   CAPTURE(body.name, body.dimension, viscous, affine, smooth);
 
@@ -107,12 +107,12 @@ TEST_CASE("free elastic bodies stay bounded up to the bound on the step with tra
   const auto body = GENERATE(FreeBody{"block", 2, 4}, FreeBody{"block", 3, 2.5});
   const bool viscous = GENERATE(false, true), smooth = GENERATE(false, true);
   const auto [transfer, order] =
-      GENERATE(std::pair{Transfer::pic, 1}, std::pair{Transfer::blend, 1}, std::pair{Transfer::apic, 1},
-               std::pair{Transfer::tpic, 1}, std::pair{Transfer::xpic, 2}, std::pair{Transfer::xpic, 5},
-               std::pair{Transfer::fmpm, 2}, std::pair{Transfer::fmpm, 8});
+      GENERATE(std::pair{Transfer("pic"), 1}, std::pair{Transfer("blend"), 1}, std::pair{Transfer("apic"), 1},
+               std::pair{Transfer("tpic"), 1}, std::pair{Transfer("xpic"), 2}, std::pair{Transfer("xpic"), 5},
+               std::pair{Transfer("fmpm"), 2}, std::pair{Transfer("fmpm"), 8});
   Scene scene = free_body(body, viscous);
   scene.transfer = transfer;
-  scene.filter_order = order;
+  scene.transfer_numbers.filter_order = order;
   scene.interpolator = smooth ? Interpolator("quadratic_spline") : Interpolator("gimp");
   CAPTURE(body.dimension, viscous, smooth, static_cast<int>(transfer), order);
 

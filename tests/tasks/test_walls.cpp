@@ -107,15 +107,15 @@ TEST_CASE("what is thrown at a wall with friction leaves it again")
 
 TEST_CASE("with any transfer a wall with friction takes along it no more than Coulomb's part of its push")
 {
-  const Transfer transfer = GENERATE(Transfer::flip, Transfer::pic, Transfer::blend, Transfer::affine, Transfer::tpic,
-                                     Transfer::apic, Transfer::xpic);
+  const Transfer transfer = GENERATE(Transfer("flip"), Transfer("pic"), Transfer("blend"), Transfer("affine"),
+                                     Transfer("tpic"), Transfer("apic"), Transfer("xpic"));
   const StressTiming timing = GENERATE(StressTiming::usl, StressTiming::musl);
   CAPTURE(static_cast<int>(transfer), static_cast<int>(timing));
   Scene scene = block_on_incline(0.3, 0, {5, -1, 0});
   scene.gravity = {0, 0, 0};
   scene.transfer = transfer;
   scene.stress_timing = timing;
-  scene.filter_order = 4;
+  scene.transfer_numbers.filter_order = 4;
   const auto simulation = Simulation::make(scene, 1);
 
   advance_to(*simulation, 0.01);

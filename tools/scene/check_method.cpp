@@ -19,16 +19,18 @@ void check_method(const JsonReader& reader, const tasks::Scene& scene)
                        "expected the rule \"published\", as a particle that hardly reaches a node would have no stable "
                        "step; or another interpolator");
   }
-  if (scene.transfer == tasks::Transfer::apic && !components::has_second_moments(scene.interpolator)) {
+  const bool divides_by_moments = surroundings_of(scene.transfer) == components::Surroundings::moment;
+  if (divides_by_moments && !components::has_second_moments(scene.interpolator)) {
     reader.add_problem("transfer",
-                       "apic with an interpolator whose weights have no spread where a particle is on a node",
+                       fmt::format("{} with an interpolator whose weights have no spread where a particle is on a node",
+                                   scene.transfer.word()),
                        "expected another transfer, such as tpic, or another interpolator");
   }
 }
 
 void check_stress_timing(const JsonReader& reader, const tasks::Scene& scene)
 {
-  if (scene.stress_timing != tasks::StressTiming::usf || scene.transfer != tasks::Transfer::affine) return;
+  if (scene.stress_timing != tasks::StressTiming::usf || !components::brings_own_gradients(scene.transfer)) return;
   for (const tasks::SceneMaterial& material : scene.materials) {
     const auto may_come_apart = [](const auto& model) {
       if constexpr (requires { model.may_come_apart(); }) return model.may_come_apart();
@@ -36,7 +38,8 @@ void check_stress_timing(const JsonReader& reader, const tasks::Scene& scene)
     };
     if (!std::visit(may_come_apart, material.model)) continue;
     reader.add_problem("stress_timing",
-                       fmt::format("\"usf\" with the transfer affine and sand that comes apart, \"{}\"", material.name),
+                       fmt::format("\"usf\" with the transfer {} and sand that comes apart, \"{}\"",
+                                   scene.transfer.word(), material.name),
                        "expected usl or musl, as sand that is apart has to forget the gradient of its velocity, which "
                        "with usf it only gets after its stress; or another transfer");
   }
@@ -44,8 +47,11 @@ void check_stress_timing(const JsonReader& reader, const tasks::Scene& scene)
 
 void check_contact_of_transfer(const JsonReader& reader, const tasks::Scene& scene)
 {
-  if (scene.transfer != tasks::Transfer::fmpm || scene.filter_order < 2) return;
-  const std::string fmpm = fmt::format("fmpm of order {}", scene.filter_order);
+  const bool passes_from_end = components::with_transfer(scene.transfer, scene.transfer_numbers, [](const auto& t) {
+    return t.passes == components::Passes::from_end && t.n_passes() > 0;
+  });
+  if (!passes_from_end) return;
+  const std::string fmpm = fmt::format("{} of order {}", scene.transfer.word(), scene.transfer_numbers.filter_order);
   for (const auto& axis : scene.faces) {
     if (std::find(axis.begin(), axis.end(), tasks::Face::friction) == axis.end()) continue;
     reader.add_problem("transfer", fmpm + " with a wall that rubs",

@@ -1,10 +1,10 @@
 #include "tools/scene/read_scene.hpp"
 
 #include <fmt/core.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
-#include <initializer_list>
 
 #include "components/errors.hpp"
 #include "tasks/method.hpp"
@@ -13,6 +13,7 @@
 #include "tools/scene/check_bodies.hpp"
 #include "tools/scene/check_method.hpp"
 #include "tools/scene/json_reader.hpp"
+#include "tools/scene/parameter_keys.hpp"
 #include "tools/scene/read_body.hpp"
 #include "tools/scene/read_material.hpp"
 
@@ -167,11 +168,8 @@ class SceneReader
   {
     JsonReader reader = root_.object("time");
     tasks::SceneTime& time = scene_.time;
-    time.end = reader.number("end");
+    read_parameters(reader, time);
     time.rule = reader.choice<tasks::StepRule>("rule");
-    time.multiplier = reader.number("multiplier");
-    time.minimum_step = reader.number("minimum_step");
-    time.maximum_step = reader.optional_number("maximum_step").value_or(time.maximum_step);
     if (time.maximum_step < time.minimum_step) {
       reader.add_problem("maximum_step", fmt::format("{}", time.maximum_step),
                          fmt::format("expected no less than the minimum step, {}", time.minimum_step));
@@ -181,22 +179,28 @@ class SceneReader
 
   void read_transfer()
   {
-    using tasks::Transfer;
-    scene_.transfer = root_.choice<Transfer>("transfer");
-    if (belongs_to("flip_part", "blend", {Transfer::blend})) scene_.flip_part = root_.number("flip_part");
-    if (belongs_to("filter_order", "xpic or fmpm", {Transfer::xpic, Transfer::fmpm})) {
-      scene_.filter_order = root_.whole_number("filter_order");
+    scene_.transfer = root_.choice<tasks::Transfer>("transfer");
+    for (const auto& number : components::TransferNumbers::parameters()) {
+      if (goes_with_transfer(number.key)) read_parameter(number, root_, scene_.transfer_numbers);
     }
   }
 
-  /// Whether a key goes with the scene's transfer; if it is there and does not, that is noted.
-  bool belongs_to(const std::string& key, const std::string& words, std::initializer_list<tasks::Transfer> transfers)
+  /// Whether the scene's transfer has this number; if the key is there and it has not, that is noted.
+  bool goes_with_transfer(std::string_view number)
   {
-    const bool belongs = std::find(transfers.begin(), transfers.end(), scene_.transfer) != transfers.end();
-    if (!belongs && root_.has(key)) {
-      root_.add_problem(key, "a key that another transfer has", "expected the transfer " + words + " with it");
+    std::vector<std::string_view> owners;
+    components::for_each_alternative<components::Transfers>([&]<class T>(std::type_identity<T>) {
+      if constexpr (requires { T::own_key; }) {
+        if (T::own_key == number) owners.push_back(T::word);
+      }
+    });
+    if (std::find(owners.begin(), owners.end(), scene_.transfer.word()) != owners.end()) return true;
+    const std::string key(number);
+    if (root_.has(key)) {
+      root_.add_problem(key, "a key that another transfer has",
+                        fmt::format("expected the transfer {} with it", fmt::join(owners, " or ")));
     }
-    return belongs;
+    return false;
   }
 
   void read_particles_per_cell()
@@ -252,7 +256,7 @@ class SceneReader
   {
     auto reader = root_.optional_object("artificial_viscosity");
     if (!reader) return;
-    scene_.artificial_viscosity = {.linear = reader->number("linear"), .quadratic = reader->number("quadratic")};
+    read_parameters(*reader, scene_.artificial_viscosity.emplace());
     reader->finish();
   }
 

@@ -40,10 +40,10 @@ TEST_CASE("a transfer is read with its own number, and resolves without those of
   const auto xpic = read_scene(file, {"/transfer=xpic", "/filter_order=5"});
   const auto fmpm = read_scene(file, {"/transfer=fmpm"});
 
-  CHECK(blend.scene.transfer == tasks::Transfer::blend);
-  CHECK(blend.scene.flip_part == 0.9);
-  CHECK(xpic.scene.filter_order == 5);
-  CHECK(fmpm.scene.filter_order == 2);
+  CHECK(blend.scene.transfer == tasks::Transfer("blend"));
+  CHECK(blend.scene.transfer_numbers.flip_part == 0.9);
+  CHECK(xpic.scene.transfer_numbers.filter_order == 5);
+  CHECK(fmpm.scene.transfer_numbers.filter_order == 2);
   CHECK(fmpm.resolved["filter_order"] == 2);
   CHECK_FALSE(fmpm.resolved.contains("flip_part"));
 }
