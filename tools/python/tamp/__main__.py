@@ -28,7 +28,8 @@ COMMANDS = {
     "projectile": "methods.projectile", "separation": "methods.separation", "stable-step": "methods.stable_step",
     "stress-tolerance": "methods.stress_tolerance",
     "digests": "checks.digests", "failures": "checks.failures", "forecasts": "checks.forecasts",
-    "kill-and-restart": "checks.kill_and_restart", "same-bits": "checks.same_bits", "scaling": "checks.scaling",
+    "kill-and-restart": "checks.kill_and_restart", "mutations": "checks.mutations", "same-bits": "checks.same_bits",
+    "scaling": "checks.scaling", "schema": "checks.schema",
 }
 
 

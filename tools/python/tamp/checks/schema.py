@@ -1,23 +1,19 @@
-#!/usr/bin/env python3
 """Holds the schema that `tamp schema` prints against the program: what it says of scenes, `tamp check` says too.
-
-    tests/schema/validate.py [--tamp build/release/tamp]
 
 Every scene of inputs/ is accepted, as it stands and with every default filled in, and so are scenes with each kind of
 key; the broken ones are refused by both, `tamp check` with exit code 2. It prints what differs, and the exit code is 1 if
-anything does."""
+anything does. Debian's python3-jsonschema is used.
+"""
 
-import argparse
 import copy
 import json
 import pathlib
-import subprocess
-import sys
 import tempfile
 
 import jsonschema
 
-ROOT = pathlib.Path(__file__).resolve().parents[2]
+from tamp import files, program
+from tamp.program import INPUTS, ROOT, SAND
 
 BOX = {"type": "box", "lower": [0, 0], "upper": [1, 1]}
 PLANE = {
@@ -34,8 +30,8 @@ SPACE["dimension"] = 3
 SPACE["grid"]["upper"] = [9, 9, 9]
 SPACE["bodies"]["block"]["geometry"] = {"type": "box", "lower": [2, 2, 2], "upper": [4, 4, 4]}
 
-SAND = {"file": str(ROOT / "inputs/materials/concrete-sand/table.json"), "density": 1050}
-QUICK = {"file": str(ROOT / "inputs/punch/quick.json")}
+CONCRETE_SAND = {"file": str(SAND / "table.json"), "density": 1050}
+QUICK = {"file": str(INPUTS / "punch/quick.json")}
 CYLINDER = {"type": "cylinder", "first_end": [3, 3, 2], "second_end": [3, 3, 5], "radius": 1}
 LOG_SOLID = {"type": "neo_hookean_log", "bulk_modulus": 2e6, "shear_modulus": 3e6}
 RING = {"type": "ring", "centre": [4, 4], "inner_radius": 1, "outer_radius": 2, "amplitude": 0.1}
@@ -66,10 +62,10 @@ SOUND = [
                                         "translation": [2, 2]}}),
     (PLANE, {"/materials/soil": {"type": "drucker_prager", "density": 1600, "bulk_modulus": 2e7, "shear_modulus": 1e7,
                                  "friction_angle": 30, "cohesion": 1e3}}),
-    (PLANE, {"/materials/sand": SAND}),
-    (PLANE, {"/materials/sand": {**SAND, "modulus": {"compile": 0.01}, "tolerance": 1e-4}}),
-    (PLANE, {"/materials/sand": {**SAND, "comes_apart": True, "separation_density": 0.7}}),
-    (PLANE, {"/materials/sand": {"file": SAND["file"], "type": "hypoelastic", "density": 1, "bulk_modulus": 1e7,
+    (PLANE, {"/materials/sand": CONCRETE_SAND}),
+    (PLANE, {"/materials/sand": {**CONCRETE_SAND, "modulus": {"compile": 0.01}, "tolerance": 1e-4}}),
+    (PLANE, {"/materials/sand": {**CONCRETE_SAND, "comes_apart": True, "separation_density": 0.7}}),
+    (PLANE, {"/materials/sand": {"file": CONCRETE_SAND["file"], "type": "hypoelastic", "density": 1, "bulk_modulus": 1e7,
                                  "shear_modulus": 1e7, "poisson_ratio": None, "modulus": None, "yield": None,
                                  "hydrostat": None, "elastic_update": None, "strain_measure": None, "tested_strain": None,
                                  "tested_density": None, "crush_curve": None}}),
@@ -141,7 +137,7 @@ BROKEN = [
     (PLANE, {"/bodies/block/angular_velocity": [1, 2, 3, 4]}),
     (PLANE, {"/contact": [{"materials": ["steel"], "friction": 0}]}),
     (PLANE, {"/bodies/block": DRIVEN, "/bodies/block/driven": {"velocities": [[0, 1]]}}),
-    (PLANE, {"/materials/sand": {**SAND, "modulus": {"scaling": [1, 2]}}}),
+    (PLANE, {"/materials/sand": {**CONCRETE_SAND, "modulus": {"scaling": [1, 2]}}}),
     # in what bodies may have
     (PLANE, {"/bodies/block/pressure": {"value": -1}}),
     (PLANE, {"/bodies/block/pressure": {"values": [[0, 0, 1]]}}),
@@ -155,8 +151,8 @@ BROKEN = [
     (QUICK, {"/materials": {"sand": {"modulus": {"type": "svm"}}}}),
     (QUICK, {"/bodies": {"punch": {"velocity": ["down"]}}}),
     (QUICK, {"/file": 1}),
-    (PLANE, {"/materials/sand": {**SAND, "poisson_ratio": 0.5}}),
-    (PLANE, {"/materials/sand": {**SAND, "strength": 30}}),
+    (PLANE, {"/materials/sand": {**CONCRETE_SAND, "poisson_ratio": 0.5}}),
+    (PLANE, {"/materials/sand": {**CONCRETE_SAND, "strength": 30}}),
 ]
 
 
@@ -176,38 +172,35 @@ class Both:
 
     def __init__(self, tamp):
         self.tamp = tamp
-        schema = json.loads(subprocess.run([tamp, "schema"], check=True, capture_output=True).stdout)
+        schema = json.loads(program.call(tamp, "schema").stdout)
         jsonschema.Draft7Validator.check_schema(schema)
         self.validator = jsonschema.Draft7Validator(schema)
         self.definitions = {name: jsonschema.Draft7Validator({**schema, "allOf": [{"$ref": f"#/definitions/{name}"}]})
                             for name in ("material", "solid")}
         self.n_wrong = 0
 
-    def tell(self, words):
+    def complain(self, words):
         self.n_wrong += 1
         print(words)
 
-    def check(self, file):
-        return subprocess.run([self.tamp, "check", file], capture_output=True, text=True)
-
     def expect_accepted(self, name, value, validator=None):
         for error in (validator or self.validator).iter_errors(value):
-            self.tell(f"{name}: the schema refuses {'/'.join(map(str, error.absolute_path))}: {error.message[:200]}")
+            self.complain(f"{name}: the schema refuses {'/'.join(map(str, error.absolute_path))}: {error.message[:200]}")
 
     def expect_sound(self, name, file):
-        self.expect_accepted(name, json.loads(file.read_text()))
-        checked = self.check(file)
+        self.expect_accepted(name, files.document(file))
+        checked = program.answer(self.tamp, "check", file)
         if checked.returncode != 0:
-            self.tell(f"{name}: `tamp check` ends with {checked.returncode}: {checked.stderr}")
+            self.complain(f"{name}: `tamp check` ends with {checked.returncode}: {checked.stderr}")
             return
         self.expect_accepted(f"{name}, as resolved", json.loads(checked.stdout))
 
     def expect_broken(self, name, file):
-        if self.validator.is_valid(json.loads(file.read_text())):
-            self.tell(f"{name}: the schema accepts it")
-        checked = self.check(file)
+        if self.validator.is_valid(files.document(file)):
+            self.complain(f"{name}: the schema accepts it")
+        checked = program.answer(self.tamp, "check", file)
         if checked.returncode != 2:
-            self.tell(f"{name}: `tamp check` ends with {checked.returncode}")
+            self.complain(f"{name}: `tamp check` ends with {checked.returncode}")
 
 
 def is_scene(file):
@@ -217,18 +210,20 @@ def is_scene(file):
     return "materials" not in file.parts and not file.name.startswith("projectile")
 
 
-def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--tamp", type=pathlib.Path, default=ROOT / "build/release/tamp")
-    both = Both(parser.parse_args().tamp.resolve())
+def add_arguments(parser):
+    program.add_option(parser)
 
-    shipped = [file for file in sorted((ROOT / "inputs").rglob("*.json")) if is_scene(file)]
+
+def main(options):
+    both = Both(options.tamp)
+
+    shipped = [file for file in sorted(INPUTS.rglob("*.json")) if is_scene(file)]
     for file in shipped:
         both.expect_sound(file.relative_to(ROOT), file)
     for kind, pattern in (("material", "materials/*/*.json"), ("solid", "uxo/projectile*.json")):
-        for file in sorted((ROOT / "inputs").glob(pattern)):
+        for file in sorted(INPUTS.glob(pattern)):
             if file.name != "support_vectors.json":
-                both.expect_accepted(file.relative_to(ROOT), json.loads(file.read_text()), both.definitions[kind])
+                both.expect_accepted(file.relative_to(ROOT), files.document(file), both.definitions[kind])
 
     with tempfile.TemporaryDirectory() as folder:
         for expect, scenes in ((both.expect_sound, SOUND), (both.expect_broken, BROKEN)):
@@ -239,7 +234,3 @@ def main():
 
     print(f"{len(shipped)} scenes of inputs/, {len(SOUND)} sound and {len(BROKEN)} broken ones; {both.n_wrong} not as expected")
     return 1 if both.n_wrong or not shipped else 0
-
-
-if __name__ == "__main__":
-    sys.exit(main())

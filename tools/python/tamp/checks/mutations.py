@@ -1,16 +1,12 @@
-#!/usr/bin/env python3
 """Damages scenes, data files, checkpoints and kept points of a study at random, and looks at how the program takes it.
-
-    tests/mutations/mutate.py [--tamp build/release/tamp] [--scenes 2500] [--data 1500] [--checkpoints 300]
-                              [--studies 400] [--seed 1] [--jobs 2] [--keep FOLDER]
 
 A mutated scene is run for three steps, a mutated data file too, and a run whose newest checkpoint is damaged is gone on
 with, as a study some of whose kept points are. Right is: an exit code of the list (0, 2, 3, 4), at most 20 seconds of
 work, a message on stderr wherever it is not 0, after a damaged checkpoint the bits of a run that was not interrupted, and
 after damaged points the values that they had. It prints how many ended how, and the exit code is 1 if any was wrong; of
-those, scenes, data and checkpoints are kept in FOLDER."""
+those, scenes, data and checkpoints are kept in FOLDER.
+"""
 
-import argparse
 import collections
 import concurrent.futures
 import csv
@@ -21,10 +17,12 @@ import random
 import resource
 import shutil
 import subprocess
-import sys
 import tempfile
 
-ROOT = pathlib.Path(__file__).resolve().parents[2]
+from tamp import files, program
+from tamp.failure import Failure
+from tamp.options import count
+
 LIMIT = 20  # seconds of processor time; of the clock, on a machine that others use, six times as many
 N_STEPS = 3
 
@@ -40,7 +38,9 @@ STRANGE_VALUES = [
 
 def run(command, folder):
     """The exit code, negative for a signal and None for one that took too long, and what stands on stderr."""
-    limit = lambda: resource.setrlimit(resource.RLIMIT_CPU, (LIMIT, LIMIT + 2))
+    def limit():
+        resource.setrlimit(resource.RLIMIT_CPU, (LIMIT, LIMIT + 2))
+
     try:
         done = subprocess.run([str(word) for word in command], cwd=folder, timeout=6 * LIMIT, capture_output=True,
                               preexec_fn=limit)
@@ -162,7 +162,7 @@ def published(folder):
 
 def small_punch():
     """A scene of a few hundred particles, which runs in no time."""
-    scene = json.loads((ROOT / "inputs/punch/quick.json").read_text())
+    scene = files.document(program.INPUTS / "punch/quick.json")
     scene["grid"].update({"cell_size": 0.05, "patches": [2, 2]})
     scene["bodies"]["punch"]["geometry"].update({"lower": [0.35, 0.5]})
     return scene
@@ -171,8 +171,8 @@ def small_punch():
 class Mutations:
     def __init__(self, options, place):
         self.options, self.place = options, place
-        self.run_command = [options.tamp, "run", "--quiet", "--threads", 1]
-        shutil.copytree(ROOT / "inputs", place / "inputs")
+        self.run_command = [options.tamp.resolve(), "run", "--quiet", "--threads", 1]
+        shutil.copytree(program.INPUTS, place / "inputs")
         published(place / "inputs/materials/concrete-sand")
         self.inputs = place / "inputs"
 
@@ -186,7 +186,7 @@ class Mutations:
         scene = small_punch()
         sand = scene["materials"]["sand"]
         if chance.random() < 0.5:  # the material's own keys in the scene, so that they are changed too
-            material = json.loads((self.inputs / "materials/concrete-sand/table.json").read_text())
+            material = files.document(self.inputs / "materials/concrete-sand/table.json")
             there = "../materials/concrete-sand/"
             for key in ["hydrostat", "crush_curve"]:
                 material[key] = there + material[key]
@@ -219,7 +219,7 @@ class Mutations:
                               "network.h5", "yield.json", "crush_curve.json", "hydrostat.json", "table.json"])
         file = sand / name
         if name.endswith(".json") and chance.random() < 0.5:
-            document = json.loads(file.read_text())
+            document = files.document(file)
             mutate_json(document, chance)
             file.write_text(json.dumps(document))
         else:
@@ -248,7 +248,7 @@ class Mutations:
         self.small = [*self.run_command, scene]
         run([*self.small, "--steps", 20, "--checkpoint-steps", 10, "--out", self.place / "run"], self.place)
         run([*self.small, "--steps", 25, "--out", self.place / "straight"], self.place)
-        self.digest = json.loads((self.place / "straight/summary.json").read_text())["state_digest"]
+        self.digest = files.document(self.place / "straight/summary.json")["state_digest"]
 
     def checkpoint(self, number):
         chance = random.Random(f"{self.options.seed} checkpoint {number}")
@@ -261,7 +261,7 @@ class Mutations:
         code, text = run([*self.small, "--steps", 25, "--restart", folder], self.place)
         verdict = judged("checkpoint", code, text, allowed=(0,))
         if not verdict.wrong:
-            summary = json.loads((folder / "summary.json").read_text())
+            summary = files.document(folder / "summary.json")
             before = 10 if damaged != content else 20
             same = summary["state_digest"] == self.digest and summary["restarted_at_step"] == before
             verdict = verdict._replace(wrong=not same, text=verdict.text if same else f"{text}; ended with other bits")
@@ -283,11 +283,11 @@ class Mutations:
                 {"name": "kinetic", "column": "kinetic[J]", "take": "mean", "at": 1e-4, "exact": 1},
                 {"name": "lowest", "take": "quantile", "quantile": 0.1, "field": "position", "component": 1,
                  "material": "sand", "exact": 0.1}]}))
-        self.study_command = [self.options.tamp, "study", self.study_file, "--quiet", "--out"]
+        self.study_command = [self.options.tamp.resolve(), "study", self.study_file, "--quiet", "--out"]
         os.environ["TAMP_PYTHON"] = "true"  # no pages are drawn
         code, text = run([*self.study_command, self.place / "study"], self.place)
         if code != 0:
-            sys.exit(f"the study ended with {code}: {text}")
+            raise Failure("the study", f"exit code {code}: {text}")
         self.table = table_without_costs(self.place / "study/points.csv")
 
     def study(self, number):
@@ -313,17 +313,16 @@ class Mutations:
         return verdict
 
 
-def main():
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("--tamp", type=pathlib.Path, default=ROOT / "build/release/tamp")
-    parser.add_argument("--scenes", type=int, default=2500)
-    parser.add_argument("--data", type=int, default=1500)
-    parser.add_argument("--checkpoints", type=int, default=300)
-    parser.add_argument("--studies", type=int, default=400)
+def add_arguments(parser):
+    program.add_option(parser)
+    for name, number in {"scenes": 2500, "data": 1500, "checkpoints": 300, "studies": 400}.items():
+        parser.add_argument(f"--{name}", type=int, default=number, help="how many (%(default)s)")
     parser.add_argument("--seed", type=int, default=1)
-    parser.add_argument("--jobs", type=int, default=2)
-    parser.add_argument("--keep", type=pathlib.Path)
-    options = parser.parse_args()
+    parser.add_argument("--jobs", type=count, default=2)
+    parser.add_argument("--keep", type=pathlib.Path, metavar="FOLDER")
+
+
+def main(options):
     counts, wrong = collections.Counter(), []
     with tempfile.TemporaryDirectory() as folder, concurrent.futures.ThreadPoolExecutor(options.jobs) as pool:
         mutations = Mutations(options, pathlib.Path(folder))
@@ -340,7 +339,3 @@ def main():
         print(f"{kind:30} {'no end' if code is None else code!s:>6} {n:6}")
     print(f"{len(wrong)} of {sum(counts.values())} were wrong")
     return 1 if wrong else 0
-
-
-if __name__ == "__main__":
-    sys.exit(main())
