@@ -1,8 +1,8 @@
 """TAMP's Python tools. Each command has a --help of its own.
 
-Messages are one line, FILE:LINE: what was found; what was expected. Exit codes: 0 done; 1 what was checked does not hold;
-2 a command line or an input that is wrong or missing; 3 a Python package that is missing; 4 files that cannot be read or
-written, damaged files of TAMP's own, and memory.
+Messages are one line, FILE:LINE: what was found; what was expected. Exit codes: 0 done; 1 what was checked does not
+hold; 2 a command line or an input that is wrong or missing; 3 a Python package that is missing; 4 files that cannot be
+read or written, damaged files of TAMP's own, and memory.
 """
 
 import argparse
@@ -61,4 +61,5 @@ def main():
     return command.main(parser.parse_args(words))
 
 
-failure.guard(main)
+if __name__ == "__main__":
+    failure.guard(main)

@@ -40,14 +40,19 @@ def guard(main):
     except Refusal as refusal:
         end(refusal, refusal.code)
     except ModuleNotFoundError as error:
-        if error.name not in PACKAGES:
+        if package_of(error) is None:
             raise
-        end(f"{sys.executable}: has no {error.name}; expected Debian's package {PACKAGES[error.name]}", NO_PACKAGE)
+        end(f"{sys.executable}: has no {error.name}; expected Debian's package {package_of(error)}", NO_PACKAGE)
     except MemoryError:
         end("more memory than there is; expected a smaller input or a smaller model", Failure.code)
     except OSError as error:  # what is read is looked at in files.py
         place = error.filename2 or error.filename or "standard output"
         end(f"{place}: {error.strerror or error}; expected a place to write to", Failure.code)
+
+
+def package_of(error):
+    """Debian's package of a module that is missing; None of one of our own."""
+    return PACKAGES.get(error.name.split(".")[0])
 
 
 def end(text, code):

@@ -86,7 +86,8 @@ def row_of_numbers(place, cells, n):
     values = [number(cell) for cell in cells]
     for cell, value in zip(cells, values):
         if value is None:
-            raise Refusal(place, f'"{cell}"', "a finite number, with a point for decimals and nothing between thousands")
+            raise Refusal(place, f'"{cell}"',
+                          "a finite number, with a point for decimals and nothing between thousands")
     return values
 
 

@@ -1,8 +1,8 @@
 """Writes the surface of a projectile's JSON as binary STL in millimetres.
 
-Made for the shape of inputs/uxo/projectile.json: a body of revolution along x whose last piece, the boom, is a cylinder,
-and a ring of rectangular fins that end with it. The surface is one: the boom is left out within the fins, and the fins
-within the boom.
+Made for the shape of inputs/uxo/projectile.json: a body of revolution along x whose last piece, the boom, is a
+cylinder, and a ring of rectangular fins that end with it. The surface is one: the boom is left out within the fins, and
+the fins within the boom.
 """
 
 import math

@@ -1,10 +1,11 @@
 """Damages a laboratory's files at random, calls the commands in unusual ways, and looks at how they take it.
 
-    cd tools/python; python3 -m tests.damage_laboratory [--tamp build/release/tamp] [--files 200] [--calls 200] [--seed 1]
+    cd tools/python; python3 -m tests.damage_laboratory [--files 200] [--calls 200] [--seed 1]
 
 Right is: an exit code of the list (0, 2, 4), no traceback, one line that says why wherever it is not 0, and after 0 a
 sand within 5 % of the one that the files were made of. It prints how many ended how; the exit code is 1 if any was
-wrong. Where a Python package is missing, its name is the right answer."""
+wrong. Where a Python package is missing, its name is the right answer.
+"""
 
 import argparse
 import collections

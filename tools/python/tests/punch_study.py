@@ -21,7 +21,8 @@ def point(number, method, size, depth, time):
     command = f"tamp run inputs/punch/quick.json --set /grid/cell_size={size} --set '/contact/0/normal=\"{method}\"'"
     made = {
         "id": number, "method": method, "label": f"cell size {size}",
-        "settings": {"/grid/cell_size": size, "/contact/0/normal": method}, "refine": size, "ended": "done", "reason": "",
+        "settings": {"/grid/cell_size": size, "/contact/0/normal": method}, "refine": size, "ended": "done",
+        "reason": "",
         "cost": {"core_s": time, "core_s_low": 0.98 * time, "core_s_high": 1.07 * time, "particle_steps": 2e6 * time,
                  "steps": steps},
         "values": {"greatest depth": depth},
@@ -68,7 +69,8 @@ STUDY = {
     "about": "A steel punch is driven into sand. Which normal of contact gives its greatest depth for the least work?",
     "takes": "40 minutes on one core; --short 2 minutes", "command": "tamp study inputs/studies/punch.json",
     "program": "tamp 0.1.0, release, x86-64-v2\nEigen 3.4.0, oneTBB 2021.8",
-    "machine": {"processor": "Example processor at 3 GHz", "instruction_set": "AVX2", "cores": 2}, "threads": 1, "repeat": 3,
+    "machine": {"processor": "Example processor at 3 GHz", "instruction_set": "AVX2", "cores": 2},
+    "threads": 1, "repeat": 3,
     "costs": [{"key": "core_s", "name": "user time", "unit": "s"},
               {"key": "particle_steps", "name": "particle-steps", "unit": ""}],
     "refine": {"pointer": "/grid/cell_size", "name": "cell size", "unit": "m"},
@@ -81,7 +83,8 @@ STUDY = {
         {"name": "depth over time", "unit": "m", "relative": True,
          "reference": {"kind": "finest", "value": None, "uncertainty": None, "order": None, "bound": False,
                        "note": "no bound: differences do not fall from grid to grid"},
-         "orders": [{**fit, "order": None, "note": "fewer than three grids on which errors fall"} for fit in orders()[:1]]}],
+         "orders": [{**fit, "order": None, "note": "fewer than three grids on which errors fall"}
+                    for fit in orders()[:1]]}],
     "points": points(),
     "budgets": [
         {"quantity": "greatest depth", "unit": "m", "of": of, "value": value, "parts": [

@@ -31,13 +31,14 @@ def model(name, **changes):
         "depth_at_common_time_m": 0.2, "q_at_common_time_Pa": 2e8,
         "p_max_Pa": 2.5e8, "q_max_Pa": 4e8, "state_digest": "0",
         "series": {"time_s": [0, 1e-3, 2e-3, 3e-3], "dt_s": [0, 5e-4, 6e-4, 1e-9], "wall_s": [0, 2, 4, 6],
-                   "punch.depth_m": [0, 0.1, 0.2, 0.15], "sand.p_max_Pa": [0, 1e8, 2e8, 2.5e8], "sand.q_max_Pa": [0, 1e8, 2e8, 4e8]},
+                   "punch.depth_m": [0, 0.1, 0.2, 0.15], "sand.p_max_Pa": [0, 1e8, 2e8, 2.5e8],
+                   "sand.q_max_Pa": [0, 1e8, 2e8, 4e8]},
         "rounds": {"time_s": [1e-3, 2e-3, 3e-3], "steps": [2, 0, 4], "wall_per_step_s": [3e-4, 0, 3.2e-4]}, **changes}
 
 
 def comparison(*models):
-    return {"scene": "punch", "title": "A <punch> & sand", "version": "0.1.0", "program": "tamp 0.1.0\nEigen 3.4.0", "cores": 2,
-            "threads": 1, "particles": 5600, "bodies": ["punch"], "sands": ["sand"], "common_time_s": 2e-3,
+    return {"scene": "punch", "title": "A <punch> & sand", "version": "0.1.0", "program": "tamp 0.1.0\nEigen 3.4.0",
+            "cores": 2, "threads": 1, "particles": 5600, "bodies": ["punch"], "sands": ["sand"], "common_time_s": 2e-3,
             "models": list(models) or [model("table"), model("svr")]}
 
 
@@ -48,7 +49,8 @@ def page_of(document):
 
 
 def example(*lines, logarithmic=False):
-    return Plot("Depth of punch", "depth", "m", list(lines) or [Line("table", [0, 1e-3, 2e-3], [0, 0.2, 0.4])], logarithmic)
+    lines = list(lines) or [Line("table", [0, 1e-3, 2e-3], [0, 0.2, 0.4])]
+    return Plot("Depth of punch", "depth", "m", lines, logarithmic)
 
 
 def path_of(plot, k=0):
@@ -79,7 +81,8 @@ class ThePage(unittest.TestCase):
     def test_its_table_has_the_figures_with_units_and_the_ratios_with_quartiles(self):
         page = page_of(comparison())
 
-        for cell in ["312 µs", '1.23 <span class="small">(1.1–1.4)</span>', "500 µs", "5.67 M", "19.8 ns", "36.5 MiB", "3.0 MiB", 
+        for cell in ["312 µs", '1.23 <span class="small">(1.1–1.4)</span>', "500 µs", "5.67 M", "19.8 ns", "36.5 MiB",
+                     "3.0 MiB",
                      "198 mm", "150 mm", "250 MPa", "400 MPa"]:
             self.assertEqual(page.split("</table>")[0].count(f"<td>{cell}</td>"), 2, cell)
         self.assertIn("Scene punch: 5600 particles, 1 thread, 2 cores.", page)
@@ -115,7 +118,8 @@ class ThePage(unittest.TestCase):
 
         self.assertEqual((plot.lines[0].x, plot.lines[0].y), ([1e-3, 3e-3], [3e-4, 3.2e-4]))
         self.assertFalse(plot.logarithmic)
-        self.assertTrue(compare_page.step_cost(comparison(model("table"), model("svr", wall_per_step_s=1.3e-3))).logarithmic)
+        far_apart = comparison(model("table"), model("svr", wall_per_step_s=1.3e-3))
+        self.assertTrue(compare_page.step_cost(far_apart).logarithmic)
 
     def test_a_body_that_left_the_domain_has_no_depth_from_then_on(self):
         gone = model("table")
@@ -155,7 +159,8 @@ class Lines(unittest.TestCase):
         for what in [">Depth of punch<", ">depth<", ">time<", ">table<", ">500 µs<", ">400 mm<"]:
             self.assertIn(what, chart.wide.svg)
             self.assertIn(what, chart.narrow.svg)
-        self.assertEqual(chart.description, "1 line over 2 ms. table: between 0 m and 400 mm, ends at 400 mm after 2 ms.")
+        self.assertEqual(chart.description,
+                         "1 line over 2 ms. table: between 0 m and 400 mm, ends at 400 mm after 2 ms.")
 
     def test_points_stand_where_the_ticks_put_them(self):
         a, b, c = path_of(example(Line("table", [0, 1e-3, 2e-3], [0, 0.1, 0.4])))

@@ -169,7 +169,8 @@ class WhatIsRefused(Laboratory):
     def test_a_test_that_is_none(self):
         self.refused(lambda text: "\n".join(text.split("\n")[:40]), "t0.csv: 1 rows of unloading; expected 3 or more")
         self.refused(lambda text: "\n".join(text.split("\n")[:70]), "t0.csv: unloading to ")
-        self.refused(lambda text: text.replace("\n", "\n-").replace(",", ",-").rstrip("-"), "compression to be positive")
+        self.refused(lambda text: text.replace("\n", "\n-").replace(",", ",-").rstrip("-"),
+                     "compression to be positive")
         self.refused(lambda text: "", "t0.csv: no row; expected strain in column 1")
         self.refused(lambda text: "a picture\n", 't0.csv: no row of numbers, but "a picture"')
 
@@ -208,8 +209,8 @@ class WhatIsRefused(Laboratory):
 
         answer = self.made_of(*texts)
 
-        self.expect_refused(answer, "t0.csv and ", "t1.csv: the unloading curves of plastic strain 0.12", "0.12375 meet or "
-                            "cross at 14690 Pa; expected curves apart")
+        self.expect_refused(answer, "t0.csv and ", "t1.csv: the unloading curves of plastic strain 0.12",
+                            "0.12375 meet or cross at 14690 Pa; expected curves apart")
 
     def test_noise_that_tamp_refuses(self):
         """The files are left aside, and those that stood there are kept."""

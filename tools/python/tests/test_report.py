@@ -162,7 +162,8 @@ class Runs(unittest.TestCase):
             run = scenes.punch_runs(pathlib.Path(folder), {})[0]
             run.folder.mkdir()
             self.assertFalse(run.is_finished)
-            statuses = ("interrupted", False), ("unstable", False), ("completed", True), ("completed with warnings", True)
+            statuses = (("interrupted", False), ("unstable", False), ("completed", True),
+                        ("completed with warnings", True))
             for status, kept in statuses:
                 (run.folder / "summary.json").write_text('{ "status": "%s" }' % status)
                 self.assertEqual(run.is_finished, kept, status)

@@ -104,7 +104,8 @@ class ThePage(unittest.TestCase):
     def test_the_reason_stands_beside_a_failed_point(self):
         svg = (self.folder / "charts/greatest-depth-work-precision.svg").read_text()
 
-        for reason in ["limit: 600 s, 100 times", "unstable: step 1822: the energy error of 14 %", "refused: a forecast of 9.1 GB"]:
+        for reason in ["limit: 600 s, 100 times", "unstable: step 1822: the energy error of 14 %",
+                       "refused: a forecast of 9.1 GB"]:
             self.assertIn(reason, svg)
 
     def test_the_points_of_the_front_are_marked(self):
@@ -150,7 +151,8 @@ class ThePage(unittest.TestCase):
                             for name in ("greatest-depth", "depth-over-time"))
         self.assertIn("the reference itself is uncertain by 1.2 %", depth)
         self.assertNotIn("itself is uncertain", over_time)
-        self.assertIn("Errors are against the finest run. No bound: differences do not fall from grid to grid.", self.text)
+        self.assertIn("Errors are against the finest run. "
+                      "No bound: differences do not fall from grid to grid.", self.text)
 
     def test_orders_stand_beside_the_lines(self):
         self.assertIn("flatter: order 1.02", (self.folder / "charts/greatest-depth-convergence.svg").read_text())
@@ -183,8 +185,10 @@ class ThePage(unittest.TestCase):
     def test_each_point_has_its_settings_its_figures_and_its_command(self):
         panel = re.search(r'<template id="point-6">(.*?)</template>', self.text, re.S)[1]
 
-        for what in ["steel, cell size 0.02", "Done.", "4.8 s (4.7 s to 5.14 s)", "9.6 M", "<code>/grid/cell_size</code>",
-                     "202 mm", "5.7 %", "tamp run inputs/punch/quick.json --set /grid/cell_size=0.02 --set &#x27;/contact/0/normal=&quot;steel&quot;&#x27;"]:
+        for what in ["steel, cell size 0.02", "Done.", "4.8 s (4.7 s to 5.14 s)", "9.6 M",
+                     "<code>/grid/cell_size</code>", "202 mm", "5.7 %",
+                     "tamp run inputs/punch/quick.json --set /grid/cell_size=0.02 "
+                     "--set &#x27;/contact/0/normal=&quot;steel&quot;&#x27;"]:
             self.assertIn(what, panel)
         refused = re.search(r'<template id="point-17">(.*?)</template>', self.text, re.S)[1]
         self.assertIn("Refused: a forecast of 9.1 GB of memory, where 4 GB are free.", refused)
@@ -309,8 +313,8 @@ class OddStudies(unittest.TestCase):
         parts = [{"name": name, "amount": None, "note": name}]
         document["budgets"] = [{"quantity": name, "unit": "m", "of": name, "value": 1, "parts": parts}]
         for p in document["points"]:
-            p |= {"method": name, "label": name, "command": name, "settings": {name: name}, "front": [name], "values": {name: 1},
-                  "errors": {name: 0.1}, "reason": name if p["ended"] != "done" else ""}
+            p |= {"method": name, "label": name, "command": name, "settings": {name: name}, "front": [name],
+                  "values": {name: 1}, "errors": {name: 0.1}, "reason": name if p["ended"] != "done" else ""}
 
         text, _, charts, ids = self.page_of(document)
 
@@ -371,10 +375,12 @@ class OddStudies(unittest.TestCase):
 
 class Formatting(unittest.TestCase):
     def test_numbers_have_three_digits_and_a_prefix(self):
-        for value, unit, text in [(0.000312, "s", "312 µs"), (2.5e9, "Pa", "2.5 GPa"), (0, "m", "0 m"), (-0.2, "m", "−200 mm"),
+        for value, unit, text in [(0.000312, "s", "312 µs"), (2.5e9, "Pa", "2.5 GPa"), (0, "m", "0 m"),
+                                  (-0.2, "m", "−200 mm"),
                                   (999.4e-6, "s", "999 µs"), (999.7e-6, "s", "1 ms"), (3e-15, "s", "0.003 ps"),
                                   (48.2, "deg", "48.2 deg"),
-                                  (1.2e7, "", "12 M"), (0.034, "", "0.034"), (1500, "ns", "1.5 µs"), (1e-9, "deg", "10⁻⁹ deg"),
+                                  (1.2e7, "", "12 M"), (0.034, "", "0.034"), (1500, "ns", "1.5 µs"),
+                                  (1e-9, "deg", "10⁻⁹ deg"),
                                   (None, "m", "–"), (float("nan"), "m", "–")]:
             self.assertEqual(formatting.si_text(value, unit), text)
 

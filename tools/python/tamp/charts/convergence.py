@@ -17,7 +17,8 @@ def charts(study, quantity, prefix):
     name = study.refine.get("name", study.refine.get("pointer", ""))
     lines, guides = lines_with_orders(study, quantity)
     across = Across(name, lambda p: p.refine, study.refine_text, ticks_at_values=True)
-    about = ABOUT.format("right" if rises(study, quantity) else "left", name) + "".join(f" {label}: {note}." for label, note in notes(study, quantity))
+    about = ABOUT.format("right" if rises(study, quantity) else "left", name)
+    about += "".join(f" {label}: {note}." for label, note in notes(study, quantity))
     return [point_chart.make(ChartSpec(study, quantity, across, lines, None, guides), f"{prefix}-convergence",
                              f"Error of {quantity.name} against {name}", about)]
 

@@ -73,7 +73,8 @@ def escaped(text):
 def plain(value):
     """A JSON value whose texts have no characters that XML cannot hold."""
     if isinstance(value, str):
-        return "".join(c for c in value if c in "\n\t" or " " <= c < "\ud800" or "\ue000" <= c < "\ufffe" or c > "\uffff")
+        return "".join(c for c in value
+                       if c in "\n\t" or " " <= c < "\ud800" or "\ue000" <= c < "\ufffe" or c > "\uffff")
     if isinstance(value, list):
         return [plain(inner) for inner in value]
     if isinstance(value, dict):

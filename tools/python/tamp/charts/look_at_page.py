@@ -1,7 +1,7 @@
 """Opens a page in Chromium without a window, wide, dark and as narrow as a phone, and says what its console says.
 
-Written are OUT_FOLDER/wide.png, dark.png and phone.png. On each page it chooses points by script, as a person would, and
-measures whether the page is wider than the window. The exit code is 1 where the console complains, the page scrolls
+Written are OUT_FOLDER/wide.png, dark.png and phone.png. On each page it chooses points by script, as a person would,
+and measures whether the page is wider than the window. The exit code is 1 where the console complains, the page scrolls
 sideways, or a point that is chosen shows nothing. The tests do not need a browser; Debian's chromium is used.
 """
 
@@ -15,9 +15,10 @@ from tamp.options import count
 
 # A window of Chromium is 500 pixels wide at least; a phone is a frame within it.
 LOOKS = {"wide": (1280, []), "dark": (1280, ["--blink-settings=preferredColorScheme=0"]), "phone": (360, [])}
-FLAGS = ["--headless", "--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run", "--disable-background-networking",
-         "--disable-component-update", "--disable-sync", "--allow-file-access-from-files", "--enable-logging=stderr", "--v=0",
-         "--hide-scrollbars", "--virtual-time-budget=4000"]
+FLAGS = ["--headless", "--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run",
+         "--disable-background-networking", "--disable-component-update", "--disable-sync",
+         "--allow-file-access-from-files", "--enable-logging=stderr", "--v=0", "--hide-scrollbars",
+         "--virtual-time-budget=4000"]
 
 # Chooses every point, and leaves what it finds in the title of the outer page.
 PROBE = """
@@ -42,8 +43,9 @@ frame.onload = () => {
 
 
 def framed(page, width, height, chosen):
-    return (f'<!DOCTYPE html><html><head><title>not loaded</title><link rel="icon" href="data:,"></head><body style="margin:0">'
-            f'<iframe src="{html.escape(page.resolve().as_uri())}" style="border:0;width:{width}px;height:{height}px"></iframe>'
+    return ('<!DOCTYPE html><html><head><title>not loaded</title><link rel="icon" href="data:,"></head>'
+            f'<body style="margin:0"><iframe src="{html.escape(page.resolve().as_uri())}" '
+            f'style="border:0;width:{width}px;height:{height}px"></iframe>'
             f"<script>{PROBE.replace('CHOSEN', str(chosen).lower())}</script></body></html>")
 
 
@@ -57,14 +59,16 @@ def look(options, name, width, flags, folder):
     outer.write_text(framed(options.page, width, options.height, options.chosen))
     size = f"--window-size={max(width, 500)},{options.height}"
     found = chromium(options, folder / name, outer, [*flags, size, "--dump-dom"])
-    picture = chromium(options, folder / name, outer, [*flags, size, f"--screenshot={options.out.resolve()}/{name}.png"])
+    shot = f"--screenshot={options.out.resolve()}/{name}.png"
+    picture = chromium(options, folder / name, outer, [*flags, size, shot])
     said = re.search("<title>(.*?)</title>", found.stdout)
     complaints = [line for line in (found.stderr + picture.stderr).splitlines() if "CONSOLE" in line]
     said = said[1] if said else "not loaded"
     print(f"{name}: {said}; {len(complaints)} complaints")
     print("".join(f"  {line}\n" for line in dict.fromkeys(complaints)), end="")
     too_wide = re.search(r"(-?\d+) pixels too wide", said)
-    return not complaints and ", 0 that show nothing, 0 panels" in said and too_wide is not None and int(too_wide[1]) <= 0
+    fits = too_wide is not None and int(too_wide[1]) <= 0
+    return not complaints and ", 0 that show nothing, 0 panels" in said and fits
 
 
 def add_arguments(parser):

@@ -44,7 +44,8 @@ def y_label(spec):
     if not spec.quantity.has_reference:
         return f"{spec.quantity.name}, without a reference"
     if not spec.quantity.has_bound:
-        return f"distance from the {'finest' if spec.quantity.reference['kind'] == 'finest' else 'one'} run: no bound of the error"
+        which = "finest" if spec.quantity.reference["kind"] == "finest" else "one"
+        return f"distance from the {which} run: no bound of the error"
     return f"error of {spec.quantity.name}" + (" (of the reference)" if spec.quantity.relative else "")
 
 

@@ -14,7 +14,8 @@ REFERENCES = {"exact": "an exact answer", "extrapolated": "the finest runs, extr
 
 PANEL = """<aside id="chosen" aria-live="polite" aria-label="The chosen point">
 <button type="button" class="close" aria-label="Close">✕</button>
-<div class="content"><p class="faint">Choose a point of a chart, with the pointer or with Tab and the arrow keys: this is
+<div class="content"><p class="faint">\
+Choose a point of a chart, with the pointer or with Tab and the arrow keys: this is
 where its settings, figures and command are shown.</p></div>
 </aside>
 """
@@ -58,7 +59,8 @@ def whole_page(study, sections):
 def head(study):
     about, takes = (escaped(study.document.get(key, "")) for key in ("about", "takes"))
     remade_by = command(study.document.get("command", ""))
-    rows = [("measured on", machine_text(study)), ("threads", threads_text(study)), ("takes", takes), ("remade by", remade_by)]
+    rows = [("measured on", machine_text(study)), ("threads", threads_text(study)), ("takes", takes),
+            ("remade by", remade_by)]
     return f"<h1>{escaped(study.title)}</h1>\n" + (f"<p>{about}</p>\n" if about else "") + facts(rows)
 
 

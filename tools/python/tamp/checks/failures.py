@@ -58,7 +58,8 @@ class Trials:
 
 def folders(trials):
     run = "tamp run inputs/punch/quick.json --quiet"
-    trials.trial("two runs at once into one folder", f"{run} --steps 60 --out a & sleep 0.2; {run} --steps 60 --out a", 2)
+    trials.trial("two runs at once into one folder",
+                 f"{run} --steps 60 --out a & sleep 0.2; {run} --steps 60 --out a", 2)
     trials.trial("`--force` beside a running one",
                  f"{run} --steps 60 --out b & sleep 0.4; {run} --force --out b", 2)
     trials.trial("`--restart` beside a running one",
@@ -70,9 +71,10 @@ def folders(trials):
     trials.trial("`--force` on the scene's own folder", f"{run} --force --out inputs/punch", 2)
     checkpoint = f"{run} --steps 20 --checkpoint-steps 10 --out e; cp -r inputs changed; " \
                  "sed -i '$ s/.*/9e9,9e9/' changed/materials/concrete-sand/yield.csv"
-    trials.trial("restart with other data", "tamp run changed/punch/quick.json --quiet --steps 30 --restart e", 2, checkpoint)
-    trials.trial("restart from a copy of the same tree", "tamp run copy/punch/quick.json --quiet --steps 22 --restart e", 0,
-                 "cp -r inputs copy")
+    trials.trial("restart with other data",
+                 "tamp run changed/punch/quick.json --quiet --steps 30 --restart e", 2, checkpoint)
+    trials.trial("restart from a copy of the same tree",
+                 "tamp run copy/punch/quick.json --quiet --steps 22 --restart e", 0, "cp -r inputs copy")
     trials.trial("restart without history.csv", f"{run} --steps 24 --restart e", 0, "rm e/history.csv")
     trials.trial("restart with fields.h5 emptied", f"{run} --steps 26 --restart e", 0, ": > e/fields.h5")
     for number in (signal.SIGHUP, signal.SIGXCPU, signal.SIGTERM, signal.SIGINT):
@@ -92,7 +94,8 @@ def budgets(trials):
     trials.trial("a device as scene", "tamp check /dev/zero", 2)
     twice = {"type": "union", "of": [{"file": "twice.json"}] * 2}
     (trials.folder / "twice.json").write_text(json.dumps(twice))
-    trials.trial("a geometry that names itself twice", f"{check} --set '/bodies/punch/geometry={{\"file\":\"twice.json\"}}'", 2)
+    trials.trial("a geometry that names itself twice",
+                 f"{check} --set '/bodies/punch/geometry={{\"file\":\"twice.json\"}}'", 2)
     (trials.folder / "nested.json").write_text('{"type":"transform","of":' * 10_000 + BALL + "}" * 10_000)
     trials.trial("10,000 nested transforms", f"{check} --set '/bodies/punch/geometry={{\"file\":\"nested.json\"}}'", 2)
     vectors = json.dumps({"support_vectors": [[0, 0]] * 1_000_000})
@@ -103,7 +106,8 @@ def budgets(trials):
 
 def resources(trials):
     trials.trial("cells of 0.1 mm in space", "tamp check inputs/uxo/table.json --set /grid/cell_size=0.0001", 2)
-    trials.trial("a limit of memory", "ulimit -v 1000000; tamp check inputs/punch/table.json --set /grid/cell_size=0.001", 2)
+    trials.trial("a limit of memory",
+                 "ulimit -v 1000000; tamp check inputs/punch/table.json --set /grid/cell_size=0.001", 2)
     run = "tamp run inputs/punch/quick.json --steps 5"
     trials.trial("a closed stdout", f"{run} --out g >&-", 0)
     trials.trial("a reader that goes away", "tamp check inputs/punch/quick.json | true; exit ${PIPESTATUS[0]}", 0)

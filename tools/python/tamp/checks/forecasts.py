@@ -1,8 +1,8 @@
 """Holds the forecast of whole runs against what they took: memory, steps and processor time.
 
 SCENE is a scene file, or `million`: a punch into a block of a million particles of sand in space. Unless said otherwise
-those are the quick punch, the quick projectile and `million` (about ten minutes on one core). Each runs on one thread to
-its end; nothing else should run meanwhile. It prints a row for docs/failures.md.
+those are the quick punch, the quick projectile and `million` (about ten minutes on one core). Each runs on one thread
+to its end; nothing else should run meanwhile. It prints a row for docs/failures.md.
 """
 
 import json

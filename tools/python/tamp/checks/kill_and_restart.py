@@ -1,7 +1,8 @@
 """Kills a run at random moments, restarts it each time, and compares its end with that of a straight run.
 
 The run writes a checkpoint every few steps and is killed with SIGKILL. Every restart runs to the end in a copy of the
-killed run's folder; the killed run itself goes on to the next kill. The exit code is 1 if any digest or history differs.
+killed run's folder; the killed run itself goes on to the next kill. The exit code is 1 if any digest or history
+differs.
 """
 
 import pathlib

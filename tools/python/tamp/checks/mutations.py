@@ -2,9 +2,9 @@
 
 A mutated scene is run for three steps, a mutated data file too, and a run whose newest checkpoint is damaged is gone on
 with, as a study some of whose kept points are. Right is: an exit code of the list (0, 2, 3, 4), at most 20 seconds of
-work, a message on stderr wherever it is not 0, after a damaged checkpoint the bits of a run that was not interrupted, and
-after damaged points the values that they had. It prints how many ended how, and the exit code is 1 if any was wrong; of
-those, scenes, data and checkpoints are kept in FOLDER.
+work, a message on stderr wherever it is not 0, after a damaged checkpoint the bits of a run that was not interrupted,
+and after damaged points the values that they had. It prints how many ended how, and the exit code is 1 if any was
+wrong; of those, scenes, data and checkpoints are kept in FOLDER.
 """
 
 import collections
@@ -30,8 +30,9 @@ Verdict = collections.namedtuple("Verdict", "kind code wrong text")
 
 STRANGE_VALUES = [
     0, -0.0, 1, -1, 2, 3, 7, 1e-320, 1e-300, 1e-18, 1e-9, 1e-3, 0.5, 1e3, 1e6, 1e9, 1e18, 1e300, 1.7976931348623157e308,
-    2**31, 2**63, 2**64, -2**63, True, False, None, "", "nan", "inf", "symmetry", "steel", "sand", "x" * 5000, "\u0000", "../..",
-    "/dev/zero", "/dev/null", "/", [], [0], [0, 0], [1e300, -1e300], [0, 0, 0], [[]], {}, {"file": "x.json"},
+    2**31, 2**63, 2**64, -2**63, True, False, None, "", "nan", "inf", "symmetry", "steel", "sand", "x" * 5000,
+    "\u0000", "../..", "/dev/zero", "/dev/null", "/", [], [0], [0, 0], [1e300, -1e300], [0, 0, 0], [[]], {},
+    {"file": "x.json"},
     {"type": "box", "lower": [0, 0], "upper": [1, 1]}, {"type": "ball", "centre": [0.5, 0.5], "radius": 1e-9},
     {"type": "union", "of": []}]
 
@@ -53,7 +54,8 @@ FOREIGN = ["json.exception", "filesystem error", "std::", "basic_string", "vecto
 
 
 def judged(kind, code, text, allowed=(0, 2, 3, 4)):
-    wrong = code not in allowed or (code != 0 and not text.startswith("tamp: ")) or any(words in text for words in FOREIGN)
+    wrong = (code not in allowed or (code != 0 and not text.startswith("tamp: "))
+             or any(words in text for words in FOREIGN))
     return Verdict(kind, code, wrong, text)
 
 
@@ -193,7 +195,8 @@ class Mutations:
             material["yield"]["file"] = there + material["yield"]["file"]
             for key in ["table", "svr", "mlp"]:
                 material["modulus"][key] = there + material["modulus"][key]
-            scene["materials"]["sand"] = {**material, "density": 1050, "elastic_update": chance.choice(["rate", "state"])}
+            form = chance.choice(["rate", "state"])
+            scene["materials"]["sand"] = {**material, "density": 1050, "elastic_update": form}
         else:
             sand["modulus"] = {"type": chance.choice(["table", "svr", "mlp"])}
         mutate_json(scene, chance)

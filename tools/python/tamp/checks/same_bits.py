@@ -25,8 +25,9 @@ def scenes():
 
 
 def methods():
-    """The quick punch by every interpolator and transfer that go together. Linear weights have no spread on a node, which
-    "apic" needs, and no step rule of their own: by the published one, and only in short steps, they endure the impact."""
+    """The quick punch by every interpolator and transfer that go together. Linear weights have no spread on a node,
+    which "apic" needs, and no step rule of their own: by the published one, and only in short steps, they endure the
+    impact."""
     short_steps = {"/time/rule": "published", "/time/multiplier": 0.2}
     return {f"{interpolator}, {transfer}":
             (PUNCH / "quick.json", {"/interpolator": interpolator, "/transfer": transfer,

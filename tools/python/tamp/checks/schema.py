@@ -1,8 +1,8 @@
 """Holds the schema that `tamp schema` prints against the program: what it says of scenes, `tamp check` says too.
 
 Every scene of inputs/ is accepted, as it stands and with every default filled in, and so are scenes with each kind of
-key; the broken ones are refused by both, `tamp check` with exit code 2. It prints what differs, and the exit code is 1 if
-anything does. Debian's python3-jsonschema is used.
+key; the broken ones are refused by both, `tamp check` with exit code 2. It prints what differs, and the exit code is 1
+if anything does. Debian's python3-jsonschema is used.
 """
 
 import copy
@@ -65,17 +65,23 @@ SOUND = [
     (PLANE, {"/materials/sand": CONCRETE_SAND}),
     (PLANE, {"/materials/sand": {**CONCRETE_SAND, "modulus": {"compile": 0.01}, "tolerance": 1e-4}}),
     (PLANE, {"/materials/sand": {**CONCRETE_SAND, "comes_apart": True, "separation_density": 0.7}}),
-    (PLANE, {"/materials/sand": {"file": CONCRETE_SAND["file"], "type": "hypoelastic", "density": 1, "bulk_modulus": 1e7,
+    (PLANE, {"/materials/sand": {"file": CONCRETE_SAND["file"], "type": "hypoelastic", "density": 1,
+                                 "bulk_modulus": 1e7,
                                  "shear_modulus": 1e7, "poisson_ratio": None, "modulus": None, "yield": None,
-                                 "hydrostat": None, "elastic_update": None, "strain_measure": None, "tested_strain": None,
+                                 "hydrostat": None, "elastic_update": None, "strain_measure": None,
+                                 "tested_strain": None,
                                  "tested_density": None, "crush_curve": None}}),
     (SPACE, {"/boundaries": {"z+": "open"}, "/bodies/block/angular_velocity": [0, 0, 1]}),
     (SPACE, {"/centrifuge": {"angular_speed": 6, "axis": [1, 0, 0], "centre": [0, 0, 5], "angular_acceleration": 1}}),
-    (SPACE, {"/bodies/block/geometry": {"type": "union", "of": [CYLINDER, {"type": "ball", "centre": [4, 4, 4], "radius": 1}]}}),
+    (SPACE, {"/bodies/block/geometry": {
+        "type": "union", "of": [CYLINDER, {"type": "ball", "centre": [4, 4, 4], "radius": 1}]}}),
     (SPACE, {"/bodies/block/geometry": {"type": "transform", "translation": [4, 4, 4], "of": {
-        "type": "ring", "count": 3, "axis": [0, 0, 1], "of": {"type": "box", "lower": [1, 0, 0], "upper": [3, 1, 1]}}}}),
-    (SPACE, {"/bodies/block/geometry": {"type": "extruded_polygon", "corners": [[1, 1], [3, 1], [1, 3]], "lower": 1, "upper": 3}}),
-    (SPACE, {"/bodies/block/geometry": {"type": "revolved", "start": [4, 4, 2], "axis": [0, 0, 1], "profile": [[0, 1], [3, 1]]}}),
+        "type": "ring", "count": 3, "axis": [0, 0, 1],
+        "of": {"type": "box", "lower": [1, 0, 0], "upper": [3, 1, 1]}}}}),
+    (SPACE, {"/bodies/block/geometry": {
+        "type": "extruded_polygon", "corners": [[1, 1], [3, 1], [1, 3]], "lower": 1, "upper": 3}}),
+    (SPACE, {"/bodies/block/geometry": {
+        "type": "revolved", "start": [4, 4, 2], "axis": [0, 0, 1], "profile": [[0, 1], [3, 1]]}}),
     (PLANE, {"/boundaries": {"y-": "periodic", "y+": "periodic"}, "/output": {"fields": ["p", "nodes/velocity"]}}),
     (PLANE, {"/bodies/block/pressure": {"values": [[0, 0], [1, 1e5]]}}),
     (PLANE, {"/materials/steel": {**LOG_SOLID, "density": 1000}, "/bodies/block/problem": {**RING, "on_rings": False},
@@ -185,7 +191,8 @@ class Both:
 
     def expect_accepted(self, name, value, validator=None):
         for error in (validator or self.validator).iter_errors(value):
-            self.complain(f"{name}: the schema refuses {'/'.join(map(str, error.absolute_path))}: {error.message[:200]}")
+            place = "/".join(map(str, error.absolute_path))
+            self.complain(f"{name}: the schema refuses {place}: {error.message[:200]}")
 
     def expect_sound(self, name, file):
         self.expect_accepted(name, files.document(file))
@@ -232,5 +239,6 @@ def main(options):
                 file.write_text(json.dumps(scene_with(base, values)))
                 expect(f"a scene with {json.dumps(values)}", file)
 
-    print(f"{len(shipped)} scenes of inputs/, {len(SOUND)} sound and {len(BROKEN)} broken ones; {both.n_wrong} not as expected")
+    print(f"{len(shipped)} scenes of inputs/, {len(SOUND)} sound and {len(BROKEN)} broken ones; "
+          f"{both.n_wrong} not as expected")
     return 1 if both.n_wrong or not shipped else 0

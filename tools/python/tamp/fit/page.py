@@ -31,7 +31,8 @@ def write(path, curves, hydrostat, models, tables):
         ("The same, logarithmic", "", panels(draw_modulus, "K [GPa]", "log")),
     ]
     strains = ", ".join(f"{curve.plastic:.3f}" for curve in curves)
-    shown = f"{counted(len(curves), 'unloading curve')} at plastic strains {strains}, measured and fitted; errors stand below."
+    shown = (f"{counted(len(curves), 'unloading curve')} at plastic strains {strains}, measured and fitted; "
+             "errors stand below.")
     content = ""
     for k, (title, text, figure) in enumerate(figures):
         content += section(title, text, as_svg(figure, f"figure-{k + 1}", title, shown))
@@ -44,7 +45,8 @@ def write(path, curves, hydrostat, models, tables):
 
 OVERVIEW = """Total volumetric strain; all strains and pressures are positive in compression. The curves should start
 on the axis in order of plastic strain and end on the hydrostat."""
-PRESSURE = """Points are the rows of unloading.csv. The table model runs through them by a monotone cubic (measured). The
+PRESSURE = """\
+Points are the rows of unloading.csv. The table model runs through them by a monotone cubic (measured). The
 SVR is counted from its pressure at zero elastic strain; the MLP is integrated from there."""
 RESIDUAL = "The dotted lines are 1 % of the curve's largest pressure."
 MODULUS = "Measured is the slope of the monotone cubic: the table model."
@@ -63,7 +65,8 @@ def overview(curves, hydrostat, models):
         for i, curve in enumerate(curves):
             elastic = np.linspace(0, curve.end, N_ALONG)
             labels = [None] * (1 + len(models)) if i else ["measured", *(model.name for model in models)]
-            axis.plot(elastic + curve.plastic, curve.pressure_at(elastic) / 1e6, color=COLOURS["measured"], label=labels[0])
+            axis.plot(elastic + curve.plastic, curve.pressure_at(elastic) / 1e6, color=COLOURS["measured"],
+                      label=labels[0])
             for model, label in zip(models, labels[1:]):
                 pressure = model.at(elastic, curve.plastic)[0] / 1e6
                 axis.plot(elastic + curve.plastic, pressure, "--", color=COLOURS[model.name], label=label)

@@ -1,7 +1,9 @@
 """What a hydrostatic test of sand cannot show: then the file is not what it is taken for."""
 
 from tamp.failure import Refusal
-from tamp.laboratory.curves import crossing, loading_branch, pressure_at, turning_point, unloading_branch, unloading_curve
+from tamp.laboratory.curves import (
+    crossing, loading_branch, pressure_at, turning_point, unloading_branch, unloading_curve,
+)
 
 # How far a measured column may run back: noise, of the value and of the largest.
 NOISE, LEAST_NOISE = 0.02, 0.002

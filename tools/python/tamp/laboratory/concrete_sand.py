@@ -1,8 +1,8 @@
 """Makes inputs/materials/concrete-sand/*.csv from the raw measurements.
 
 RAW_FOLDER holds measured/ (DrySand_LoadUnload_*.csv: strains in %, pressures in MPa) and vaango/
-(DrySand_HydrostaticCapData.json, DrySand_YieldData.json). What is written is SI, compression positive, and thinned to as
-few points as hold each curve within 0.1 %. Only the standard library is used.
+(DrySand_HydrostaticCapData.json, DrySand_YieldData.json). What is written is SI, compression positive, and thinned to
+as few points as hold each curve within 0.1 %. Only the standard library is used.
 """
 
 import math

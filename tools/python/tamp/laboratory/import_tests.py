@@ -2,10 +2,10 @@
 
 One file a test: volumetric strain in the first column, pressure in the second, both positive in compression, one
 loading first and then one unloading. Rows of headings come first and are named; after them every row has to be one of
-numbers. Each unloading branch becomes a curve of unloading.csv, from its own plastic strain, and the loading branch of the test
-to the largest strain becomes hydrostat.csv. What is written is SI, and thinned to as few points as hold each curve
-within 0.1 %. Strains stay what they are, engineering or logarithmic. TAMP is asked whether it takes what is written.
-Only the standard library is used.
+numbers. Each unloading branch becomes a curve of unloading.csv, from its own plastic strain, and the loading branch of
+the test to the largest strain becomes hydrostat.csv. What is written is SI, and thinned to as few points as hold each
+curve within 0.1 %. Strains stay what they are, engineering or logarithmic. TAMP is asked whether it takes what is
+written. Only the standard library is used.
 """
 
 import pathlib

@@ -20,8 +20,8 @@ from tamp.fit.network import changed_copy
 from tamp.fit.support_vectors import SupportVectors
 from tamp.markdown import print_table
 from tamp.material.companion_paths import (
-    COMBINATIONS, COMPANION, MULTIAXIAL, NAMES, UNITS, Point, answer, at_time, companion_number, companion_text, compared,
-    multiaxial, off, read_texts, uniaxial, write_paths,
+    COMBINATIONS, COMPANION, MULTIAXIAL, NAMES, UNITS, Point, answer, at_time, companion_number, companion_text,
+    compared, multiaxial, off, read_texts, uniaxial, write_paths,
 )
 from tamp.material.drive import TIGHT
 from tamp.options import positive
@@ -118,7 +118,8 @@ def print_sum(fits, held, widened):
     rows = []
     for name, path in fits:
         for total, plastic in sorted(places) if path else []:
-            pressure, modulus = (value[0] for value in SupportVectors(path).fitted(np.array([total - plastic]), plastic))
+            fitted = SupportVectors(path).fitted(np.array([total - plastic]), plastic)
+            pressure, modulus = (value[0] for value in fitted)
             rows.append([name, f"{total:.4f}", f"{plastic:.4f}", f"{pressure / 1e9:.3f}", f"{modulus / 1e9:.2f}"])
     print_table(["", "total strain", "plastic strain", "p [GPa]", "K [GPa]"], rows)
 

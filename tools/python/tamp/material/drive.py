@@ -36,5 +36,6 @@ def drive(tamp, material, path, increment, settings=()):
         if isinstance(path, list):
             write_path(made, path)
             path = made
-        program.call(tamp, "drive", material, path, "--increment", repr(increment), *program.changes(settings), "--out", out)
+        program.call(tamp, "drive", material, path, "--increment", repr(increment), "--out", out,
+                     *program.changes(settings))
         return results.columns(out)

@@ -1,11 +1,11 @@
 """What a piston that is driven into sand at some speeds has to find: stress, pressure, density and speed of the front.
 
-In uniaxial strain sand goes along one path of stress, whatever the rate: sigma(e) from `tamp drive`, e the compaction
-1 - V / V0. Where the path stiffens a compression is a shock, and where it softens it spreads; the waves that run into
+In uniaxial strain sand goes along one path of stress, whatever the rate: sigma(e) from `tamp drive`, e the compaction 1
+- V / V0. Where the path stiffens a compression is a shock, and where it softens it spreads; the waves that run into
 sand at rest, from the fastest, are the pieces of the path's upper concave hull from 0 to e, and the matter behind them
 moves with the sum over pieces of sqrt(d sigma d e / density). Solved for e at the piston's speed. With one piece that
-is density U v = sigma, v / U = e. Of another reading of the same sand: --material and --set, as `tamp drive` has it, for
-instance --set /elastic_update=state.
+is density U v = sigma, v / U = e. Of another reading of the same sand: --material and --set, as `tamp drive` has it,
+for instance --set /elastic_update=state.
 """
 
 import math
@@ -81,5 +81,5 @@ def main(options):
     for speed in options.speeds:
         compaction, stress, pressure, fronts = behind_front(path, density, speed)
         precursor = speed - fronts[-1][1]
-        print(f"{speed:<12g} {stress:<15.8g} {pressure:<15.8g} {density / (1 - compaction):<16.8g} {fronts[-1][0]:<17.7g}"
-              f" {fronts[0][0]:<17.7g} {precursor if len(fronts) > 1 else 0:.3g}")
+        print(f"{speed:<12g} {stress:<15.8g} {pressure:<15.8g} {density / (1 - compaction):<16.8g} "
+              f"{fronts[-1][0]:<17.7g} {fronts[0][0]:<17.7g} {precursor if len(fronts) > 1 else 0:.3g}")

@@ -217,8 +217,8 @@ def print_general(point, paths, models):
             work = run["plastic_work"]
             least = np.diff(work).min() / max(work[-1], 1e-300)
             change = change_by_half_increment(point, model, form, path)
-            rows.append([name, f"{model}, {form}", f"{max(run['outside']):.3g}", f"{least:.3g}", f"{100 * change:.3g} %",
-                         f"{sum(run['substeps']):.0f} in {len(work) - 1:.0f}"])
+            rows.append([name, f"{model}, {form}", f"{max(run['outside']):.3g}", f"{least:.3g}",
+                         f"{100 * change:.3g} %", f"{sum(run['substeps']):.0f} in {len(work) - 1:.0f}"])
     print_table(["path", "model", "outside of the yield surface, over its length",
                  "least plastic work of an increment, over all of it", "half the increment changes stress by",
                  "substeps in increments"], rows)

@@ -1,9 +1,9 @@
 """Makes what inputs/studies/moduli.json compares: the sand's models fitted at several sizes, and where to ask them.
 
-Written are svr-N.json, N the number of vectors, mlp-N-N-....h5, N the neurons of each layer, and states.csv: all rows of
-the measured unloading curves but those of zero pressure, with the pressure measured there and the slope of the monotone
-cubic through the curve's rows. The rows are in order of elastic strain, so that neighbours are of different curves. The
-same input gives the same files, byte for byte. Debian's python3-sklearn and python3-h5py are used.
+Written are svr-N.json, N the number of vectors, mlp-N-N-....h5, N the neurons of each layer, and states.csv: all rows
+of the measured unloading curves but those of zero pressure, with the pressure measured there and the slope of the
+monotone cubic through the curve's rows. The rows are in order of elastic strain, so that neighbours are of different
+curves. The same input gives the same files, byte for byte. Debian's python3-sklearn and python3-h5py are used.
 """
 
 import json

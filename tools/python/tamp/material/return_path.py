@@ -1,8 +1,8 @@
 """Makes the path of deformation that inputs/studies/return_mapping.json takes a point of sand along.
 
 Straight legs between corners, one a unit of time: hydrostatic loading with unloading to nearly nothing, uniaxial strain
-with unloading, shearing to and fro under compression, and then corners drawn at random (always the same ones) with up to
-30 % of volumetric strain (logarithmic, compression positive).
+with unloading, shearing to and fro under compression, and then corners drawn at random (always the same ones) with up
+to 30 % of volumetric strain (logarithmic, compression positive).
 """
 
 import math

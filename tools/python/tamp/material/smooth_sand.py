@@ -19,7 +19,8 @@ N_HYDROSTAT, N_UNLOADING = 700, 100
 
 
 def write(path, what, columns, rows):
-    remarks = [f"{what} of a sand that is none: smooth curves, for verification.", "Made by tools/python/tamp smooth-sand."]
+    remarks = [f"{what} of a sand that is none: smooth curves, for verification.",
+               "Made by tools/python/tamp smooth-sand."]
     files.write_table(path, remarks, columns, rows)
 
 

@@ -1,9 +1,9 @@
 """Where sand widens and where it is compacted under the quick punch, on finer and finer cells, side by side.
 
-Runs inputs/punch/quick.json for 1.8 ms with a box 1 m deep, from the floor of which no wave is back by then, on cells of
-2.5, 1.25 and 0.625 cm; 5 minutes on one core. Runs that are there already are only drawn. Prints the greatest dilation of
-any particle, and draws the plastic volumetric strain of the sand near the punch. Needs Debian's python3-h5py,
-python3-matplotlib and python3-pil.
+Runs inputs/punch/quick.json for 1.8 ms with a box 1 m deep, from the floor of which no wave is back by then, on cells
+of 2.5, 1.25 and 0.625 cm; 5 minutes on one core. Runs that are there already are only drawn. Prints the greatest
+dilation of any particle, and draws the plastic volumetric strain of the sand near the punch. Needs Debian's
+python3-h5py, python3-matplotlib and python3-pil.
 """
 
 import pathlib

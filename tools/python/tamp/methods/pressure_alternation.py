@@ -1,10 +1,10 @@
 """How far pressure alternates from one row of compacted particles to the next, by relief, interpolator and other keys.
 
 Runs the scene to the time with each pair. Of the particles that are compacted by at least that part of their volume and
-under at least a tenth of the largest pressure of these, it takes those whose neighbours along an axis in the lattice they
-started in are such particles too. Prints, along x and along y, the sum of |p(-1) - 2 p + p(+1)| / 2 over that of p: where p
-is m + a and m - a in turns this is 2 a / m, and where it is linear it is 0. The same for the fields of the list below. Then
-depth, steps, user time, and how much energy is missing. Debian's python3-h5py is used.
+under at least a tenth of the largest pressure of these, it takes those whose neighbours along an axis in the lattice
+they started in are such particles too. Prints, along x and along y, the sum of |p(-1) - 2 p + p(+1)| / 2 over that of
+p: where p is m + a and m - a in turns this is 2 a / m, and where it is linear it is 0. The same for the fields of the
+list below. Then depth, steps, user time, and how much energy is missing. Debian's python3-h5py is used.
 """
 
 import pathlib
@@ -44,7 +44,8 @@ def run(options, settings):
     ends = [("/time/end", options.time), ("/output/fields_interval", options.time)]
     with tempfile.TemporaryDirectory() as place:
         folder = pathlib.Path(place, "run")
-        seconds, done = program.timed_run(options.tamp, options.scene, folder, settings=[*ends, *settings], allowed=(0, 3))
+        seconds, done = program.timed_run(options.tamp, options.scene, folder, settings=[*ends, *settings],
+                                          allowed=(0, 3))
         if done.returncode == 3:
             return [done.stderr.strip().splitlines()[-1]]
         scene, summary = files.document(folder / "scene.json"), results.summary(folder)

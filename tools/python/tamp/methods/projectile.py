@@ -1,12 +1,12 @@
 """What the depth and the angle of the projectile depend on, one thing at a time, beside the report's.
 
-Runs inputs/uxo/quick.json with a base of settings that is given in full below, and once more for each case, which changes
-one thing. The box is a part of the scene's; sand that is torn comes apart, which takes a third of the steps. Runs that
-are finished are kept in --out and not repeated; --print-only prints those and runs nothing. Tables are Markdown: depths of
-nose and tail below the first surface and the angle of the axis below the horizontal at five times; what each case is
-worth; stresses and plastic strain near the nose; and an estimate from the momentum and from the exact shock of the
-piston. On one core a run to 0.85 ms takes about 20 s on cells of 5 mm and 6 to 8 minutes on 2.5 mm; the deformable
-projectile takes some 5 minutes on 5 mm.
+Runs inputs/uxo/quick.json with a base of settings that is given in full below, and once more for each case, which
+changes one thing. The box is a part of the scene's; sand that is torn comes apart, which takes a third of the steps.
+Runs that are finished are kept in --out and not repeated; --print-only prints those and runs nothing. Tables are
+Markdown: depths of nose and tail below the first surface and the angle of the axis below the horizontal at five times;
+what each case is worth; stresses and plastic strain near the nose; and an estimate from the momentum and from the exact
+shock of the piston. On one core a run to 0.85 ms takes about 20 s on cells of 5 mm and 6 to 8 minutes on 2.5 mm; the
+deformable projectile takes some 5 minutes on 5 mm.
 """
 
 import bisect
@@ -182,7 +182,8 @@ def print_worth(of_cells):
 
 
 def print_stresses(runs, millimetres):
-    print(f"### {millimetres:g} mm: within 1 cm of the nose, p, q [MPa], greatest plastic compaction [%]; speed [m/s]\n")
+    print(f"### {millimetres:g} mm: within 1 cm of the nose, p, q [MPa], greatest plastic compaction [%]; "
+          "speed [m/s]\n")
     rows = []
     for name, one in runs.items():
         row = [CASES[name][0]]
@@ -243,10 +244,11 @@ def print_estimate():
     print("### Estimate\n")
     area, mass = math.pi * RADIUS**2, 9.69e-3
     stops = mass * SPEED / 6e-4 / area
-    print(f"Momentum over area and time: {mass * 1e3:.1f} g at {SPEED} m/s over {area * 1e6:.0f} mm2 stop in 0.6 ms at a "
-          f"mean stress of {stops / 1e6:.0f} MPa.\n")
+    print(f"Momentum over area and time: {mass * 1e3:.1f} g at {SPEED} m/s over {area * 1e6:.0f} mm2 stop in 0.6 ms "
+          f"at a mean stress of {stops / 1e6:.0f} MPa.\n")
     rows = []
-    for what, mass, scale in (("41 mm, 9.7 g", 9.69e-3, 1), ("41 mm, 15.9 g", 15.9e-3, 1), ("50 mm, 15.9 g", 15.86e-3, 50 / 41)):
+    for what, mass, scale in (("41 mm, 9.7 g", 9.69e-3, 1), ("41 mm, 15.9 g", 15.9e-3, 1),
+                              ("50 mm, 15.9 g", 15.86e-3, 50 / 41)):
         ways = straight_way(mass, scale)
         rows.append([what, *(f"{1000 * (way / math.sqrt(2) + SURFACE - NOSE[2]):.0f} mm" for way in ways)])
     print_table(["straight at 45 degrees, depth of the nose", *(f"{1e3 * time:g} ms" for time in TIMES)], rows)
@@ -255,7 +257,8 @@ def print_estimate():
 def add_arguments(parser):
     program.add_option(parser)
     parser.add_argument("--out", type=pathlib.Path, default=ROOT / "runs/projectile-report")
-    parser.add_argument("--cells", type=positive, nargs="+", default=[5, 2.5], help="mm; 5 mm divided by a whole number")
+    parser.add_argument("--cells", type=positive, nargs="+", default=[5, 2.5],
+                        help="mm; 5 mm divided by a whole number")
     parser.add_argument("--cases", nargs="+", default=list(CASES), choices=list(CASES))
     parser.add_argument("--end", type=positive, default=TIMES[-1], help="[s]")
     parser.add_argument("--print-only", action="store_true", help="print the runs that --out has, whatever their end")

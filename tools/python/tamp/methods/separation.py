@@ -1,9 +1,10 @@
 """What it does to a run that its sand comes apart.
 
-Runs the scene with `comes_apart` false and true in turns, in the rate and in the state form. Prints for each the greatest
-depth, how far depth is from that of sand that stays whole (the greatest difference at any time, over the greatest depth),
-steps and their mean size, which updates of the sand were of particles that are apart and which ended outside of the
-modulus' range, the least plastic volumetric strain, the error of energy, and the median of the user times.
+Runs the scene with `comes_apart` false and true in turns, in the rate and in the state form. Prints for each the
+greatest depth, how far depth is from that of sand that stays whole (the greatest difference at any time, over the
+greatest depth), steps and their mean size, which updates of the sand were of particles that are apart and which ended
+outside of the modulus' range, the least plastic volumetric strain, the error of energy, and the median of the user
+times.
 """
 
 import statistics

@@ -1,11 +1,11 @@
 """Holds the bound on the time step of the viscous rule against eigenvalues, and prints what comes out as Markdown.
 
-Elastic bodies of GIMP particles lie at random places in a grid. With the nodes' mass M (lumped), stiffness K and viscous
-damping G (lagged by a step), and R = M^-1 sum m_p S_ip S_jp, the share of the nodes' velocities that particles hand back,
-leapfrog is stable as long as no eigenvalue of (2 - R) M^-1 (K dt^2 / 4 + G dt / 2) is above 1: at the limit all fields
-change sign from step to step. The table shows its largest eigenvalue at the step of the rule (components/loads/
-time_step.hpp), the least and the greatest over all samples: above 1 the rule is not safe, far below 1 it is wasteful.
-Units: cell, density and uniaxial modulus are 1. Only the standard library is used.
+Elastic bodies of GIMP particles lie at random places in a grid. With the nodes' mass M (lumped), stiffness K and
+viscous damping G (lagged by a step), and R = M^-1 sum m_p S_ip S_jp, the share of the nodes' velocities that particles
+hand back, leapfrog is stable as long as no eigenvalue of (2 - R) M^-1 (K dt^2 / 4 + G dt / 2) is above 1: at the limit
+all fields change sign from step to step. The table shows its largest eigenvalue at the step of the rule
+(components/loads/time_step.hpp), the least and the greatest over all samples: above 1 the rule is not safe, far below
+1 it is wasteful. Units: cell, density and uniaxial modulus are 1. Only the standard library is used.
 """
 
 import itertools

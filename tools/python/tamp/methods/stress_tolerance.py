@@ -1,10 +1,10 @@
 """What the tolerance of the sand's stress does to a run, beside what round-off does to it.
 
-Runs the scene once for each tolerance, and three times at the first one with the density of the sand changed by parts in
-1e12. Prints, for each, how far its results are from those of the first tolerance, relative to the greatest value that
-they have in the run: the body's depth (the greatest difference at any time), the sand's peaks of pressure and q, the
-greatest cap and plastic volumetric strain, and the energies at the end. The last column is user time over that of the
-first run. The rows of round-off tell what of a difference is chance. A shorter run ends at an earlier time, as
+Runs the scene once for each tolerance, and three times at the first one with the density of the sand changed by parts
+in 1e12. Prints, for each, how far its results are from those of the first tolerance, relative to the greatest value
+that they have in the run: the body's depth (the greatest difference at any time), the sand's peaks of pressure and q,
+the greatest cap and plastic volumetric strain, and the energies at the end. The last column is user time over that of
+the first run. The rows of round-off tell what of a difference is chance. A shorter run ends at an earlier time, as
 `--set /time/end=1e-4`, not after a number of steps, whose sizes differ.
 """
 

@@ -3,10 +3,11 @@
 Runs the punch with Table, SVR and MLP to 4 ms on the report's cells, and the projectile with the same three; what is
 finished already is kept, so that it can be stopped and called again. 15 minutes on one core with the rigid projectile;
 fine takes an hour, report three. Writes figure-03a.png to figure-31b.png, captions.md, numbers.md and numbers.csv. Runs
-with --set want a folder of their own. --stiffer-network 3.45e9 adds so many pascals to the bulk modulus of MLP's network,
-as the report's own seems to have had it. Needs Debian's python3-matplotlib, python3-scipy and python3-h5py.
+with --set want a folder of their own. --stiffer-network 3.45e9 adds so many pascals to the bulk modulus of MLP's
+network, as the report's own seems to have had it. Needs Debian's python3-matplotlib, python3-scipy and python3-h5py.
 """
 
+import importlib
 import pathlib
 
 from tamp import files, program
@@ -31,6 +32,8 @@ def add_arguments(parser):
 
 
 def main(options):
+    for package in ("h5py", "scipy"):  # rather than after the runs
+        importlib.import_module(package)
     settings = dict(options.set)
     files.check_file(options.tamp)
     name = "figures-stiffer" if options.stiffer_network else "figures"

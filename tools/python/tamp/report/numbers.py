@@ -3,7 +3,7 @@
 import csv
 from typing import NamedTuple
 
-from tamp import markdown
+from tamp import markdown, results
 from tamp.program import MODELS
 
 SHARES = ["0.1 % are above", "1 % are above", "5 % are above"]
@@ -37,6 +37,12 @@ def of(run=None, time=""):
     return number
 
 
+def of_sand(runs, times, time_text):
+    """(what makes numbers of a run at a time, the run, its sand then)"""
+    return [(of(run, time_text(time)), run, results.particles(run.folder, "sand", time))
+            for run in runs for time in times]
+
+
 def text(value):
     if value is None:
         return ""
@@ -67,7 +73,8 @@ def said(found):
     stated = [found[model].report for model in MODELS.values() if model in found and found[model].report]
     if len(set(stated)) == 1 and len(stated) == len(found):
         return stated[0]
-    return ", ".join(f"{model} {found[model].report}" for model in MODELS.values() if model in found and found[model].report)
+    return ", ".join(f"{model} {found[model].report}" for model in MODELS.values()
+                     if model in found and found[model].report)
 
 
 def as_markdown(numbers):

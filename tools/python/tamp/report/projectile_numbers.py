@@ -3,7 +3,7 @@
 import numpy as np
 
 from tamp import results
-from tamp.report.numbers import of
+from tamp.report.numbers import of, of_sand
 from tamp.report.projectile import LAST, MICRO, MILLI, PLASTIC, PRESSURE, SHEAR, TIMES, surface_of
 
 EARLY = (20e-6, 50e-6, 100e-6)
@@ -27,8 +27,7 @@ def microseconds(time):
 
 
 def sand_at(runs, times):
-    """(what makes numbers of a run at a time, the run, its sand then)"""
-    return [(of(run, microseconds(time)), run, results.particles(run.folder, "sand", time)) for run in runs for time in times]
+    return of_sand(runs, times, microseconds)
 
 
 def ways(runs):

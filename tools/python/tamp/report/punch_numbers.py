@@ -3,7 +3,7 @@
 import numpy as np
 
 from tamp import results
-from tamp.report.numbers import of
+from tamp.report.numbers import of, of_sand
 from tamp.report.punch import CAP, ELASTIC, MIDDLE, MILLI, MODULUS, PLASTIC, PRESSURE, SHEAR, SURFACE
 
 DEPTH_TIMES = (0.5e-3, 1e-3, 1.5e-3, 2e-3, 2.6e-3, 3e-3, 4e-3)
@@ -28,8 +28,7 @@ def milliseconds(time):
 
 
 def sand_at(runs, times):
-    """(what makes numbers of a run at a time, the run, its sand then)"""
-    return [(of(run, milliseconds(time)), run, results.particles(run.folder, "sand", time)) for run in runs for time in times]
+    return of_sand(runs, times, milliseconds)
 
 
 def depths(runs):
@@ -126,7 +125,8 @@ def caps(runs):
         said = "about 9" if round(sand.time / MILLI, 1) == 0.5 else ""
         found.append(number("12, 19", "share of the sand whose cap has grown", "%", 100 * grown.mean()))
         found.append(number("12, 19", "share of the sand whose cap is above 9 MPa", "%", 100 * (cap > 9e6).mean()))
-        found.append(number("12, 19", "cap, median where it has grown", "MPa", np.median(CAP.values(sand)[grown]), said))
+        median = np.median(CAP.values(sand)[grown])
+        found.append(number("12, 19", "cap, median where it has grown", "MPa", median, said))
     return found
 
 

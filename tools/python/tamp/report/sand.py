@@ -8,7 +8,6 @@ import numpy as np
 
 from tamp import program, results
 from tamp.charts import theme
-from tamp.fit.curves import read_curves
 from tamp.program import SAND
 from tamp.report.drawing import COLOURS, chart, logarithmic
 from tamp.report.numbers import Number, of
@@ -120,8 +119,8 @@ def draw_fits(album, tamp, curves):
         axis.plot((plastic + fine) / PERCENT, pressure / MEGA, color=COLOURS["svr"], lw=0.6, alpha=0.6)
     axis.legend(fontsize=8)
     album.keep(figure, "07", "SVR: pressure against total volumetric strain, at the plastic strains of the measured "
-               "unloading curves (thick) and between them (thin), as the fit gives it. Between curves it does not start "
-               "at zero.")
+               "unloading curves (thick) and between them (thin), as the fit gives it. Between curves it does not "
+               "start at zero.")
 
     figure, axis = chart(ELASTIC, "bulk modulus [GPa], logarithmic")
     axis.plot([], [], color=COLOURS["mlp"], label="MLP")
@@ -160,6 +159,8 @@ def numbers(tamp):
 
 
 def draw(album, tamp):
+    from tamp.fit.curves import read_curves  # which needs scipy
+
     curves = read_curves(SAND / "unloading.csv")
     draw_data(album, curves)
     draw_strength(album)

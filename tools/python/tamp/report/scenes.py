@@ -4,7 +4,6 @@ import pathlib
 from typing import NamedTuple
 
 from tamp import program, results
-from tamp.fit import network
 from tamp.program import INPUTS, MODELS, SAND
 
 PUNCH_END = 4e-3
@@ -58,6 +57,8 @@ def projectile_runs(folder, kind, settings):
 
 def with_stiffer_network(runs, folder, amount):
     """The same runs, but MLP's with a network whose bulk modulus is higher by so many pascals everywhere."""
+    from tamp.fit import network  # which needs h5py
+
     folder.mkdir(parents=True, exist_ok=True)
     own = SAND / "network.h5"
     scaling = network.Network(own).scaling + [0, 0, 0, 0, amount, 0]  # the mean bulk modulus
@@ -67,7 +68,8 @@ def with_stiffer_network(runs, folder, amount):
         if run.model == "mlp":
             about = f"{run.about}, MLP's bulk modulus higher by {amount / 1e9:g} GPa everywhere"
             settings = {**run.settings, "/materials/sand/modulus/mlp": stiffer.resolve()}
-            run = run._replace(folder=run.folder.with_name(f"{run.folder.name}-stiffer"), settings=settings, about=about)
+            own_folder = run.folder.with_name(f"{run.folder.name}-stiffer")
+            run = run._replace(folder=own_folder, settings=settings, about=about)
         made.append(run)
     about = made[-1].about
     return [run._replace(about=about) for run in made]
