@@ -4,10 +4,9 @@ import numpy as np
 from matplotlib.figure import Figure
 from mpl_toolkits.mplot3d.art3d import Poly3DCollection
 
-from tamp import results
+from tamp import projectile_mesh, results
 from tamp.charts import theme
 from tamp.program import INPUTS
-from tamp.projectile_mesh import read_projectile, surface
 from tamp.report.drawing import (
     COLOURS, Field, chart, colour_bar, coloured, frame, growth, panels, squares, three_digits,
 )
@@ -28,8 +27,8 @@ FIGURES = ((PRESSURE, "27", TIMES), (SHEAR, "28", TIMES), (PLASTIC, "29", TIMES)
 
 
 def mesh():
-    """Corners of the triangles of the projectile's surface [mm]."""
-    return 1000 * np.array(surface(*read_projectile(SOLID)))
+    """Corners of the triangles of the projectile's surface, in millimetres."""
+    return (1000 * np.array(projectile_mesh.surface(*projectile_mesh.read_projectile(SOLID)))).astype("<f4")
 
 
 def draw_geometry(album, run):
