@@ -34,7 +34,7 @@ def objection(program, file, states):
 
 
 def objection_to_curves(program, hydrostat, unloading, states):
-    """The same of curves, in a material made for the question."""
+    """What TAMP objects to in curves, asked by a material made for the question."""
     with tempfile.TemporaryDirectory() as folder:
         material = pathlib.Path(folder, "material.json")
         modulus = {"type": "table", "table": str(unloading.resolve())}

@@ -42,12 +42,12 @@ def is_finished(folder):
 
 
 def at(known, name, time):
-    """Of a column, linear between rows."""
+    """A column's value at a time, linear between rows."""
     return float(np.interp(time, known["time"], known[name]))
 
 
 class Particles(NamedTuple):
-    """Of one material at one time."""
+    """The particles of one material at one time."""
 
     time: float
     fields: dict

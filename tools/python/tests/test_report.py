@@ -43,7 +43,7 @@ class Columns(unittest.TestCase):
 
 class Shares(unittest.TestCase):
     def test_what_a_share_of_the_sand_is_above(self):
-        """Of 0 to 1000, ten lie above 990."""
+        """Ten of the numbers 0 to 1000 lie above 990."""
         values = np.arange(1001)
 
         self.assertEqual(results.exceeded(values), (999, 990, 950))

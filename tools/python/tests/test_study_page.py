@@ -63,7 +63,7 @@ def only(document, *numbers):
 
 
 class ThePage(unittest.TestCase):
-    """Of the study with everything."""
+    """The page of the study with everything."""
 
     @classmethod
     def setUpClass(cls):

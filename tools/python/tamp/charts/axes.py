@@ -15,7 +15,7 @@ from tamp.charts.theme import LIGHT
 
 
 class Layout(NamedTuple):
-    """The same chart for a wide and for a narrow page."""
+    """How large a chart is on a wide or on a narrow page."""
 
     name: str
     width: float
@@ -56,7 +56,7 @@ def wrapped(text, width, size, weight="normal"):
 
 
 class Entry(NamedTuple):
-    """Of a legend: a stretch of line with its marker, or a filled box."""
+    """An entry of a legend: a stretch of line with its marker, or a filled box."""
 
     text: str
     style: theme.Style

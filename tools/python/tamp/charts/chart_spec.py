@@ -76,7 +76,7 @@ def limits_of_errors(errors, quantity):
 
 
 def shown_uncertainty(quantity, limits):
-    """Of the reference; None where it lies far below the points, as it then limits nothing."""
+    """The reference's uncertainty; None where it lies far below the points, as it then limits nothing."""
     uncertainty = quantity.uncertainty if quantity.has_reference else None
     return uncertainty if uncertainty and uncertainty > limits[0] / 30 else None
 
@@ -87,5 +87,5 @@ def x_limits(spec, drawn):
 
 
 def share_across(spec, point, limits):
-    """Of the x axis; failed points that have no place on it stand at its left end."""
+    """A point's share of the x axis; failed points that have no place on it stand at its left end."""
     return log(spec.across.of(point) / limits[0]) / log(limits[1] / limits[0]) if spec.has_place(point) else 0

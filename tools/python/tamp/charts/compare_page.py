@@ -48,7 +48,7 @@ def common_time(comparison):
 
 
 class Row(NamedTuple):
-    """Of the table of models."""
+    """A row of the table of models."""
 
     name: str
     cell: Callable  # of a model, as HTML

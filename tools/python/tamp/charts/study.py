@@ -26,7 +26,7 @@ class Quantity(NamedTuple):
 
     @property
     def uncertainty(self):
-        """Of the reference, in the unit of errors; None where there is no bound, 0 of an exact answer."""
+        """The reference's own, in the unit of errors; None where there is no bound, 0 for an exact answer."""
         value = self.reference.get("uncertainty")
         return value if is_number(value) and value >= 0 and self.has_bound else None
 

@@ -96,7 +96,7 @@ def check_branches(test, turn):
 
 
 def check_stiffness(place, elastic, pressure):
-    """Of the whole unloading from a pressure, over an elastic strain."""
+    """That the mean bulk modulus of an unloading, from a pressure over an elastic strain, is one of sand."""
     modulus, root = pressure / elastic, (pressure / AT_PRESSURE) ** 0.5
     softest, stiffest = SOFTEST * root, min(STIFFEST * root, STIFFEST_GRAINS)
     if not softest <= modulus <= stiffest:

@@ -26,7 +26,7 @@ def uniaxial_path(tamp, material, increment, settings):
 
 
 def density_of(material):
-    """Of a material's file, or of the file that it builds on."""
+    """The density in a material's file, or in the file that it builds on."""
     content = files.document(material)
     return content["density"] if "density" in content else density_of(material.parent / content["file"])
 

@@ -172,9 +172,9 @@ def print_loading(point, measured, models):
 
 
 def unloading_errors(run, turn, plastic, curve):
-    """Of p, on the way down from `turn` until the measured sand has no pressure left: relative to the curve at equal
-    elastic strain, and at equal total strain, both from 1 % of elastic strain up; and at equal total strain everywhere,
-    over the pressure at the turn."""
+    """Errors of p on the way down from `turn` until the measured sand has no pressure left: relative to the curve at
+    equal elastic strain, and at equal total strain, both from 1 % of elastic strain up; and at equal total strain
+    everywhere, over the pressure at the turn."""
     elastic, pressure = zip(*curve)
     i = abs(run["strain_v"] - turn).argmin()
     at_elastic = at_total = over_top = 0.0

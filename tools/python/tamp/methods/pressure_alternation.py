@@ -20,7 +20,7 @@ FIELDS = ("p", "J", "elastic_volumetric", "plastic_volumetric")
 
 
 def alternations(lattice, fields, compacted, axis):
-    """Of each field, over the compacted particles; and how many of these there were."""
+    """How far each field alternates over the compacted particles; and how many of these there were."""
     shape = lattice.max(axis=0) + 1
     p = fields["p"]
     chosen = fields["J"] < 1 - compacted

@@ -128,7 +128,7 @@ def squares(axis, places, side, growth=1.0, **how):
 
 
 def growth(particles):
-    """Of a particle's side, from its change of volume; sand that flies apart is not drawn ever larger."""
+    """How much a particle's side has grown, from its change of volume; bounded, as sand may fly apart."""
     return np.clip(np.cbrt(particles["J"]), 0.5, 1.5) if "J" in particles else np.ones(len(particles.position))
 
 

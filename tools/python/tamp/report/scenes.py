@@ -56,7 +56,7 @@ def projectile_runs(folder, kind, settings):
 
 
 def with_stiffer_network(runs, folder, amount):
-    """The same runs, but MLP's with a network whose bulk modulus is higher by so many pascals everywhere."""
+    """These runs, MLP's with a network whose bulk modulus is higher by so many pascals everywhere."""
     from tamp.fit import network  # which needs h5py
 
     folder.mkdir(parents=True, exist_ok=True)
