@@ -5,7 +5,7 @@
 namespace tamp::tools
 {
 
-/// TAMP's own version, such as "0.1.0".
+/// TAMP's own version, such as "0.2.0".
 std::string version();
 
 /// What `tamp --version` prints: version, build type, compiler, and what the program is linked to.
