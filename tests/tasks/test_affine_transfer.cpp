@@ -63,7 +63,7 @@ TEST_CASE("a thin body turns as fast as it spins where velocities come to the gr
   const double tpic = lag(spinning_rod(dimension, Transfer("tpic")));
 
   CAPTURE(dimension, plain, affine, apic, tpic);
-  CHECK(plain == Approx(0.35).margin(0.02));  // docs/method.md has these
+  CHECK(plain == Approx(0.35).margin(0.02));  // docs/verification.md has these
   CHECK(std::abs(affine) < 2e-3);
   CHECK(std::abs(apic) < 2e-3);
   CHECK(std::abs(tpic) < 2e-3);
@@ -83,7 +83,7 @@ TEST_CASE("a thin body loses its spin the more, the more of it the nodes filter"
   const double plain = lag_of(Transfer("flip"), 1), blend = lag_of(Transfer("blend"), 1);
 
   CAPTURE(pic, xpic, fmpm, plain, blend);
-  // docs/method.md has these.
+  // docs/verification.md has these.
   CHECK(pic == Approx(0.98).margin(0.01));
   CHECK(xpic == Approx(0.94).margin(0.01));
   CHECK(fmpm == Approx(0.86).margin(0.01));
