@@ -176,7 +176,7 @@ std::string table_of(const Times& times, const Machine& machine)
   return text + row("operations at least", times, 0, [](const StepsTime& time) { return time.least.operations; });
 }
 
-std::string told(const Json& memory)
+std::string memory_text(const Json& memory)
 {
   std::string text;
   for (const Json& of : memory["of_particles"]) {
@@ -262,7 +262,7 @@ class WindowBenchmark
                "\n  one thread moves {:.2f} GB/s (triad), and makes {:.1f} multiplies and adds in a nanosecond\n"
                "  recording tasks costs {:.2f} %\n",
                machine().bandwidth * 1e-9, machine().arithmetic * 1e-9, recording_overhead_ * 100) +
-           told(memory_of(scene_));
+           memory_text(memory_of(scene_));
   }
 
   const tasks::Scene& scene_;

@@ -68,7 +68,7 @@ void check(const CheckArguments& options)
   expect_room(checked, forecast);
   add_copies(forecast);
   add_pace(scene, forecast);
-  print_err("  {}\n", told(forecast));
+  print_err("  {}\n", description(forecast));
 }
 
 }  // namespace

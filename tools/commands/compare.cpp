@@ -57,7 +57,7 @@ void write(const compare::Comparison& comparison, const std::filesystem::path& f
 }
 
 /// The models that went wrong, in the way of a single run.
-void complain_of_unstable(const compare::Comparison& comparison)
+void throw_if_unstable(const compare::Comparison& comparison)
 {
   std::vector<std::string> lines;
   for (const compare::ModelResult& model : comparison.models) {
@@ -90,7 +90,7 @@ void compare_models(CompareArguments& options)
     print_out("{}  written to {}\n", to_text(comparison), options.comparison.folder.string());
   }
   draw_page(options.comparison.folder);
-  complain_of_unstable(comparison);
+  throw_if_unstable(comparison);
 }
 
 }  // namespace

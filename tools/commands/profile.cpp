@@ -21,7 +21,7 @@ struct ProfileArguments {
 };
 
 /// The profile of a run, as it was written or as text.
-std::string told(const ProfileArguments& options)
+std::string profile_of(const ProfileArguments& options)
 {
   const std::filesystem::path file = std::filesystem::path(options.folder) / "profile.json";
   return options.format == "json" ? profile_json_text(file) : profile_text(file);
@@ -37,7 +37,7 @@ CLI::App* add_profile_command(CLI::App& app)
   command->add_option("--format", options->format, "text or json")->check(is_one_of({"text", "json"}));
   command->footer(examples({{"tamp profile runs/punch", "the tasks, the most expensive first"},
                             {"tamp profile runs/punch --format json", "as it was written"}}));
-  command->callback([options] { print_out("{}", told(*options)); });
+  command->callback([options] { print_out("{}", profile_of(*options)); });
   return command;
 }
 

@@ -71,7 +71,7 @@ void add_pace(const tasks::Scene& scene, Forecast& forecast)
   forecast.pace = tasks::pace_of(scene, seconds);
 }
 
-std::string told(const Forecast& forecast)
+std::string description(const Forecast& forecast)
 {
   std::string text = fmt::format("forecast: {} particles, {} of memory, {} on the disk", forecast.n_particles,
                                  in_bytes(forecast.memory), in_bytes(forecast.disk));

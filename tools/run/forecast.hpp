@@ -39,6 +39,6 @@ void add_copies(Forecast& forecast, int n_ranks = 1, int ranks_here = 1);
 void add_pace(const tasks::Scene& scene, Forecast& forecast);
 
 /// One line for a person.
-std::string told(const Forecast& forecast);
+std::string description(const Forecast& forecast);
 
 }  // namespace tamp::tools

@@ -49,7 +49,7 @@ void MachineHistory::begin(const std::filesystem::path& folder)
   runtime::on_first_rank(communicator_, [&] { csv_.emplace(folder / "machine.csv", machine_columns()); });
 }
 
-void MachineHistory::go_on(const std::filesystem::path& folder, long kept_until)
+void MachineHistory::resume(const std::filesystem::path& folder, long kept_until)
 {
   runtime::on_first_rank(communicator_, [&] {
     const std::filesystem::path file = folder / "machine.csv";

@@ -21,7 +21,7 @@ class MachineHistory
   /// Begins the table in a folder anew; the first rank writes it.
   void begin(const std::filesystem::path& folder);
   /// Goes on with it, and with the times in it, after the row of step `kept_until`.
-  void go_on(const std::filesystem::path& folder, long kept_until);
+  void resume(const std::filesystem::path& folder, long kept_until);
   /// A step has been run, which took so long.
   void add_step(double seconds);
   /// Takes in what all ranks have taken until now, at this step and simulated time [s]. Collective.

@@ -22,12 +22,12 @@ std::string damage(const nlohmann::json::exception& error)
   return fmt::format("the key \"{}\" is missing", text.substr(begin + 1, end - begin - 1));
 }
 
-template <class Tell>
-std::string told(const std::filesystem::path& file, const Tell& tell)
+template <class Render>
+std::string rendered(const std::filesystem::path& file, const Render& render)
 {
   if (!std::filesystem::exists(file)) throw InputError({file.string(), "no such file", "expected the folder of a run"});
   try {
-    return tell(nlohmann::json(parse_json(file)));
+    return render(nlohmann::json(parse_json(file)));
   } catch (const InputError& error) {
     throw runtime::FileError(file, std::string("is damaged: ") + error.what());
   } catch (const nlohmann::json::exception& error) {
@@ -39,12 +39,12 @@ std::string told(const std::filesystem::path& file, const Tell& tell)
 
 std::string profile_text(const std::filesystem::path& file)
 {
-  return told(file, [](const nlohmann::json& profile) { return runtime::to_text(profile); });
+  return rendered(file, [](const nlohmann::json& profile) { return runtime::to_text(profile); });
 }
 
 std::string profile_json_text(const std::filesystem::path& file)
 {
-  return told(file, [](const nlohmann::json& profile) { return profile.dump(1) + "\n"; });
+  return rendered(file, [](const nlohmann::json& profile) { return profile.dump(1) + "\n"; });
 }
 
 }  // namespace tamp::tools

@@ -204,9 +204,9 @@ class Runner
     runtime::ByteReader(own).read(due_);
     written_ = due_;
     restarted_at_ = simulation_->n_steps();
-    warn(history_.go_on(options_.folder, due_.history, due_.rows));
-    machine_history_.go_on(options_.folder, due_.history);
-    warn(output_.go_on(due_.fields, due_.n_fields));
+    warn(history_.resume(options_.folder, due_.history, due_.rows));
+    machine_history_.resume(options_.folder, due_.history);
+    warn(output_.resume(due_.fields, due_.n_fields));
     due_.rows = history_.extent();
     due_.n_fields = output_.n_fields_at_start();
     history_.set_largest(due_.largest);
@@ -298,7 +298,7 @@ class Runner
   /// What this rank alone knows, all learn with the next step.
   void ask_for_what_is_wanted()
   {
-    const int signal = signals_.noted();
+    const int signal = signals_.received();
     for (const StopReason& reason : stop_reasons) {
       if (signal == reason.signal && reason.request != wall_limit_reached.request) simulation_->ask(reason.request);
     }
@@ -377,18 +377,18 @@ class Runner
     history_.measure();
     const runtime::Profile profile = simulation_->profile();
     const nlohmann::json json = to_json(profile, simulation_->ledger(), options_.communicator);
-    const nlohmann::ordered_json told =
+    const nlohmann::ordered_json summary =
         run_summary(*simulation_, history_,
                     {status, reason, seconds_since(start_), median({step_seconds_.begin(), step_seconds_.end()}),
                      restarted_at_, output_.in_background(), output_time, forecast_, checked_.inputs, warnings_});
     on_first_rank([&] {
-      runtime::write_whole_file(options_.folder / "summary.json", json_text(told, 2) + "\n");
+      runtime::write_whole_file(options_.folder / "summary.json", json_text(summary, 2) + "\n");
       runtime::write_whole_file(options_.folder / "profile.json", json.dump(1) + "\n");
     });
     // Last, as it may be large, and a run can do without.
     if (options_.n_traced_steps > 0) write_trace();
     if (options_.quiet || !is_first()) return;
-    print_out("{}\n{}  written to {}\n", runtime::to_text(json, 10), summary_text(told), options_.folder.string());
+    print_out("{}\n{}  written to {}\n", runtime::to_text(json, 10), summary_text(summary), options_.folder.string());
   }
 
   void write_trace()
@@ -442,7 +442,7 @@ void run(const CheckedScene& scene, const RunOptions& options)
     }
     if (options.quiet) return;
     add_pace(scene.scene, expected);
-    print_out("{}\n", told(expected));
+    print_out("{}\n", description(expected));
     for (const std::string& line : compiled_moduli(scene)) print_out("{}\n", line);
     flush_out();
   });

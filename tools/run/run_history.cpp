@@ -110,7 +110,7 @@ void RunHistory::begin(const std::filesystem::path& folder)
   runtime::on_first_rank(simulation_.communicator(), [&] { csv_.emplace(folder / "history.csv", column_names()); });
 }
 
-std::string RunHistory::go_on(const std::filesystem::path& folder, long kept_until, const runtime::CsvExtent& expected)
+std::string RunHistory::resume(const std::filesystem::path& folder, long kept_until, const runtime::CsvExtent& expected)
 {
   runtime::on_first_rank(simulation_.communicator(), [&] {
     csv_ = runtime::CsvWriter::continued(folder / "history.csv", column_names(), kept_until, expected);
@@ -159,7 +159,7 @@ void RunHistory::add_columns()
   }
   for (std::size_t m = 0; m < scene.materials.size(); ++m) add_peak_columns(m, "", report_.materials);
   for (std::size_t m = 0; scene.has_nose() && m < scene.materials.size(); ++m) {
-    add_peak_columns(m, ".near_nose", near_noses_.materials);
+    add_peak_columns(m, ".near_nose", nose_report_.materials);
   }
   columns_.push_back({"lost[particles]", [this] { return static_cast<double>(lost_.count); }});
   columns_.push_back({"lost_mass[kg]", [this] { return lost_.mass; }});
@@ -237,7 +237,7 @@ std::vector<std::string> RunHistory::column_names() const
 void RunHistory::measure()
 {
   report_ = simulation_.report();
-  near_noses_ = simulation_.near_noses();
+  nose_report_ = simulation_.near_noses();
   lost_ = simulation_.lost();
   const tasks::EnergyLedger& since_start = simulation_.energies();
   EnergyBalance& e = energies_;

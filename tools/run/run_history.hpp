@@ -51,7 +51,7 @@ class RunHistory
   void begin(const std::filesystem::path& folder);
   /// Goes on with it after the row of step `kept_until`: later ones are taken out. What the user should know of it, on
   /// the first rank; nothing if it is as `expected`.
-  std::string go_on(const std::filesystem::path& folder, long kept_until, const runtime::CsvExtent& expected);
+  std::string resume(const std::filesystem::path& folder, long kept_until, const runtime::CsvExtent& expected);
   /// What is written so far; on the first rank.
   runtime::CsvExtent extent() const { return csv_ ? csv_->extent() : runtime::CsvExtent{}; }
   /// Takes in the state now.
@@ -77,7 +77,7 @@ class RunHistory
   const std::map<std::string, Extremes>& extremes() const { return extremes_; }
   const EnergyBalance& energies() const { return energies_; }
   const tasks::ParticleReport& report() const { return report_; }
-  const tasks::NoseReport& near_noses() const { return near_noses_; }
+  const tasks::NoseReport& nose_report() const { return nose_report_; }
 
   /// Bodies that move at the start, are rigid or under a pressure load; the others are what they move into.
   const std::vector<std::size_t>& tracked_bodies() const { return tracked_; }
@@ -125,7 +125,7 @@ class RunHistory
   double acceleration_;      ///< the greatest by gravity and centrifuge [m/s^2]
   double elastic_at_start_;  ///< J
   tasks::ParticleReport report_;
-  tasks::NoseReport near_noses_;
+  tasks::NoseReport nose_report_;
   tasks::LostParticles lost_;
   EnergyBalance energies_{};
   LargestSoFar largest_;

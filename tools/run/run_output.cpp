@@ -41,7 +41,7 @@ void RunOutput::begin()
   }
 }
 
-std::string RunOutput::go_on(long last_step, std::size_t n_expected)
+std::string RunOutput::resume(long last_step, std::size_t n_expected)
 {
   if (options_.in_background) {
     on_first_rank([&] { fields_ = runtime::FieldFile::continued(options_.folder, last_step, n_expected); });

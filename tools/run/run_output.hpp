@@ -50,7 +50,7 @@ class RunOutput
   /// Begins the field file anew, or goes on with it, see runtime::FieldFile::continued; returns what the user should
   /// know, on the first rank.
   void begin();
-  std::string go_on(long last_step, std::size_t n_expected);
+  std::string resume(long last_step, std::size_t n_expected);
   /// Outputs in the field file when it was begun or gone on with; on the first rank.
   std::size_t n_fields_at_start() const { return n_fields_at_start_; }
 

@@ -77,14 +77,14 @@ Json bodies(const tasks::Simulation& simulation, const RunHistory& history)
     const tasks::SceneBody& body = simulation.scene().bodies[b];
     const tasks::BodySums& sums = history.report().bodies[b];
     const Eigen::Vector3d v = sums.momentum / sums.mass;
-    Json& told = all[body.name] = {
+    Json& entry = all[body.name] = {
         {"mass_kg", sums.mass}, {"depth_m", history.depth(b)}, {"velocity_m_per_s", {v[0], v[1], v[2]}}};
     if (const auto depth = history.extremes().find(body.name + ".depth[m]"); depth != history.extremes().end()) {
-      told["deepest_m"] = depth->second.greatest;
-      told["deepest_at_s"] = depth->second.greatest_time;
+      entry["deepest_m"] = depth->second.greatest;
+      entry["deepest_at_s"] = depth->second.greatest_time;
     }
     if (!body.drive) continue;
-    told["largest_force"] =
+    entry["largest_force"] =
         largest_force(history, body.name, simulation.scene().grid.dimension, history.contact_force(b));
   }
   return all;

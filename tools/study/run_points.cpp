@@ -25,7 +25,7 @@ namespace fs = std::filesystem;
 /// Why a point's run ended; the last state that it kept is not kept here.
 std::string reason_of(const Child& run)
 {
-  std::string said = complaint_of(run);
+  std::string said = error_text_of(run);
   said.erase(std::min(said.find("; the last state is kept in"), said.size()));
   return said;
 }
@@ -156,7 +156,7 @@ class PointRunner
     result.folder = folder;
     if (task.is_charted) note_time(result);
     task.result = std::move(result);
-    tell(task, round);
+    show_progress(task, round);
   }
 
   PointResult one_run(const Task& task, const fs::path& folder) const
@@ -193,7 +193,7 @@ class PointRunner
       result.end = End::refused;
       result.reason = said;
     } else {
-      throw runtime::FileError(result.folder.string(), said.empty() ? "a run ended with " + end.told() : said);
+      throw runtime::FileError(result.folder.string(), said.empty() ? "a run ended with " + end.description() : said);
     }
   }
 
@@ -210,7 +210,7 @@ class PointRunner
     for (const fs::path& file : found) fs::remove_all(file);
   }
 
-  void tell(const Task& task, int round) const
+  void show_progress(const Task& task, int round) const
   {
     if (quiet_) return;
     const auto is_known = [](const auto& one) { return one->result.has_value(); };

@@ -43,7 +43,7 @@ StudyResults measure_all(const Study& study, const StudyOptions& options, const 
   const auto measured = run_points(study, points, results.measurements, cache, options.quiet);
   for (std::size_t i = 0; i < points.size(); ++i) results.points.push_back({points[i], measured[i]});
   results.findings = findings_of(study, results.points);
-  results.gates = gates_of(study, results.points, results.findings);
+  results.expectations = judge_expectations(study, results.points, results.findings);
   return results;
 }
 
@@ -57,11 +57,11 @@ void write(const StudyResults& results, const std::filesystem::path& folder)
 {
   runtime::write_whole_file(folder / "points.csv", to_csv(results));
   runtime::write_whole_file(folder / "study.json", json_text(to_json(results), 1) + "\n");
-  if (!results.gates.empty()) runtime::write_whole_file(folder / "gates.csv", gates_to_csv(results));
+  if (!results.expectations.empty()) runtime::write_whole_file(folder / "gates.csv", expectations_to_csv(results));
 }
 
 /// A study whose reference has failed shows its points, and is no success.
-void complain_of_reference(const StudyResults& results)
+void throw_if_reference_failed(const StudyResults& results)
 {
   for (const MeasuredPoint& one : results.points) {
     if (one.point.role != Point::Role::reference || one.done()) continue;
@@ -85,7 +85,7 @@ void run_study(const StudyOptions& options)
   if (!options.quiet) print_out("{}", to_text(results));
   draw_page(folder);
   if (!options.quiet) print_out("  written to {}: index.html, points.csv, charts\n", folder.string());
-  complain_of_reference(results);
+  throw_if_reference_failed(results);
 }
 
 }  // namespace tamp::tools::study

@@ -37,7 +37,7 @@ std::string content_of(const fs::path& mark)
 }
 
 /// A mark may hold anything.
-std::string told(const std::string& content)
+std::string mark_text(const std::string& content)
 {
   constexpr std::size_t most = 300;
   return content.empty() ? "its mark is empty or no file" : utf8(content.substr(0, most));
@@ -90,7 +90,7 @@ void StudyFolder::expect_own_program(bool force) const
   if (fs::exists(mark) && content_of(mark) != own) {
     if (!force) {
       throw InputError(
-          {folder_.string(), "results of another program or processor: " + told(content_of(mark)),
+          {folder_.string(), "results of another program or processor: " + mark_text(content_of(mark)),
            fmt::format("expected results of this one, {}; --force removes them, --out names another folder", own)});
     }
     fs::remove_all(points());

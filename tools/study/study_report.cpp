@@ -174,22 +174,22 @@ Json budgets_json(const StudyResults& results)
   return all;
 }
 
-Json gates_json(const StudyResults& results)
+Json expectations_json(const StudyResults& results)
 {
   Json all = Json::array();
-  for (const Gate& gate : results.gates) {
-    const bool has_limit = gate.kind != Expectation::Kind::fails;
-    all.push_back({{"quantity", gate.quantity},
-                   {"method", gate.method},
-                   {"label", gate.label},
-                   {"kind", to_text(gate.kind)},
-                   {"limit", has_limit ? Json(gate.limit) : Json(nullptr)},
-                   {"found", value_or_null(gate.found)},
-                   {"holds", gate.holds},
-                   {"expected", gate.expected},
-                   {"note", gate.note},
-                   {"why", gate.why},
-                   {"missed", gate.missed}});
+  for (const ExpectationResult& result : results.expectations) {
+    const bool has_limit = result.kind != Expectation::Kind::fails;
+    all.push_back({{"quantity", result.quantity},
+                   {"method", result.method},
+                   {"label", result.label},
+                   {"kind", to_text(result.kind)},
+                   {"limit", has_limit ? Json(result.limit) : Json(nullptr)},
+                   {"found", value_or_null(result.found)},
+                   {"holds", result.holds},
+                   {"expected", result.expected},
+                   {"note", result.note},
+                   {"why", result.why},
+                   {"missed", result.missed}});
   }
   return all;
 }
@@ -271,13 +271,13 @@ std::string front_text(const StudyResults& results, const Quantity& quantity, co
   return text.empty() ? "    no errors of " + quantity.name + " are known\n" : text;
 }
 
-std::string gates_text(const StudyResults& results)
+std::string expectations_text(const StudyResults& results)
 {
-  if (results.gates.empty()) return "";
+  if (results.expectations.empty()) return "";
   std::string text = "  expected:\n";
-  for (const Gate& gate : results.gates) {
-    text += fmt::format("    {}  {}: {}: {}, expected {}{}\n", verdict(gate), gate.quantity, gate.label, gate.note,
-                        gate.expected, gate.why.empty() ? "" : " (" + gate.why + ")");
+  for (const ExpectationResult& result : results.expectations) {
+    text += fmt::format("    {}  {}: {}: {}, expected {}{}\n", verdict(result), result.quantity, result.label,
+                        result.note, result.expected, result.why.empty() ? "" : " (" + result.why + ")");
   }
   return text;
 }
@@ -302,7 +302,7 @@ Json to_json(const StudyResults& results)
           {"quantities", quantities_json(results)},
           {"points", points_json(results)},
           {"budgets", budgets_json(results)},
-          {"gates", gates_json(results)}};
+          {"gates", expectations_json(results)}};
 }
 
 std::string to_csv(const StudyResults& results)
@@ -321,13 +321,13 @@ std::string to_csv(const StudyResults& results)
   return text;
 }
 
-std::string gates_to_csv(const StudyResults& results)
+std::string expectations_to_csv(const StudyResults& results)
 {
   const std::vector<std::string> names{"quantity", "label", "kind", "limit", "found", "holds", "note", "why"};
   std::string text = fmt::format("{}\n", fmt::join(names, ","));
-  for (const Json& gate : gates_json(results)) {
+  for (const Json& result : expectations_json(results)) {
     std::vector<std::string> cells;
-    for (const std::string& name : names) cells.push_back(csv_cell(gate[name]));
+    for (const std::string& name : names) cells.push_back(csv_cell(result[name]));
     text += fmt::format("{}\n", fmt::join(cells, ","));
   }
   return text;
@@ -352,7 +352,7 @@ std::string to_text(const StudyResults& results)
       text += fmt::format("    {:<24} {:>9}  {}\n", part.name, amount, part.note);
     }
   }
-  return text + gates_text(results);
+  return text + expectations_text(results);
 }
 
 }  // namespace tamp::tools::study

@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "tools/study/expectation_results.hpp"
 #include "tools/study/findings.hpp"
-#include "tools/study/gates.hpp"
 #include "tools/study/measurement.hpp"
 
 namespace tamp::tools::study
@@ -20,7 +20,7 @@ struct StudyResults {
   /// One for each point.
   std::vector<Measurement> measurements;
   Findings findings;
-  std::vector<Gate> gates;
+  std::vector<ExpectationResult> expectations;
 };
 
 /// `study.json`, which the page is drawn from, see docs/study.md.
@@ -30,7 +30,7 @@ Json to_json(const StudyResults& results);
 std::string to_csv(const StudyResults& results);
 
 /// `gates.csv`: a row for each expectation of each method.
-std::string gates_to_csv(const StudyResults& results);
+std::string expectations_to_csv(const StudyResults& results);
 
 /// For a person at a terminal: each quantity's reference, its Pareto front, the error budgets, and what was expected.
 std::string to_text(const StudyResults& results);

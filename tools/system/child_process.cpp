@@ -128,7 +128,7 @@ class RunningChildren
 
 }  // namespace
 
-std::string ChildEnd::told() const
+std::string ChildEnd::description() const
 {
   return signal != 0 ? "signal " + std::to_string(signal) : "exit code " + std::to_string(exit_code);
 }
@@ -143,7 +143,7 @@ void run_children(const std::vector<Child>& children, int n_at_once, const AtEnd
   for (std::size_t next = 0; next < children.size() || running.size() > 0;) {
     for (; next < children.size() && running.size() < n_at_once; ++next) running.add(next, children[next]);
     const auto ended = running.take_ended();
-    if (watch.noted() != 0) throw Interrupted("stopped by a signal", watch.noted());
+    if (watch.received() != 0) throw Interrupted("stopped by a signal", watch.received());
     if (ended) {
       at_end(ended->first, ended->second);
       pause = first_pause;
@@ -161,7 +161,7 @@ ChildEnd run_child(const Child& child)
   return end;
 }
 
-std::string complaint_of(const Child& child)
+std::string error_text_of(const Child& child)
 {
   std::ifstream stream(child.errors);
   std::string text;

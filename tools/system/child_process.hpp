@@ -21,7 +21,7 @@ struct ChildEnd {
 
   bool done() const { return exit_code == 0; }
   /// Such as "signal 9" or "exit code 127".
-  std::string told() const;
+  std::string description() const;
 };
 
 /// A process of this program with other arguments, the command first, or of another `program`, which is looked for
@@ -49,6 +49,6 @@ using AtEnd = std::function<void(std::size_t, const ChildEnd&)>;
 void run_children(const std::vector<Child>& children, int n_at_once, const AtEnd& at_end);
 
 /// What the child said in its file of errors, in one line; warnings are not why it ended.
-std::string complaint_of(const Child& child);
+std::string error_text_of(const Child& child);
 
 }  // namespace tamp::tools

@@ -17,7 +17,7 @@ namespace
 {
 
 /// Every line of `text` on stderr, each with the program's name before it.
-void complain(const std::string& text)
+void print_error(const std::string& text)
 {
   std::size_t begin = 0;
   while (begin <= text.size()) {
@@ -45,7 +45,7 @@ bool done_soon(MPI_Request& request)
 int report_failure(const std::string& text, ExitCode code, const runtime::Communicator& ranks)
 {
   if (ranks.size() == 1) {
-    complain(text);
+    print_error(text);
     return static_cast<int>(code);
   }
   // The first rank with something to say, and the exit code that it says it with.
@@ -59,10 +59,10 @@ int report_failure(const std::string& text, ExitCode code, const runtime::Commun
   MPI_Request request = MPI_REQUEST_NULL;
   MPI_Iallreduce(&own, &common, 1, MPI_2INT, MPI_MINLOC, MPI_COMM_WORLD, &request);
   if (done_soon(request)) {
-    if (common.order == ranks.rank()) complain(text);
+    if (common.order == ranks.rank()) print_error(text);
     return common.code;
   }
-  complain(fmt::format("rank {}: {}", ranks.rank(), text.empty() ? "another rank has failed" : text));
+  print_error(fmt::format("rank {}: {}", ranks.rank(), text.empty() ? "another rank has failed" : text));
   MPI_Abort(MPI_COMM_WORLD, static_cast<int>(code));
   return static_cast<int>(code);
 }

@@ -47,7 +47,7 @@ SignalWatch::~SignalWatch()
   watched = nullptr;
 }
 
-int SignalWatch::noted() const
+int SignalWatch::received() const
 {
   return noted_signal;
 }

@@ -30,7 +30,7 @@ class SignalWatch
   SignalWatch& operator=(const SignalWatch&) = delete;
 
   /// The last signal that asked to stop; 0 for none.
-  int noted() const;
+  int received() const;
 
  private:
   explicit SignalWatch(runtime::Executor* executor);

@@ -24,7 +24,7 @@ struct Fault {
   std::string call;
   int at = 1;
   std::string path;
-  std::string told;
+  std::string message;
   std::string size = "0";
 };
 
@@ -87,7 +87,7 @@ TEST_CASE("a call that fails ends a run with 4 and the place, and its last check
   INFO(fault << ": " << outcome.err);
 
   CHECK(outcome.exit_code == 4);
-  CHECK_THAT(outcome.err, Catch::StartsWith("tamp: ") && Catch::Contains(fault.told));
+  CHECK_THAT(outcome.err, Catch::StartsWith("tamp: ") && Catch::Contains(fault.message));
   REQUIRE(outcome_of(run + outputs + "--steps 20 --restart " + out.string()).exit_code == 0);
   CHECK(digest_of(out) == straight_digest());
 }

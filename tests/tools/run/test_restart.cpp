@@ -362,10 +362,10 @@ TEST_CASE("a run does not go on with data that have changed, and names the file;
   CHECK_THAT(changed.err, Catch::Contains(strengths.string() + ": its content has changed since the checkpoint"));
   CHECK(other.exit_code == 2);
   CHECK_THAT(other.err, Catch::Contains("a checkpoint of another scene, which differs at /grid/patches"));
-  bool told = false;
+  bool names_table = false;
   const auto summary = summary_of(run);
-  for (const auto& input : summary["inputs"]) told |= input["file"].get<std::string>().ends_with("yield.csv");
-  CHECK(told);
+  for (const auto& input : summary["inputs"]) names_table |= input["file"].get<std::string>().ends_with("yield.csv");
+  CHECK(names_table);
 }
 
 TEST_CASE("a run that goes on tells what is missing of its history and fields, and keeps the rest")

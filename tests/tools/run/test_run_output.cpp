@@ -101,7 +101,7 @@ TEST_CASE("output is written in the background as far as there is memory for cop
   CHECK(small.memory == 1500);
   CHECK_FALSE(large.in_background);
   CHECK(large.memory == 1000);
-  CHECK_THAT(told(large), Catch::Contains("no room for copies"));
+  CHECK_THAT(description(large), Catch::Contains("no room for copies"));
 }
 
 }  // namespace test_run_output

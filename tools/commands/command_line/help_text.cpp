@@ -78,7 +78,7 @@ std::string HelpFormatter::make_help(const CLI::App* app, std::string /*name*/, 
   std::string text = wrapped(app->get_description(), 0, 0) + "\n\n" + usage_of(*app) + "\n";
   std::string positionals, options, commands;
   for (const OptionWords& option : options_of(*app)) {
-    (option.is_positional() ? positionals : options) += entry(option.usage(), option.told());
+    (option.is_positional() ? positionals : options) += entry(option.usage(), option.description());
   }
   for (const CLI::App* command : commands_of(*app)) commands += entry(command->get_name(), command->get_description());
   if (!commands.empty()) text += "\nCommands:\n" + commands;

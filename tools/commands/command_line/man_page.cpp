@@ -54,7 +54,7 @@ std::string section_of(const CLI::App& command, const std::string& name)
   std::string options;
   for (const OptionWords& option : options_of(command)) {
     if (option.is_positional()) usage += " \\fI" + plain(option.usage()) + "\\fR";
-    options += tagged(option.name, option.is_positional() ? "" : option.value, option.told());
+    options += tagged(option.name, option.is_positional() ? "" : option.value, option.description());
   }
   std::string text = fmt::format(".SS {}\n{}\n.PP\n{}\n{}{}", plain(name), usage, plain(command.get_description()),
                                  options, examples_of(command));

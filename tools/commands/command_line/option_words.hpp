@@ -24,7 +24,7 @@ struct OptionWords {
   /// With what stands for its value: "--threads N", "SCENE", "[NAME...]".
   std::string usage() const;
   /// The meaning, with the details.
-  std::string told() const { return details.empty() ? meaning : meaning + " (" + details + ")"; }
+  std::string description() const { return details.empty() ? meaning : meaning + " (" + details + ")"; }
   bool is_positional() const { return !name.starts_with("-"); }
 };
 

@@ -74,9 +74,9 @@ class Race
     std::rotate(order.begin(), leader, order.end());
     for (ModelRun* run : order) {
       if (run == order.front()) {
-        run->lead_round(round_steps_);
+        run->advance_steps(round_steps_);
       } else {
-        run->follow_round(order.front()->simulation().time());
+        run->advance_to(order.front()->simulation().time());
       }
       const tasks::Simulation& simulation = run->simulation();
       progress.show(steps_of_all(), simulation.time(), simulation.last_step_size());

@@ -28,7 +28,7 @@ ModelResult run_coarser(const ModelScene& scene, double until, int n_threads, co
 {
   ModelRun run(scene, {until, std::numeric_limits<long>::max()}, folder,
                std::make_shared<runtime::Executor>(n_threads));
-  run.follow_round(until);
+  run.advance_to(until);
   return run.result();
 }
 

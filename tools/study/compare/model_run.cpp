@@ -52,13 +52,13 @@ double ModelRun::progress() const
                   static_cast<double>(simulation_->n_steps()) / static_cast<double>(extent_.max_steps));
 }
 
-void ModelRun::lead_round(int n_steps)
+void ModelRun::advance_steps(int n_steps)
 {
   const long last = simulation_->n_steps() + n_steps;
   advance_while([&] { return simulation_->n_steps() < last; });
 }
 
-void ModelRun::follow_round(double until)
+void ModelRun::advance_to(double until)
 {
   advance_while([&] { return simulation_->time() < until; });
 }

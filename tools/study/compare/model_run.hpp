@@ -29,8 +29,8 @@ class ModelRun
            std::shared_ptr<runtime::Executor> executor);
 
   /// A round of so many steps, or to a simulated time; both end early where the run does.
-  void lead_round(int n_steps);
-  void follow_round(double until);
+  void advance_steps(int n_steps);
+  void advance_to(double until);
 
   bool finished() const;
   /// The part of the run that is done, 0 to 1.

@@ -14,19 +14,19 @@ namespace
 
 using Cells = std::vector<std::string>;
 
-bool is_known_to_miss(const Json& gate)
+bool is_known_to_miss(const Json& result)
 {
-  return !gate["missed"].get<std::string>().empty();
+  return !result["missed"].get<std::string>().empty();
 }
 
-bool is_failure(const Json& gate)
+bool is_failure(const Json& result)
 {
-  return gate["holds"] == false && !is_known_to_miss(gate);
+  return result["holds"] == false && !is_known_to_miss(result);
 }
 
-bool is_known_miss(const Json& gate)
+bool is_known_miss(const Json& result)
 {
-  return gate["holds"] == false && is_known_to_miss(gate);
+  return result["holds"] == false && is_known_to_miss(result);
 }
 
 /// What was found of those that are asked for, and what was expected, with the reason under a key.
@@ -34,12 +34,12 @@ template <class IsAskedFor>
 std::vector<std::string> lines_of(const Json& study, const IsAskedFor& is_asked_for, const char* key_of_reason)
 {
   std::vector<std::string> lines;
-  for (const Json& gate : study["gates"]) {
-    if (!is_asked_for(gate)) continue;
-    const std::string reason = gate[key_of_reason];
-    lines.push_back(fmt::format("{}, {}: {}, expected {}{}", gate["label"].get<std::string>(),
-                                gate["quantity"].get<std::string>(), gate["note"].get<std::string>(),
-                                gate["expected"].get<std::string>(), reason.empty() ? "" : " (" + reason + ")"));
+  for (const Json& result : study["gates"]) {
+    if (!is_asked_for(result)) continue;
+    const std::string reason = result[key_of_reason];
+    lines.push_back(fmt::format("{}, {}: {}, expected {}{}", result["label"].get<std::string>(),
+                                result["quantity"].get<std::string>(), result["note"].get<std::string>(),
+                                result["expected"].get<std::string>(), reason.empty() ? "" : " (" + reason + ")"));
   }
   return lines;
 }
@@ -94,15 +94,16 @@ class QuantityTable
       if (points.empty()) continue;
       Json errors = Json::array();
       for (const Json& point : points) errors.push_back(error_of(point));
-      const std::vector<Json> gates = gates_of(name);
-      const Json expected = expected_order(gates);
-      list.push_back({{"problem", study_["name"]},
-                      {"quantity", quantity_["name"]},
-                      {"method", name},
-                      {"order", order_of(name)},
-                      {"expected_order", expected},
-                      {"errors", errors},
-                      {"passed", gates.empty() ? Json() : Json(std::none_of(gates.begin(), gates.end(), is_failure))}});
+      const std::vector<Json> results = results_of(name);
+      const Json expected = expected_order(results);
+      list.push_back(
+          {{"problem", study_["name"]},
+           {"quantity", quantity_["name"]},
+           {"method", name},
+           {"order", order_of(name)},
+           {"expected_order", expected},
+           {"errors", errors},
+           {"passed", results.empty() ? Json() : Json(std::none_of(results.begin(), results.end(), is_failure))}});
     }
   }
 
@@ -169,25 +170,25 @@ class QuantityTable
     return points;
   }
 
-  std::vector<Json> gates_of(const std::string& method) const
+  std::vector<Json> results_of(const std::string& method) const
   {
-    std::vector<Json> gates;
-    for (const Json& gate : study_["gates"]) {
-      if (gate["method"] == method && gate["quantity"] == quantity_["name"]) gates.push_back(gate);
+    std::vector<Json> results;
+    for (const Json& result : study_["gates"]) {
+      if (result["method"] == method && result["quantity"] == quantity_["name"]) results.push_back(result);
     }
-    return gates;
+    return results;
   }
 
-  static bool is_of_order(const Json& gate)
+  static bool is_of_order(const Json& result)
   {
-    return gate["kind"] == "order_at_least" || gate["kind"] == "order_at_most";
+    return result["kind"] == "order_at_least" || result["kind"] == "order_at_most";
   }
 
   /// The order that was judged, or else that of errors which fall from each to the next; null where there is neither.
   Json order_of(const std::string& method) const
   {
-    for (const Json& gate : gates_of(method)) {
-      if (is_of_order(gate) && gate["found"].is_number()) return gate["found"];
+    for (const Json& result : results_of(method)) {
+      if (is_of_order(result) && result["found"].is_number()) return result["found"];
     }
     for (const Json& fit : quantity_["orders"]) {
       if (fit["method"] == method && fit["order"].is_number()) return fit["order"];
@@ -195,10 +196,10 @@ class QuantityTable
     return {};
   }
 
-  static Json expected_order(const std::vector<Json>& gates)
+  static Json expected_order(const std::vector<Json>& results)
   {
-    const auto gate = std::find_if(gates.begin(), gates.end(), is_of_order);
-    return gate == gates.end() ? Json() : (*gate)["limit"];
+    const auto result = std::find_if(results.begin(), results.end(), is_of_order);
+    return result == results.end() ? Json() : (*result)["limit"];
   }
 
   std::string order_text(const std::string& method) const
@@ -210,16 +211,16 @@ class QuantityTable
   std::string expected_text(const std::string& method) const
   {
     std::vector<std::string> texts;
-    for (const Json& gate : gates_of(method)) texts.push_back(gate["expected"]);
+    for (const Json& result : results_of(method)) texts.push_back(result["expected"]);
     return fmt::format("{}", fmt::join(texts, ", "));
   }
 
   std::string verdict(const std::string& method) const
   {
-    const std::vector<Json> gates = gates_of(method);
-    if (gates.empty()) return "";
-    if (std::any_of(gates.begin(), gates.end(), is_failure)) return "**NO**";
-    return std::any_of(gates.begin(), gates.end(), is_known_miss) ? "no, as known" : "yes";
+    const std::vector<Json> results = results_of(method);
+    if (results.empty()) return "";
+    if (std::any_of(results.begin(), results.end(), is_failure)) return "**NO**";
+    return std::any_of(results.begin(), results.end(), is_known_miss) ? "no, as known" : "yes";
   }
 
   /// Of the point with the most of them that is done.
@@ -280,7 +281,7 @@ std::vector<std::string> known_misses_of(const Json& study)
 std::vector<std::string> held_misses_of(const Json& study)
 {
   return lines_of(
-      study, [](const Json& gate) { return gate["holds"] == true && is_known_to_miss(gate); }, "missed");
+      study, [](const Json& result) { return result["holds"] == true && is_known_to_miss(result); }, "missed");
 }
 
 }  // namespace tamp::tools::verify

@@ -73,12 +73,12 @@ Child study_command(const VerifyOptions& options, const fs::path& file)
 /// A reference that failed is one of the failures, and keeps nothing else from being judged.
 void expect_study(const std::string& name, const Child& child, const ChildEnd& end, std::vector<std::string>& failures)
 {
-  const std::string said = complaint_of(child);
+  const std::string said = error_text_of(child);
   fs::remove(child.errors);
   if (end.done()) return;
   if (end.exit_code == static_cast<int>(ExitCode::bad_input)) throw InputError({name, said, ""});
   if (end.exit_code != static_cast<int>(ExitCode::bad_simulation)) {
-    throw runtime::FileError(name, said.empty() ? "the study ended with " + end.told() : said);
+    throw runtime::FileError(name, said.empty() ? "the study ended with " + end.description() : said);
   }
   failures.push_back(name + ": " + said);
 }
@@ -117,7 +117,7 @@ void verify(const VerifyOptions& options)
   expect_outputs({{"--json", options.json}});
   std::vector<std::string> failures = run_studies(options, files), known_misses, held_misses;
   std::vector<Json> studies;
-  std::size_t n_gates = 0;
+  std::size_t n_expectations = 0;
   for (const fs::path& file : files) {
     const Json& study = studies.emplace_back(Json::parse(std::ifstream(options.folder / file.stem() / "study.json")));
     const auto note_all = [&](const std::vector<std::string>& lines, std::vector<std::string>& all) {
@@ -126,7 +126,7 @@ void verify(const VerifyOptions& options)
     note_all(failures_of(study), failures);
     note_all(known_misses_of(study), known_misses);
     note_all(held_misses_of(study), held_misses);
-    n_gates += study["gates"].size();
+    n_expectations += study["gates"].size();
   }
   const std::string table = to_markdown(studies);
   const Json json{{"program", version_text()}, {"machine", machine_json()},    {"short", options.in_short},
@@ -140,13 +140,13 @@ void verify(const VerifyOptions& options)
     print_err("tamp: holds, though its study lists it under \"missed\": {}\n", held);
   }
   if (!options.quiet) {
-    print_err("of {} expectations {} are known to be missed, {} of them hold; {} of the others do not\n", n_gates,
-              known_misses.size() + held_misses.size(), held_misses.size(), failures.size());
+    print_err("of {} expectations {} are known to be missed, {} of them hold; {} of the others do not\n",
+              n_expectations, known_misses.size() + held_misses.size(), held_misses.size(), failures.size());
   }
   if (failures.empty()) return;
   throw tasks::SimulationError(
       fmt::format("{} of {} expectations that are to hold do not:\n{}", failures.size(),
-                  n_gates - known_misses.size() - held_misses.size(), fmt::join(failures, "\n")),
+                  n_expectations - known_misses.size() - held_misses.size(), fmt::join(failures, "\n")),
       "", -1, {});
 }
 

@@ -1,4 +1,4 @@
-#include "tools/study/gates.hpp"
+#include "tools/study/expectation_results.hpp"
 
 #include <catch2/catch.hpp>
 #include <cmath>
@@ -17,7 +17,7 @@ namespace
 {
 
 /// What is judged of a method whose errors on cells of 4, 2 and 1 are these; NaN for a run that became unstable.
-Gate judged(const Expectation& expectation, const std::vector<double>& errors)
+ExpectationResult judged(const Expectation& expectation, const std::vector<double>& errors)
 {
   const TemporaryFolder folder;
   Study study;
@@ -38,11 +38,11 @@ Gate judged(const Expectation& expectation, const std::vector<double>& errors)
     measured.back().result.end = End::unstable;
     measured.back().result.reason = "the energy is wrong";
   }
-  const auto gates = gates_of(study, measured, findings_of(study, measured));
-  REQUIRE(gates.size() == 1);
-  CHECK(gates[0].method == "a");
-  CHECK(gates[0].why == "theory");
-  return gates[0];
+  const auto results = judge_expectations(study, measured, findings_of(study, measured));
+  REQUIRE(results.size() == 1);
+  CHECK(results[0].method == "a");
+  CHECK(results[0].why == "theory");
+  return results[0];
 }
 
 Expectation expecting(Kind kind, double limit)
@@ -50,7 +50,7 @@ Expectation expecting(Kind kind, double limit)
   return {kind, limit, "way", {"a"}, "theory"};
 }
 
-Gate judged(Kind kind, double limit, const std::vector<double>& errors)
+ExpectationResult judged(Kind kind, double limit, const std::vector<double>& errors)
 {
   return judged(expecting(kind, limit), errors);
 }
@@ -91,11 +91,11 @@ TEST_CASE("errors that do not fall from each to the next have an order still")
 
 TEST_CASE("a method with a run that failed has no order")
 {
-  const Gate gate = judged(Kind::order_at_most, 5, {0.16, 0.04, NAN});
+  const ExpectationResult result = judged(Kind::order_at_most, 5, {0.16, 0.04, NAN});
 
-  CHECK_FALSE(gate.holds);
-  CHECK_FALSE(gate.found);
-  CHECK(gate.note == "no order: h 1: unstable: the energy is wrong");
+  CHECK_FALSE(result.holds);
+  CHECK_FALSE(result.found);
+  CHECK(result.note == "no order: h 1: unstable: the energy is wrong");
 }
 
 TEST_CASE("an error of 0 gives no order")
@@ -174,12 +174,12 @@ TEST_CASE("a study that refines nothing has each point judged by itself")
     measured.push_back({point, {End::done, "", {{{"core_s", 1}}}, HUGE_VAL, file.parent_path()}});
   }
 
-  const auto gates = gates_of(study, measured, findings_of(study, measured));
+  const auto results = judge_expectations(study, measured, findings_of(study, measured));
 
-  REQUIRE(gates.size() == 2);
-  CHECK(gates[0].holds);
-  CHECK_FALSE(gates[1].holds);
-  CHECK(gates[1].label == "a, k 2");
+  REQUIRE(results.size() == 2);
+  CHECK(results[0].holds);
+  CHECK_FALSE(results[1].holds);
+  CHECK(results[1].label == "a, k 2");
 }
 
 }  // namespace test_gates

@@ -1,4 +1,4 @@
-#include "tools/study/gates.hpp"
+#include "tools/study/expectation_results.hpp"
 
 #include <fmt/format.h>
 
@@ -41,20 +41,20 @@ class Judge
   {
   }
 
-  void judge(const Expectation& expectation, Gate& gate) const
+  void judge(const Expectation& expectation, ExpectationResult& result) const
   {
-    gate.expected = expected(expectation);
-    switch (gate.kind) {
+    result.expected = expected(expectation);
+    switch (result.kind) {
       case Bar::order_at_least:
       case Bar::order_at_most:
-        return judge_order(gate);
+        return judge_order(result);
       case Bar::error_at_least:
       case Bar::error_at_most:
-        return judge_error(expectation.at, gate);
+        return judge_error(expectation.at, result);
       case Bar::limit_error_at_most:
-        return judge_limit(expectation.limit_order, gate);
+        return judge_limit(expectation.limit_order, result);
       case Bar::fails:
-        return judge_failure(gate);
+        return judge_failure(result);
     }
   }
 
@@ -112,10 +112,10 @@ class Judge
     return spacings_of(values);
   }
 
-  void judge_order(Gate& gate) const
+  void judge_order(ExpectationResult& result) const
   {
     if (const MeasuredPoint* failed = failed_point()) {
-      gate.note = "no order: " + lack(failed);
+      result.note = "no order: " + lack(failed);
       return;
     }
     std::vector<double> errors;
@@ -123,67 +123,67 @@ class Judge
     constexpr std::size_t fewest = 3;
     const double order = fitted_order(spacings(), errors, std::max(fewest, errors.size()));
     if (std::isnan(order)) {
-      gate.note = "no order: fewer than three errors above 0";
+      result.note = "no order: fewer than three errors above 0";
       return;
     }
-    gate.found = order;
-    gate.note = fmt::format("order {:.2f}", order);
-    gate.holds = gate.kind == Bar::order_at_least ? order >= gate.limit : order <= gate.limit;
+    result.found = order;
+    result.note = fmt::format("order {:.2f}", order);
+    result.holds = result.kind == Bar::order_at_least ? order >= result.limit : order <= result.limit;
   }
 
   /// On the finest grid, or where the refined setting has the value `at`.
-  void judge_error(const std::optional<double>& at, Gate& gate) const
+  void judge_error(const std::optional<double>& at, ExpectationResult& result) const
   {
     const auto is_there = [&](const MeasuredPoint* one) { return one->point.setting(study_.refine) == *at; };
     const auto one = at ? std::find_if(group_.begin(), group_.end(), is_there) : std::prev(group_.end());
     if (one == group_.end()) {
-      gate.note = "no point there";
+      result.note = "no point there";
       return;
     }
-    gate.found = error(*one);
-    gate.note = gate.found ? "error " + as_text(*gate.found) : lack(*one);
-    if (!gate.found) return;
-    gate.holds = gate.kind == Bar::error_at_least ? *gate.found >= gate.limit : *gate.found <= gate.limit;
+    result.found = error(*one);
+    result.note = result.found ? "error " + as_text(*result.found) : lack(*one);
+    if (!result.found) return;
+    result.holds = result.kind == Bar::error_at_least ? *result.found >= result.limit : *result.found <= result.limit;
   }
 
-  void judge_limit(double order, Gate& gate) const
+  void judge_limit(double order, ExpectationResult& result) const
   {
     if (const MeasuredPoint* failed = failed_point()) {
-      gate.note = "no limit: " + lack(failed);
+      result.note = "no limit: " + lack(failed);
       return;
     }
     std::vector<double> answers;
     for (const MeasuredPoint* one : group_) answers.push_back(found_.values.at(one->point.id));
     const double limit = fitted_limit(spacings(), answers, order);
     if (std::isnan(limit)) {
-      gate.note = "no limit: fewer than three grids";
+      result.note = "no limit: fewer than three grids";
       return;
     }
-    gate.found = std::abs(limit - found_.reference.answer.value) / found_.reference.scale;
-    gate.note = "error of the limit " + as_text(*gate.found);
-    gate.holds = *gate.found <= gate.limit;
+    result.found = std::abs(limit - found_.reference.answer.value) / found_.reference.scale;
+    result.note = "error of the limit " + as_text(*result.found);
+    result.holds = *result.found <= result.limit;
   }
 
-  void judge_failure(Gate& gate) const
+  void judge_failure(ExpectationResult& result) const
   {
     const auto is_unstable = [](const MeasuredPoint* one) { return one->result.end == End::unstable; };
     const auto unstable = std::find_if(group_.begin(), group_.end(), is_unstable);
-    gate.found = error(group_.back());
+    result.found = error(group_.back());
     if (unstable != group_.end()) {
-      gate.note = lack(*unstable);
-      gate.holds = true;
+      result.note = lack(*unstable);
+      result.holds = true;
       return;
     }
     if (const MeasuredPoint* failed = failed_point()) {
-      gate.note = lack(failed);
+      result.note = lack(failed);
       return;
     }
     // Less may be what is left of a method that has converged to its floor.
     constexpr double growth = 1.5;
-    double least = *gate.found;
+    double least = *result.found;
     for (const MeasuredPoint* one : group_) least = std::min(least, *error(one));
-    gate.holds = *gate.found >= growth * least;
-    gate.note = fmt::format("error on the finest grid {}, at least {}", as_text(*gate.found), as_text(least));
+    result.holds = *result.found >= growth * least;
+    result.note = fmt::format("error on the finest grid {}, at least {}", as_text(*result.found), as_text(least));
   }
 
   const Study& study_;
@@ -201,31 +201,32 @@ std::string label_of(const Study& study, const PointGroup& group)
 
 }  // namespace
 
-std::vector<Gate> gates_of(const Study& study, const std::vector<MeasuredPoint>& points, const Findings& findings)
+std::vector<ExpectationResult> judge_expectations(const Study& study, const std::vector<MeasuredPoint>& points,
+                                                  const Findings& findings)
 {
-  std::vector<Gate> gates;
+  std::vector<ExpectationResult> results;
   for (const Expectation& expected : study.expectations) {
     const auto is_its = [&](const Quantity& quantity) { return quantity.name == expected.quantity; };
     const auto at = std::find_if(study.quantities.begin(), study.quantities.end(), is_its);
     const auto& found = findings.quantities[static_cast<std::size_t>(at - study.quantities.begin())];
     for (const std::string& method : expected.methods) {
       for (const PointGroup& group : groups_of(study, points, method)) {
-        Gate gate{expected.quantity, method, label_of(study, group), expected.kind, expected.limit};
-        gate.why = expected.why;
+        ExpectationResult result{expected.quantity, method, label_of(study, group), expected.kind, expected.limit};
+        result.why = expected.why;
         const auto miss = expected.missed.find(method);
-        if (miss != expected.missed.end()) gate.missed = miss->second;
-        Judge(study, found, group).judge(expected, gate);
-        gates.push_back(std::move(gate));
+        if (miss != expected.missed.end()) result.missed = miss->second;
+        Judge(study, found, group).judge(expected, result);
+        results.push_back(std::move(result));
       }
     }
   }
-  return gates;
+  return results;
 }
 
-std::string verdict(const Gate& gate)
+std::string verdict(const ExpectationResult& result)
 {
-  if (gate.missed.empty()) return gate.holds ? "holds" : "FAILS";
-  return gate.holds ? "holds, though known to be missed" : "missed, as known";
+  if (result.missed.empty()) return result.holds ? "holds" : "FAILS";
+  return result.holds ? "holds, though known to be missed" : "missed, as known";
 }
 
 std::string to_text(Expectation::Kind kind)

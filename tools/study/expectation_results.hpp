@@ -10,7 +10,7 @@ namespace tamp::tools::study
 {
 
 /// Whether what was expected of one method holds.
-struct Gate {
+struct ExpectationResult {
   std::string quantity, method;
   /// The method, and what tells its points from others of it that were refined on their own.
   std::string label;
@@ -26,12 +26,13 @@ struct Gate {
 };
 
 /// In a word or two: whether it holds, and whether that is as the study has it.
-std::string verdict(const Gate& gate);
+std::string verdict(const ExpectationResult& result);
 
 /// Judges every expectation of a study for each of its methods. The order is the slope of log(error) over log(refined
 /// setting), by least squares through all points, three at least, whether errors fall from each to the next or not; a
 /// method with a point that came to no answer has none, and misses every bar but `fails`.
-std::vector<Gate> gates_of(const Study& study, const std::vector<MeasuredPoint>& points, const Findings& findings);
+std::vector<ExpectationResult> judge_expectations(const Study& study, const std::vector<MeasuredPoint>& points,
+                                                  const Findings& findings);
 
 /// As the study's file has it: "order_at_least".
 std::string to_text(Expectation::Kind kind);
