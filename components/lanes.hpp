@@ -206,7 +206,7 @@ namespace detail
 
 using LanesVector [[gnu::vector_size(sizeof(Lanes))]] = double;
 
-/// Of each two neighbouring blocks of `size` lanes, the second of `a` and the first of `b` change places.
+/// Swaps, of each two neighbouring blocks of `size` lanes, the second of `a` with the first of `b`.
 template <std::size_t size, std::size_t... l>
 inline void exchange_blocks(LanesVector& a, LanesVector& b, std::index_sequence<l...>)
 {

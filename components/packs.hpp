@@ -29,7 +29,7 @@ struct Pack {
   {
     return each_lane([&](std::size_t l) { return column[of[l]]; });
   }
-  /// What repeats the last writes the same.
+  /// Lanes that repeat the last particle write the same value.
   template <class Column>
   void scatter(const Lanes& values, Column& column) const
   {
@@ -57,7 +57,7 @@ class Columns
     return values;
   }
 
-  /// Of neighbours, from particle `first` on; lanes beyond the tile's end are written to no one's place.
+  /// Values of neighbours, from particle `first` on; lanes beyond the tile's end are not written back.
   Of<Lanes> lanes_at(std::size_t first) const
   {
     Of<Lanes> values;

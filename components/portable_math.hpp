@@ -25,8 +25,8 @@ double acos(double x);
 double atan2(double y, double x);
 double tanh(double x);
 
-/// The same of many at once: each lane has the bits that the function of one number gives. Angles to 15, where SLEEF
-/// begins to choose by the largest of them how it takes whole turns off.
+/// The functions of many numbers at once: each lane has the bits that the function of one number gives. Angles to 15,
+/// where SLEEF begins to choose by the largest of them how it takes whole turns off.
 Lanes exp(const Lanes& x);
 Lanes expm1(const Lanes& x);
 Lanes log(const Lanes& x);

@@ -22,7 +22,7 @@ struct ContactThresholds {
   double surface_gradient = 0;
 };
 
-/// What contact did at one node.
+/// Effect of contact at one node.
 struct ContactOutcome {
   /// Kinetic energy lost, to friction and to the impact itself [J]; never below 0.
   double dissipated_energy = 0;

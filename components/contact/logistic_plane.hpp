@@ -39,9 +39,9 @@ struct ContactPlane {
   }
 };
 
-/// What the particles of one material add to gradient and Hessian of the cost sum_p w_p log(1 + exp(-y_p z_p . phi))
-/// with z = (x, 1), y = -1 in the first material and +1 in the second. Weights w are the roots of S_ip: more even, they
-/// see more of the surface than S_ip itself, and still fade in and out as particles move.
+/// Parts of the particles of one material in gradient and Hessian of the cost sum_p w_p log(1 + exp(-y_p z_p . phi))
+/// with z = (x, 1), y = -1 in the first material and +1 in the second. Weights w are the roots of S_ip: more
+/// even, they see more of the surface than S_ip itself, and still fade in and out as particles move.
 template <int D>
 struct RegressionSums {
   Vector<D + 1> gradient = Vector<D + 1>::Zero();

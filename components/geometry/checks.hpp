@@ -4,7 +4,7 @@
 
 #include "components/tensors.hpp"
 
-/// What shapes check of their numbers. Each throws BadValue, with the name of what is wrong.
+/// Checks of the numbers of shapes. Each throws BadValue, with the name of what is wrong.
 namespace tamp::components
 {
 

@@ -32,7 +32,7 @@ Box<D> common_box(const Box<D>& a, const Box<D>& b)
   return {a.lower.cwiseMax(b.lower), a.upper.cwiseMin(b.upper)};
 }
 
-/// What `solid` shares with the others taken together.
+/// The part of `solid` that the others overlap.
 template <int D>
 Volume shared_volume(const Solid<D>& solid, std::span<const Solid<D>> others)
 {

@@ -17,7 +17,7 @@ std::size_t n_shapes(const std::vector<Solid<D>>& parts)
   return n;
 }
 
-/// What at least one of the parts holds.
+/// Union: the points in at least one of the parts.
 template <int D>
 struct Union {
   std::vector<Solid<D>> parts;
@@ -29,7 +29,7 @@ struct Union {
   void check() const;
 };
 
-/// What every one of the parts holds.
+/// Intersection: the points in every part.
 template <int D>
 struct Intersection {
   std::vector<Solid<D>> parts;
@@ -41,7 +41,7 @@ struct Intersection {
   void check() const;
 };
 
-/// What the first holds and none of the others.
+/// Difference: the points in the first part and in none of the others.
 template <int D>
 struct Difference {
   Solid<D> whole;

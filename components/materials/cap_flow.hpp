@@ -28,7 +28,7 @@ struct FlowStartOf {
 
   /// The stress deviator there.
   CombinationOf<Number> along(const Number& shear_modulus) const { return {1.0, 2.0 * shear_modulus * fraction}; }
-  /// What half the flow leaves of the strain deviator.
+  /// Strain deviator that is left after half the flow.
   CombinationOf<Number> left(const CombinationOf<Number>& direction) const
   {
     const Number half = 0.5 * multiplier / sqrt_j2;

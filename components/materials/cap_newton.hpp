@@ -17,7 +17,7 @@ inline constexpr bool has_constant_moduli = requires
   Path::constant_moduli;
 };
 
-/// What a path does not give: the derivatives of G and of the trial sqrt(J2), by secants from the evaluation before.
+/// Values of the previous evaluation, for secants in place of the derivatives of G and of the trial sqrt(J2).
 template <class Path, class Number>
 struct BeforeOf {
   Number shear_modulus, trial_sqrt_j2, d;

@@ -12,7 +12,7 @@
 namespace tamp::components
 {
 
-/// What a substep leads to.
+/// Result of a substep.
 template <class Number>
 struct CapOutcomeOf {
   CapParticleOf<Number> now;
@@ -69,7 +69,7 @@ class CapStep
             old.bulk_modulus};
   }
 
-  /// The same in rate form, with the modulus of the step's middle, where the plastic strain is d_middle.
+  /// The end of the substep in rate form, with the modulus of the step's middle, where the plastic strain is d_middle.
   template <class Number>
   RatePath<Number> rate_path(const CapParticleOf<Number>& old, const Number& compaction,
                              const DeviatoricTrialOf<Number>& deviatoric, const Number& d, const Number& d_middle) const

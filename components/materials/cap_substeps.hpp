@@ -64,7 +64,8 @@ class CapSubsteps
   /// The remainder is cut evenly.
   static double even(double rest, double size) { return rest / std::ceil(rest / size - 1e-9); }
 
-  /// What the error of the last try allows: it goes as the cube of the size, its share of the tolerance as the size.
+  /// The size that the error of the last try allows: the error goes as the cube of the size, its share of the tolerance
+  /// as the size.
   double next_size(double size, double error, bool returned) const
   {
     const double room = tolerance_ * size / std::max(error, 1e-4 * tolerance_ * size);

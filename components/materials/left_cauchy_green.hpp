@@ -6,7 +6,7 @@
 #include "components/portable_math.hpp"
 #include "components/tensors.hpp"
 
-/// What neo-Hookean solids ask of a deformation gradient F.
+/// Quantities of a deformation gradient F that neo-Hookean solids need.
 namespace tamp::components
 {
 

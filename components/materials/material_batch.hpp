@@ -10,7 +10,7 @@
 #include "components/numbers.hpp"
 #include "components/tensors.hpp"
 
-/// What every material model has:
+/// Requirements of a material model:
 ///
 ///  - `State`, what a particle keeps from step to step beside its stress, or NoState;
 ///  - `type`, its name in scenes;
@@ -68,7 +68,7 @@ struct MaterialBatch {
   std::span<double> plastic_work;
 };
 
-/// What batches have cost, and what was out of the ordinary in them.
+/// Cost of batches, and counts of exceptional updates in them.
 struct UpdateCounts {
   std::size_t substeps = 0;             ///< taken, a whole increment counting as one
   std::size_t split_updates = 0;        ///< that took more than one substep

@@ -11,7 +11,7 @@
 namespace tamp::components
 {
 
-/// What the return mapping of the sand (cap_return.hpp) is told of a step, and what it answers. Pressures, the cap and
+/// Input and output of the return mapping of the sand (cap_return.hpp). Pressures, the cap and
 /// volumetric strains are compression positive.
 
 /// The state after a plastic volumetric strain d.

@@ -93,7 +93,7 @@ double in_range(const TabularCap& sand, const CapState& state, const Invariants&
       sand.parameters().modulus);
 }
 
-/// What the last update ended with; where there has been none yet, that of the state which the particle starts with.
+/// Modulus of the last update; before the first, that of the state which the particle starts with.
 double tangent_bulk_modulus(const TabularCap& sand, const CapState& state, const Invariants& stress)
 {
   const bool is_fresh = state.bulk_modulus == 0 && state.separation_volume == 0;

@@ -7,7 +7,7 @@
 #include "components/errors.hpp"
 #include "components/problems/body_functions.hpp"
 
-/// What problems of a ring share, whose members are `centre`, `inner_radius`, `outer_radius` and `on_rings`.
+/// Functions that problems of a ring share, whose members are `centre`, `inner_radius`, `outer_radius` and `on_rings`.
 namespace tamp::components
 {
 

@@ -12,7 +12,7 @@ namespace tamp::components
 
 /// A body in functions: how it starts, what acts on it, how it moves then. X is where a point of the body is undeformed
 /// [m], t the time [s]; in plane strain the third entries of vectors are 0, and that of a deformation gradient is 1.
-/// What is not set is not said. Functions are pure: they are no state, and each rank and thread calls them for itself.
+/// Members may be empty. Functions are pure: they hold no state, and each rank and thread calls them for itself.
 struct BodyFunctions {
   using Of = std::function<Vector<3>(const Vector<3>& X)>;
   using OfTime = std::function<Vector<3>(const Vector<3>& X, double t)>;
@@ -27,7 +27,7 @@ struct BodyFunctions {
   /// On the surface, wherever that goes [Pa], compression positive. A node of the surface is pressed with the mean over
   /// the matter that it reaches.
   std::function<double(const Vector<3>& X, double t)> pressure{};
-  /// What theory says [m]; errors are measured against it.
+  /// Displacement by theory [m]; errors are measured against it.
   OfTime exact_displacement{};
   /// Whether the functions hold at X; without one they do everywhere.
   std::function<bool(const Vector<3>& X)> holds{};

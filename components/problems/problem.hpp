@@ -10,7 +10,7 @@
 #include "components/problems/vibrating_bar.hpp"
 #include "components/problems/vortex.hpp"
 
-/// What every problem has:
+/// Requirements of a problem:
 ///
 ///  - `type`, its name in scenes, and `meaning`, what it does with a body, for people;
 ///  - `parameters()`, what a scene gives it, see parameter.hpp;

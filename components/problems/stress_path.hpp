@@ -9,7 +9,7 @@ namespace tamp::components
 
 /// Stress along x and y [Pa] on a path in the plane on which nothing turns, from no strain.
 struct StressPath {
-  /// Of the path [1]: ln F is that times the path's direction.
+  /// Length along the path [1]: ln F is that times the path's direction.
   std::vector<double> length;
   std::vector<double> along_x;
   std::vector<double> along_y;

@@ -27,7 +27,7 @@ struct NodeContact {
 NodeContact node_contact(double mass, const Vector3& normal, double friction, const Vector3& free,
                          const Vector3& velocity);
 
-/// What of a body's motion no contact can change, as it is driven.
+/// Components of a body's motion that contact cannot change, as they are driven.
 enum class Held { nothing, translation, all };
 
 /// Sums of all nodes' contact, from which the motion of the body after it follows.

@@ -8,7 +8,7 @@
 namespace tamp::test
 {
 
-/// What `read` tells, a line for each problem, with the folder's path left out; empty if it tells nothing.
+/// Problems that `read` reports, a line each, without the folder's path; empty if there are none.
 template <class Read>
 std::string problems_of_reading(const TemporaryFolder& folder, Read read)
 {

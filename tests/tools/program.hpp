@@ -16,7 +16,7 @@ struct Outcome {
   std::string err;
 };
 
-/// What a command line answers.
+/// Exit code and output of a command line.
 inline Outcome outcome_of(const std::string& command)
 {
   const TemporaryFolder folder;
@@ -25,7 +25,7 @@ inline Outcome outcome_of(const std::string& command)
   return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, read_text(out), read_text(err)};
 }
 
-/// What the program answers to a command line.
+/// Runs the program with a command line.
 inline Outcome tamp_with(const std::string& arguments)
 {
   return outcome_of(std::string(TAMP_PROGRAM) + " " + arguments);
@@ -40,7 +40,7 @@ inline void allow_ranks_anywhere()
   setenv("OMPI_ALLOW_RUN_AS_ROOT_CONFIRM", "1", 1);
 }
 
-/// The same on several ranks; one is no launcher's.
+/// Runs it on several ranks; one rank runs without a launcher.
 inline Outcome tamp_on_ranks(int n_ranks, const std::string& arguments)
 {
   allow_ranks_anywhere();

@@ -19,12 +19,12 @@ struct Result {
 
 struct WindowOptions {
   std::filesystem::path scene;
-  /// Of a window; 0: a twentieth of the run, or what takes two seconds if that is less.
+  /// Steps of a window; 0: a twentieth of the run, or two seconds' worth if that is less.
   long n_steps = 0;
   int n_rounds = 5;
 };
 
-/// What a particle-step of a scene takes, of one thread, over the whole run and in windows at its start, its middle and
+/// Cost of a particle-step of a scene on one thread, over the whole run and in windows at its start, its middle and
 /// its end, phase by phase; beside it what memory and arithmetic need at least at the speed that this machine showed in
 /// the same run. Windows start from checkpoints of the whole run, and are run on two threads too. Besides, what
 /// recording costs, and how many bytes a particle takes. Throws SimulationError, FileError and InputError.
@@ -45,7 +45,7 @@ struct TaskOptions {
   int message_bytes = 1024;
 };
 
-/// What a task costs with TAMP's executor and with others, after Task Bench (Slaughter et al., SC 2020): overhead per
+/// Cost of a task with TAMP's executor and with others, after Task Bench (Slaughter et al., SC 2020): overhead per
 /// task with an empty body, and METG(50 %), the granularity at which half of the time is work. On several ranks it is
 /// the exchange between them that is measured, with one thread each; collective.
 Result tasks(const TaskOptions& options);

@@ -6,7 +6,7 @@ namespace tamp::tools::bench
 namespace
 {
 
-/// Of one particle that is no part of a rigid body, in so many dimensions, its stress left out.
+/// Operations for one particle that is no part of a rigid body, in so many dimensions, its stress left out.
 double operations_of_transfers(int dimension)
 {
   const double d = dimension, nodes_per_axis = 3;
@@ -26,7 +26,8 @@ double operations_of_transfers(int dimension)
   return along_axes + products + to_nodes + from_nodes + motion + kinematics + accounts;
 }
 
-/// Of an elastic trial with its yield function: mean stress, stress deviator, their increments, sqrt(J2), the limit.
+/// Operations of an elastic trial with its yield function: mean stress, stress deviator, their increments, sqrt(J2),
+/// the limit.
 double operations_of_substep(int dimension)
 {
   const double stress = dimension == 2 ? 4 : 6;

@@ -5,7 +5,7 @@
 namespace tamp::tools::bench
 {
 
-/// What a particle-step takes at the very least, the mean over all particles of a scene.
+/// Lower bounds of a particle-step's work, mean over all particles of a scene.
 struct LeastWork {
   /// Each array of particles read once and written once.
   double bytes = 0;
@@ -15,8 +15,8 @@ struct LeastWork {
   double operations = 0;
 };
 
-/// Of a simulation that has made `n_steps` since it was at `before`: how often its sand took a substep and looked up
-/// its modulus was counted in them.
+/// Least work of a simulation that has made `n_steps` since `before`, in which substeps and modulus evaluations of its
+/// sand were counted.
 LeastWork least_work(const tasks::Simulation& simulation, const components::UpdateCounts& before, long n_steps);
 
 }  // namespace tamp::tools::bench

@@ -10,7 +10,7 @@ namespace tamp::tools::bench
 namespace
 {
 
-/// Of this program [s]: on one thread, what other programs do is not counted.
+/// Processor time of this program [s]: on one thread, other programs are not counted.
 double processor_seconds()
 {
   return static_cast<double>(std::clock()) / CLOCKS_PER_SEC;
@@ -32,7 +32,7 @@ class StepsClock
   {
   }
 
-  /// What is left out of the time.
+  /// Runs `work` without counting its time.
   template <class Work>
   void pause(const Work& work)
   {

@@ -11,17 +11,17 @@
 namespace tamp::tools::bench
 {
 
-/// What a phase took: nanoseconds per particle of the scene and step, and per particle that it worked on.
+/// Time of a phase: nanoseconds per particle of the scene and step, and per particle that it worked on.
 struct PhaseTime {
   std::string name;
   double ns = 0;
   double ns_of_own = 0;
 };
 
-/// What some steps took of one thread.
+/// Time that some steps took on one thread.
 struct StepsTime {
   long n_steps = 0;
-  /// Of the clock on the wall [s].
+  /// Wall-clock time [s].
   double wall = 0;
   /// Processor time per particle and step; of it what is no task.
   double ns = 0;

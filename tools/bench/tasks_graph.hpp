@@ -40,7 +40,7 @@ class StampedTasks
 
   /// To be called before each run of all tasks.
   void begin_run() { base_ += outputs_.size(); }
-  /// What a scheduler calls for each task once a run. A breach of order is kept for `fault`.
+  /// Called by a scheduler for each task once a run. A breach of order is kept for `fault`.
   void run(int task) noexcept
   {
     Output& output = outputs_[static_cast<std::size_t>(task)];
@@ -53,7 +53,7 @@ class StampedTasks
     if (kernel_iterations > 0) output.value = multiply_add_kernel(kernel_iterations);
     output.stamp = stamp;
   }
-  /// What was wrong with any run so far: a task that ran before what it reads, twice or not at all. Empty if nothing.
+  /// The first fault of any run so far: a task that ran before what it reads, twice or not at all. Empty if nothing.
   std::string fault() const;
 
  private:

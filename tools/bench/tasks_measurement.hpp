@@ -17,7 +17,7 @@ struct TaskContest {
   int n_threads = 1;
 };
 
-/// What one round found. Absent where the processor's speed did not hold still for long enough.
+/// Result of one round. Absent where the processor's speed did not hold still for long enough.
 struct TaskFigures {
   /// Cost of a task with an empty body [ns], threads times time.
   std::optional<double> overhead;

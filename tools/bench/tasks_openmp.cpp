@@ -38,7 +38,7 @@ class OpenMpTasks : public TaskScheduler
  private:
   void create_tasks()
   {
-    // What depend clauses name: one byte stands for what a task makes.
+    // Names in depend clauses: one byte stands for the output of a task.
     [[maybe_unused]] char* const made = outputs_.data();
     for (int task = 0; task < tasks_.size(); ++task) {
       [[maybe_unused]] const int* const input = tasks_.inputs(task).data();

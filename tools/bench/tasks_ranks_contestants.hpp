@@ -27,7 +27,7 @@ struct RowContestant {
 
 /// A task declared with a halo of the step before, its compiled graph, and the executor, as a simulation has them.
 RowContestant tamp_row_contestant();
-/// The same exchange by hand: MPI_Irecv and MPI_Isend, the patches within, MPI_Waitall, the patches at the ends. The
+/// The exchange written by hand: MPI_Irecv and MPI_Isend, the patches within, MPI_Waitall, the patches at the ends. The
 /// floor, as nothing is looked up and nothing decided at run time.
 RowContestant plain_mpi_row_contestant();
 

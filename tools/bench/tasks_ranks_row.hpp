@@ -31,7 +31,7 @@ class StampedRow
   /// Work of each task; 0 for an empty body.
   int kernel_iterations = 0;
 
-  /// What stands in a patch when a step, counted from 0, begins.
+  /// Values of a patch when a step, counted from 0, begins.
   std::uint64_t stamp(long step, int patch) const
   {
     return static_cast<std::uint64_t>(step) * static_cast<std::uint64_t>(shape_.n_patches()) +
@@ -39,7 +39,7 @@ class StampedRow
   }
   /// `before` is not looked at on the first patch of the row, nor is `after` on the last.
   void run(long step, int patch, Values before, Values own, Values after, std::span<std::uint64_t> made) noexcept;
-  /// What was wrong with the values that any task has read so far; empty if nothing.
+  /// The first wrong value that any task has read so far; empty if none.
   std::string fault() const;
 
  private:

@@ -23,7 +23,7 @@ using Json = nlohmann::ordered_json;
 
 constexpr std::array windows_of_run{Window{"early", 0}, Window{"middle", 0.5}, Window{"late", 0.9}};
 
-/// What one thread can do at most, the medians of the rounds: bytes and multiplies or adds per second.
+/// Peak rates of one thread, medians of the rounds: bytes, and multiplies or adds, per second.
 struct Machine {
   double bandwidth = 0;
   double arithmetic = 0;

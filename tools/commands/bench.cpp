@@ -31,7 +31,7 @@ struct BenchArguments {
   bench::WindowOptions windows;
 };
 
-/// Of a scene that comes with TAMP, unless another was given.
+/// Measures a scene that comes with TAMP, unless another was given.
 bench::Result windows_of(const std::string& name, const char* shipped, bench::WindowOptions options)
 {
   if (options.scene.empty()) options.scene = shipped_input(shipped);
@@ -81,7 +81,7 @@ void run_benchmarks(const BenchArguments& options)
   if (ranks.is_first() && !options.json.empty()) runtime::write_whole_file(options.json, json_text(json, 2) + "\n");
 }
 
-/// What is wrong with a number of bytes that is to hold whole values.
+/// Refuses a number of bytes that does not hold whole values.
 std::string multiple_of_8(const std::string& bytes)
 {
   return std::stoi(bytes) % 8 == 0 ? "" : bytes + " is no multiple of 8";

@@ -39,7 +39,7 @@ struct CompareArguments {
 std::vector<std::optional<std::size_t>> measure_memory(const CompareArguments& options,
                                                        const std::vector<compare::ModelScene>& scenes)
 {
-  // What a step needs is there after the first; a few more let the sand begin to move.
+  // Memory is allocated in the first step; a few more let the sand begin to move.
   const long n_steps = std::min(options.comparison.max_steps, 20L);
   std::vector<std::optional<std::size_t>> bytes;
   bytes.reserve(scenes.size());

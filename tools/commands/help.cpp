@@ -15,7 +15,7 @@
 namespace tamp::tools
 {
 
-/// Of the program, or of the command that these words lead to.
+/// Prints help of the program, or of the command that these words lead to.
 CLI::App* add_help_command(CLI::App& app)
 {
   CLI::App* command = app.add_subcommand("help", "Print the help of a command, or of the program");

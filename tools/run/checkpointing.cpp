@@ -20,7 +20,7 @@ namespace tamp::tools
 namespace
 {
 
-/// What of a resolved scene must be the same for a run to go on. Files count by their content, wherever they lie.
+/// Parts of a resolved scene that must be the same for a restart. Files count by their content, wherever they lie.
 Json essence(Json resolved, const std::vector<InputFile>& inputs)
 {
   for (const char* key : {"title", "output", "limits", "inputs"}) resolved.erase(key);

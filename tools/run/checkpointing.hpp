@@ -48,7 +48,7 @@ class CheckpointClock
   Clock::time_point last_ = Clock::now();
 };
 
-/// What of a scene must be the same for a run to go on, as JSON: a hash of all but its title, its end, its limits and
+/// Parts of a scene that must be the same for a restart, as JSON: a hash of all but its title, its end, its limits and
 /// its output, and one of each file that it reads.
 std::string fingerprint(const CheckedScene& scene);
 

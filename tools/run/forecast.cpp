@@ -14,7 +14,7 @@ namespace tamp::tools
 namespace
 {
 
-/// What a process takes besides fields and output, when its first particles have been laid out [bytes].
+/// Memory of a process besides fields and output, once its first particles are laid out [bytes].
 constexpr double of_libraries = 6.5e6;
 /// The profile and trace of a run, and the text of its history [bytes].
 constexpr double of_reports = 2e6;

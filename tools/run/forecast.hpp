@@ -10,12 +10,12 @@
 namespace tamp::tools
 {
 
-/// What a run takes, said before anything is stored for it.
+/// Forecast of a run's memory, disk space and time, made before anything is stored for it.
 struct Forecast {
   std::size_t n_particles = 0;
   /// At most, of all ranks [bytes].
   double memory = 0;
-  /// What the first rank takes besides to write output in the background, and whether it does; `memory` then has it.
+  /// Extra memory of the first rank for output in the background, and whether it does that; `memory` then includes it.
   double copies = 0;
   bool in_background = false;
   /// At the end of a run to the scene's end, with two checkpoints [bytes].

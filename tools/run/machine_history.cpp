@@ -23,7 +23,7 @@ const std::vector<std::string>& machine_columns()
   return names;
 }
 
-/// Of all threads of this process [s].
+/// Processor time of all threads of this process [s].
 double process_seconds()
 {
   timespec now{};
@@ -31,7 +31,7 @@ double process_seconds()
   return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
 }
 
-/// What a rank has taken of its machine: processor time [s], and memory that it holds [bytes].
+/// Processor time [s] and resident memory [bytes] of a rank.
 struct Taken {
   double processor = 0;
   double resident = 0;

@@ -10,7 +10,7 @@
 namespace tamp::tools
 {
 
-/// What a run takes of its machine over simulated time, in `machine.csv`: wall-clock time, processor time and memory.
+/// Use of the machine over simulated time, in `machine.csv`: wall-clock time, processor time and memory.
 /// It stands apart from `history.csv`, which is the same bits in every run of a scene: this is never.
 class MachineHistory
 {
@@ -34,7 +34,7 @@ class MachineHistory
   Clock::time_point start_ = Clock::now();
   /// Processor time of this process at the start [s].
   double processor_at_start_;
-  /// What the run took before it was gone on with [s]; on the first rank.
+  /// Time that the run took before its restart [s]; on the first rank.
   double wall_before_ = 0;
   double processor_before_ = 0;
   /// Since the row before.

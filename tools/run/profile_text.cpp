@@ -12,7 +12,7 @@ namespace tamp::tools
 namespace
 {
 
-/// What is wrong with a profile that is JSON, for the library's own text.
+/// Describes what is wrong with a profile that is JSON, in place of the library's text.
 std::string damage(const nlohmann::json::exception& error)
 {
   constexpr int key_not_found = 403;

@@ -46,7 +46,7 @@ double seconds_since(Clock::time_point start)
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-/// What one rank may ask of all with a step, as bits.
+/// Requests that one rank may make of all with a step, as bits.
 constexpr unsigned write_checkpoint = 1;
 constexpr unsigned end_as_output_has_failed = 1U << 1;
 
@@ -284,7 +284,7 @@ class Runner
   void write_fields()
   {
     expect_own_folder();
-    // What is on the grid is no state: after a restart there is nothing there before the first step.
+    // The grid holds no state: after a restart there is nothing there before the first step.
     output_.write_fields(simulation_->n_steps() != restarted_at_);
     written_.fields = simulation_->n_steps();
   }
@@ -295,7 +295,7 @@ class Runner
     if (written_.fields != simulation_->n_steps()) write_fields();
   }
 
-  /// What this rank alone knows, all learn with the next step.
+  /// Requests of this rank alone reach all ranks with the next step.
   void ask_for_what_is_wanted()
   {
     const int signal = signals_.received();

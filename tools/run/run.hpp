@@ -33,7 +33,7 @@ struct RunOptions {
   /// Stop after so many seconds of the clock, counted from the run's start, with the state kept.
   double wall_limit = std::numeric_limits<double>::infinity();
   CheckpointPolicy checkpoints{};
-  /// What a user types to go on with a run that was stopped or has failed.
+  /// The command with which a user goes on with a run that was stopped or has failed.
   std::string command_to_go_on{};
   /// Steps between two looks at the load of the ranks; 0: patches stay where they are.
   long balance_interval = 200;

@@ -20,7 +20,7 @@ class RunFolder
     begin,
     /// The same, or an earlier run, which is removed.
     replace,
-    /// What is there stays.
+    /// Existing files stay.
     go_on,
   };
 
@@ -29,7 +29,7 @@ class RunFolder
   /// FileError for one that cannot be made, emptied or written to.
   RunFolder(const std::filesystem::path& folder, Use use, std::span<const std::filesystem::path> inputs);
 
-  /// What the user should know; empty if there is nothing.
+  /// A notice for the user; may be empty.
   const std::string& notice() const { return notice_; }
   /// Throws FileError if another program has taken the folder over, while this one was stopped.
   void expect_own() const;

@@ -52,28 +52,28 @@ class RunHistory
   /// Goes on with it after the row of step `kept_until`: later ones are taken out. What the user should know of it, on
   /// the first rank; nothing if it is as `expected`.
   std::string resume(const std::filesystem::path& folder, long kept_until, const runtime::CsvExtent& expected);
-  /// What is written so far; on the first rank.
+  /// Rows and bytes written so far; on the first rank.
   runtime::CsvExtent extent() const { return csv_ ? csv_->extent() : runtime::CsvExtent{}; }
   /// Takes in the state now.
   void measure();
-  /// The same, and writes it as a row.
+  /// Takes in the state now, and writes it as a row.
   void write_row();
 
   /// To be asked after every step, which costs next to nothing: says so if the energy is wrong by more than `limit`
   /// times what the run has been given, see `energy_error`; empty otherwise. Where a centrifuge speeds up the balance
   /// is not known, and nothing is said.
   std::string energy_problem(double limit);
-  /// What of the energy has come or gone without a cause, or what particles have made of nothing where that is more, of
-  /// what the run has been given so far: its initial energy and the largest work from outside. What particles filter
-  /// out of the motion of the nodes is no error; what they add is. Of the last step; it needs no `measure`.
+  /// Energy that has come or gone without a cause, or that particles have added where that is more, over the energy
+  /// given to the run so far: its initial energy and the largest work from outside. Energy that particles filter out of
+  /// the motion of the nodes is no error; energy that they add is. After the last step; it needs no `measure`.
   double energy_error() const;
-  /// What of the change of momentum the grid has not given to the particles, of the largest sum of m |v| so far.
+  /// Change of momentum that the grid has not given to the particles, over the largest sum of m |v| so far.
   double momentum_error() const { return momentum_error_; }
   /// A run that goes on has those of the run before.
   const LargestSoFar& largest() const { return largest_; }
   void set_largest(const LargestSoFar& largest) { largest_ = largest; }
-  /// Of the columns of the history, by their names, over the rows so far; those of a run that goes on as well, but only
-  /// on the first rank.
+  /// Extremes of the columns of the history, by name, over the rows so far, with those before a restart; on the first
+  /// rank.
   const std::map<std::string, Extremes>& extremes() const { return extremes_; }
   const EnergyBalance& energies() const { return energies_; }
   const tasks::ParticleReport& report() const { return report_; }
@@ -84,7 +84,7 @@ class RunHistory
   /// How far a body's centre of mass has moved along its initial velocity; of one that starts at rest, how far it is
   /// from where it started [m].
   double depth(std::size_t body) const;
-  /// What contact does to a body's material, the mean since the row before the last [N].
+  /// Contact force on a body's material, mean since the row before the last [N].
   const Eigen::Vector3d& contact_force(std::size_t body) const;
   /// For a body with a nose, the angle of its axis below the horizontal [degrees], the last axis of the scene being
   /// vertical; 90 points straight down.
@@ -113,13 +113,13 @@ class RunHistory
   double negligible_energy() const;
   double wrong_energy() const;
   double given_energy() const;
-  /// What gravity and centrifuge give to all mass in a step [N s]: sand at rest moves by no more than its round-off.
+  /// Impulse of gravity and centrifuge on all mass in a step [N s]: sand at rest moves by no more than its round-off.
   double weight_of_a_step() const;
 
   tasks::Simulation& simulation_;
   std::vector<std::size_t> tracked_;
   tasks::ParticleReport initial_;
-  /// Of all that is there at the start.
+  /// Constants of the scene at its start.
   double mass_;              ///< kg
   double wave_speed_;        ///< of the fastest material [m/s]
   double acceleration_;      ///< the greatest by gravity and centrifuge [m/s^2]

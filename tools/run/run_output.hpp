@@ -15,7 +15,7 @@
 namespace tamp::tools
 {
 
-/// What a run's output took of its time [s]: making it, or writing it where that is not done in the background, and
+/// Time that a run spent on output [s]: making it, or writing it where that is not done in the background, and
 /// waiting for the writer in the background.
 struct OutputTime {
   double history = 0;
@@ -58,7 +58,7 @@ class RunOutput
   void write_checkpoint(const std::string& fingerprint, std::span<const std::byte> host);
   /// Waits until all is written.
   void finish();
-  /// The same for a run that has failed already: nothing is thrown.
+  /// Finishes the output of a run that has failed already, without throwing.
   void settle();
   /// Whether something could not be written in the background; on the first rank.
   bool has_failed() const { return writer_ != nullptr && writer_->has_failed(); }
@@ -78,7 +78,7 @@ class RunOutput
   tasks::Simulation& simulation_;
   runtime::Executor& executor_;
   Options options_;
-  /// Of all ranks, or in the background of the first alone.
+  /// The file of all ranks, or, in the background, of the first alone.
   std::optional<runtime::FieldFile> fields_;
   std::size_t n_fields_at_start_ = 0;
   OutputTime time_;

@@ -90,7 +90,7 @@ Json bodies(const tasks::Simulation& simulation, const RunHistory& history)
   return all;
 }
 
-/// Of each column but step and time.
+/// The greatest value of each column but step and time.
 Json greatest(const RunHistory& history)
 {
   Json all = Json::object();
@@ -212,7 +212,7 @@ std::string in_words(double seconds)
   return std::abs(seconds) >= 1e-3 ? fmt::format("{:.4g} ms", seconds * 1e3) : fmt::format("{:.4g} us", seconds * 1e6);
 }
 
-/// What the scene is about: how deep a body is, or what drives it.
+/// One line on the scene's subject: the depth of a body, or the force that drives it.
 std::string body_text(const std::string& name, const Json& body)
 {
   const auto number = [&](const char* key) { return body[key].get<double>(); };

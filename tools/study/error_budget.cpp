@@ -61,7 +61,7 @@ class BudgetMaker
       if (!found.note.empty()) found.note += ", ";
       const double change = other ? distance(quantity_, answer, *other) / scale(answer) : NAN;
       found.note += text + (std::isfinite(change) ? fmt::format(": {:+.2g} %", change * 100) : ": not known");
-      // What is missing might be what counts.
+      // The missing part might be the largest.
       if (!std::isfinite(change)) found.amount.reset();
       if (found.amount) found.amount = std::max(*found.amount, std::abs(change));
     }

@@ -16,15 +16,15 @@ struct BudgetAmount {
   std::string note;
 };
 
-/// What the error of one quantity consists of, at one base.
+/// Parts of the error of one quantity, at one base.
 struct ErrorBudget {
   std::string quantity, base;
   std::optional<double> value;
   std::vector<BudgetAmount> parts;
 };
 
-/// Of the base's answer and those of the points that differ from it in one part's settings; of what is compared with
-/// the reference, its uncertainty counts too.
+/// Compares the base's answer with those of the points that differ from it in one part's settings; a comparison with
+/// the reference includes its uncertainty.
 ErrorBudget error_budget(const Study& study, const BudgetBase& base, const Quantity& quantity,
                          const Reference& reference, const std::vector<MeasuredPoint>& points);
 

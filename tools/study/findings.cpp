@@ -87,7 +87,7 @@ OrderFit order_fit(const Study& study, std::vector<const MeasuredPoint*> group, 
   return fit;
 }
 
-/// What each method is compared with.
+/// The answer that each method is compared with.
 class References
 {
  public:

@@ -23,7 +23,7 @@ std::vector<std::string> assignments_of(const Settings& settings)
   return assignments;
 }
 
-/// What is measured, with every default filled in.
+/// The scene or material that is measured, with every default filled in.
 Json resolved(const Measure& measure, const Settings& settings)
 {
   const std::vector<std::string> assignments = assignments_of(settings);

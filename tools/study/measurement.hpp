@@ -24,7 +24,7 @@ struct Measurement {
 /// cannot be read without them, and for a pointer to a place that it does not have.
 std::vector<Measurement> measurements_of(const Study& study, const std::vector<Point>& points);
 
-/// The same command with where its results go: `history.csv` and `summary.json` in this folder.
+/// The measurement's command with its results in `folder`: `history.csv` and `summary.json` in this folder.
 std::vector<std::string> command_into(const Study& study, const Measurement& measurement,
                                       const std::filesystem::path& folder);
 

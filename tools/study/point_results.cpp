@@ -55,7 +55,7 @@ std::string hash_of_file(const fs::path& file)
   return fmt::format("{:016x}", sum);
 }
 
-/// Of each file beside the result.
+/// Checksums of the files beside the result.
 Json hashes_in(const fs::path& folder)
 {
   Json hashes = Json::object();

@@ -18,7 +18,7 @@ enum class End { done, limit, unstable, refused };
 
 std::string to_text(End end);
 
-/// What one run of a point cost, by the keys of `cost_kinds`.
+/// Cost of one run of a point, by the keys of `cost_kinds`.
 using Cost = std::map<std::string, double>;
 
 /// A kind of cost; the first of a study is its charts' axis.
@@ -30,13 +30,13 @@ std::vector<CostKind> cost_kinds(Measure::Kind kind);
 /// The columns of a point's `history.csv` by name; NaN where a row has no number.
 using Columns = std::map<std::string, std::vector<double>>;
 
-/// What is known of a point. It is kept in a folder of its own, with what the point wrote: `history.csv` and
+/// Result of a point. It is kept in a folder of its own, with what the point wrote: `history.csv` and
 /// `summary.json`.
 struct PointResult {
   End end = End::done;
   /// In words where it is not done.
   std::string reason;
-  /// Of every timing.
+  /// Costs of every timing.
   std::vector<Cost> costs;
   /// The processor time that it was given [s].
   double limit = 0;
@@ -51,7 +51,7 @@ struct PointResult {
   };
   std::optional<Spread> cost(const std::string& key) const;
 
-  /// What `columns` has read.
+  /// Cache of `columns`.
   mutable std::shared_ptr<const Columns> read_columns{};
 };
 

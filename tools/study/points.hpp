@@ -23,16 +23,16 @@ struct Point {
   int id = 0;
   Role role = Role::chart;
   std::string method;
-  /// What tells it from the other points of its method, for people.
+  /// Label that distinguishes it from the other points of its method.
   std::string label;
   /// All of them, and those in which the points of its method differ.
   Settings settings, own{};
-  /// Of a reference of one method alone, that method.
+  /// The method of a reference that serves one method alone.
   std::string reference_of{};
 
   /// Method and label.
   std::string name() const { return label.empty() ? method : method + ", " + label; }
-  /// Of a run of the reference: "the run with cell size 0.005".
+  /// Name of a run of the reference: "the run with cell size 0.005".
   std::string run_name() const { return label.empty() ? "the run" : "the run with " + label; }
   /// Null where a pointer is not set.
   Json setting(const std::string& pointer) const;

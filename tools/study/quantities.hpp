@@ -8,13 +8,13 @@
 namespace tamp::tools::study
 {
 
-/// What a point answers: a number, or for quantities that are columns the column, and its times where it has any.
+/// A point's answer: a number, or for quantities that are columns the column, and its times where it has any.
 struct Answer {
   double value = 0;
   std::vector<double> times, column;
 };
 
-/// Of a point that is done. Throws InputError if what it asks for is not there.
+/// Answer of a point that is done. Throws InputError if a column or field of it is missing.
 Answer answer_of(const Study& study, const Quantity& quantity, const PointResult& result);
 
 /// How far two answers are apart: `b` less `a` for numbers, and what `Take` says of columns, `a` the reference.

@@ -13,7 +13,7 @@ namespace tamp::tools::study
 namespace
 {
 
-/// The same factor of safety as in the grid convergence index of three grids (Roache 1994).
+/// Factor of safety of the grid convergence index of three grids (Roache 1994).
 constexpr double safety = 1.25;
 
 Reference exact_reference(const Quantity& quantity)
@@ -35,7 +35,7 @@ void scale_errors(const Quantity& quantity, Reference& reference)
   reference.relative = magnitude > 0 || quantity.scale;
 }
 
-/// What the answers on finer and finer grids tend to.
+/// Limit of the answers on finer and finer grids.
 Reference limit_reference(const Quantity& quantity, const std::vector<double>& spacings,
                           const std::vector<Answer>& answers)
 {

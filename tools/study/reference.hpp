@@ -10,7 +10,7 @@
 namespace tamp::tools::study
 {
 
-/// What the answers to one quantity are compared with.
+/// Reference that the answers to one quantity are compared with.
 struct Reference {
   enum class Kind {
     none,
@@ -21,7 +21,7 @@ struct Reference {
   };
   Kind kind = Kind::none;
   Answer answer;
-  /// What differences are divided by to be errors; not where `relative` is false, for an answer of 0.
+  /// Scale by which differences are divided to be errors; not where `relative` is false, for an answer of 0.
   double scale = 1;
   bool relative = true;
   /// How far the reference itself may be off, as an error: 1.25 times what is extrapolated, or would be.
@@ -33,7 +33,7 @@ struct Reference {
   /// The point that it is, where it is a run.
   int point = 0;
 
-  /// Of a point's answer; empty without a reference.
+  /// Error of a point's answer; empty without a reference.
   std::optional<double> error(const Quantity& quantity, const Answer& other) const;
 };
 
@@ -49,7 +49,7 @@ struct MeasuredPoint {
 Reference reference_of(const Study& study, const Quantity& quantity, const std::vector<MeasuredPoint>& points,
                        const std::string& method = "");
 
-/// What a value of a refined setting is as a spacing: itself, or where values rise its inverse.
+/// Spacings of the values of a refined setting: the values, or where they rise their inverses.
 std::vector<double> spacings_of(const std::vector<Json>& values);
 
 }  // namespace tamp::tools::study

@@ -10,9 +10,9 @@ namespace tamp::tools::study
 struct Convergence {
   /// Whether the differences fall from grid to grid, with one sign: nothing is claimed otherwise.
   bool falls = false;
-  /// Of the error in the spacing, from the last two differences.
+  /// Order of the error in the spacing, from the last two differences.
   double order = 0;
-  /// What the finest answer still lacks, in the sign of the differences.
+  /// Distance of the finest answer from the limit, in the sign of the differences.
   double rest = 0;
   /// For people.
   std::string note;

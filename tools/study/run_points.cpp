@@ -30,7 +30,7 @@ std::string reason_of(const Child& run)
   return said;
 }
 
-/// Of its own accord, or, where it did not listen, by the kernel. What ran into a limit of the machine's instead would
+/// Ended by itself at the limit, or by the kernel if it did not. A run that hit a limit of the machine's instead would
 /// have had more time from the study.
 bool hit_limit(const ChildEnd& end, double limit)
 {

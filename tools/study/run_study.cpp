@@ -24,7 +24,7 @@ std::string command_of(const StudyOptions& options)
                      options.folder.empty() ? "" : " --out " + shell_word(options.folder.string()));
 }
 
-/// What can be refused is refused before anything runs.
+/// Refuses outputs that cannot be written before anything runs.
 void expect_sound_reference(const Study& study, const std::vector<Point>& points,
                             const std::vector<Measurement>& measurements)
 {

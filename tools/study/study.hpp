@@ -10,14 +10,14 @@
 
 #include "tools/scene/document.hpp"
 
-/// What a study file says: what is measured, with which settings, and against what.
+/// Content of a study file: what is measured, with which settings, and against what.
 namespace tamp::tools::study
 {
 
 /// Values at JSON pointers of what is measured, in the order in which they are set; each pointer once.
 using Settings = std::vector<std::pair<std::string, Json>>;
 
-/// What a point runs.
+/// The command that a point runs.
 struct Measure {
   enum class Kind {
     run,     ///< a scene, by `tamp run`
@@ -68,7 +68,7 @@ enum class Take {
   field_rms          ///< the same way, root mean square of the field's difference from a line
 };
 
-/// What is asked of a point.
+/// A quantity that is evaluated for each point.
 struct Quantity {
   std::string name;
   Take take = Take::last;
@@ -78,14 +78,14 @@ struct Quantity {
   /// Where the value is taken, or the first of those whose mean is [s].
   double time = 0;
   std::string field{}, material{};
-  /// Of a field of vectors: 0, 1 or 2; empty for one of numbers.
+  /// Component of a field of vectors: 0, 1 or 2; empty for a field of numbers.
   std::optional<int> component{};
   double quantile = 0.99;
-  /// What the field is to be at the origin, and how much more for each metre along each axis.
+  /// Expected value of the field at the origin, and its slope along each axis [1/m].
   std::vector<double> line{};
   /// The exact answer, if it is known.
   std::optional<double> exact{};
-  /// What errors are relative to, where that is not the reference.
+  /// Scale of relative errors, where that is not the reference.
   std::optional<double> scale{};
 
   /// Whether a point's answer is a column, which only a reference makes a number.
@@ -94,7 +94,7 @@ struct Quantity {
   bool is_of_field() const { return take == Take::quantile || take == Take::field_rms; }
 };
 
-/// What points are compared with where no exact answer is known: one run, or, where `refinement` has values, the limit
+/// Reference of points where no exact answer is known: one run, or, where `refinement` has values, the limit
 /// that its runs tend to.
 struct ReferenceRuns {
   Settings settings{};
@@ -127,7 +127,7 @@ struct Budget {
   std::vector<BudgetPart> parts;
 };
 
-/// What has to hold of some methods' results, said before they run.
+/// Expectation of some methods' results, stated before they run.
 struct Expectation {
   enum class Kind {
     order_at_least,

@@ -28,7 +28,7 @@ std::string program_hash()
   return hash;
 }
 
-/// Of a mark, without its line break; empty for what is no file.
+/// First line of a mark; empty if it is no file.
 std::string content_of(const fs::path& mark)
 {
   if (!fs::is_regular_file(mark)) return "";

@@ -87,7 +87,7 @@ Json methods_json(const StudyResults& results)
   return all;
 }
 
-/// Of all that is known, not only of what the charts show.
+/// Keys of all costs that are known, not only of those in the charts.
 std::vector<std::string> cost_keys(Measure::Kind kind)
 {
   switch (kind) {
@@ -203,7 +203,7 @@ Json costs_json(const Study& study)
   return all;
 }
 
-/// Of the pointers that a scene's lengths and times are at.
+/// Unit of a setting, for pointers to a scene's lengths and times.
 std::string unit_of_pointer(const std::string& pointer)
 {
   if (pointer.ends_with("/cell_size")) return "m";

@@ -39,7 +39,7 @@ double free_on_machine()
   return unlimited;
 }
 
-/// What of a control group's memory is files that are read again when needed.
+/// The part of a control group's memory that caches files, and can be given up.
 double reclaimable(const std::string& folder)
 {
   double bytes = 0, number = 0;

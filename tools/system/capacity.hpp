@@ -17,10 +17,10 @@ struct FreeMemory {
 /// limits of the process (ulimit) leave.
 FreeMemory free_memory(int n_ranks = 1);
 
-/// What this process holds in memory now [bytes].
+/// Resident memory of this process [bytes].
 double resident_bytes();
 
-/// What the disk of a folder that need not be there yet has free [bytes].
+/// Free space on the disk of a folder, which need not exist yet [bytes].
 double free_disk(const std::filesystem::path& folder);
 
 /// Such as 1.2 GiB.

@@ -20,7 +20,7 @@ namespace
 constexpr const char* usual_interpreter = "/usr/bin/python3";
 /// Exit code of the Python tools where the interpreter has no matplotlib; see tools/python/tamp/failure.py.
 constexpr int no_matplotlib = 3;
-/// Of an interpreter that is not there.
+/// Exit code of a child whose program is missing.
 constexpr int not_started = 127;
 
 std::vector<std::string> interpreters()

@@ -27,7 +27,7 @@ namespace tamp::tools
 namespace
 {
 
-/// What exec takes, made before the fork: a child of a process with threads may not ask for memory.
+/// Arguments of exec, made before the fork: a child of a process with threads may not ask for memory.
 struct ExecArguments {
   explicit ExecArguments(const Child& child)
       : file(child.program.empty() ? "/proc/self/exe" : child.program), texts(child.arguments)
@@ -55,7 +55,7 @@ rlimit limit_of(double seconds)
 [[noreturn]] void become(const ExecArguments& arguments, const char* errors, const rlimit& limit, pid_t parent)
 {
   prctl(PR_SET_PDEATHSIG, SIGKILL);
-  // What comes before the program watches for itself ends it.
+  // A signal that comes before the program handles it ends the program.
   for (const int signal : {SIGTERM, SIGINT, SIGHUP, SIGXCPU}) {
     if (std::signal(signal, SIG_DFL) == SIG_IGN) std::signal(signal, SIG_IGN);
   }

@@ -48,7 +48,7 @@ using AtEnd = std::function<void(std::size_t, const ChildEnd&)>;
 /// what `at_end` throws; no child runs any longer then.
 void run_children(const std::vector<Child>& children, int n_at_once, const AtEnd& at_end);
 
-/// What the child said in its file of errors, in one line; warnings are not why it ended.
+/// The child's error messages from its file `errors`, in one line, without warnings.
 std::string error_text_of(const Child& child);
 
 }  // namespace tamp::tools

@@ -11,7 +11,7 @@
 namespace tamp::tools
 {
 
-/// What the program tells its caller: `no_resources` of files, memory and threads, and of what should not happen; the
+/// Exit codes of the program: `no_resources` for files, memory, threads and unforeseen errors; the
 /// number of a signal adds to 128.
 enum class ExitCode { done = 0, bad_input = 2, bad_simulation = 3, no_resources = 4, signal = 128 };
 

@@ -11,7 +11,7 @@ namespace tamp::tools
 namespace
 {
 
-/// What Linux calls the processor; empty where it says nothing.
+/// Linux's name of the processor; empty where it has none.
 std::string processor_name()
 {
   std::ifstream stream("/proc/cpuinfo");

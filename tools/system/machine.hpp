@@ -5,8 +5,8 @@
 namespace tamp::tools
 {
 
-/// What this program runs on: `processor`, its name; `instruction_set`, the widest vectors that it offers; `cores` that
-/// may be used.
+/// The machine of this program: `processor`, its name; `instruction_set`, the widest vectors that it offers; `cores`
+/// that may be used.
 nlohmann::ordered_json machine_json();
 
 }  // namespace tamp::tools

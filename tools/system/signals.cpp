@@ -42,7 +42,7 @@ SignalWatch::~SignalWatch()
 {
   for (const int signal : {SIGTERM, SIGINT, SIGXCPU}) std::signal(signal, SIG_DFL);
   if (std::signal(SIGHUP, SIG_DFL) == SIG_IGN) std::signal(SIGHUP, SIG_IGN);
-  // What is asked for too late is no reason to end the program, which these signals would by default.
+  // A request that comes too late is ignored: by default these signals would end the program.
   for (const int signal : {SIGUSR1, SIGUSR2}) std::signal(signal, SIG_IGN);
   watched = nullptr;
 }

@@ -6,7 +6,7 @@ namespace tamp::tools
 /// Processor time of this thread [s]: what others do on the machine does not count.
 double thread_seconds();
 
-/// What `work` takes of this thread [s], done again and again for long enough to be measured.
+/// Time that one call of `work` takes on this thread [s], from enough repetitions to be measured.
 template <class Work>
 double seconds_of(const Work& work)
 {

@@ -14,7 +14,7 @@ namespace
 
 constexpr PatchRow three_patches{1, 3, 2};
 
-/// What the task of patch 1 in step 4 says of these values.
+/// Fault that the task of patch 1 in step 4 finds in these values.
 std::string fault_with(std::array<std::uint64_t, 2> before, std::array<std::uint64_t, 2> own,
                        std::array<std::uint64_t, 2> after)
 {

@@ -11,7 +11,7 @@
 namespace test_failing_calls
 {
 
-/// What the system refuses ends a run with 4 and the place, and the checkpoint before it restarts.
+/// A refused system call ends a run with 4 and the place, and the checkpoint before it restarts.
 using namespace tamp::test;
 
 namespace

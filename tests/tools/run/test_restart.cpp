@@ -193,7 +193,7 @@ TEST_CASE("a footing under a load that grows goes on with the bits of a straight
 namespace
 {
 
-/// What the last row of a table has in a column.
+/// Value of a column in the last row of a table.
 double last_value(const std::string& csv, const std::string& column)
 {
   std::istringstream names(csv.substr(0, csv.find('\n')));

@@ -149,7 +149,7 @@ TEST_CASE("the half step that velocities lag behind has the work of gravity")
 
   history.measure();
 
-  // Of second order in the step: the velocity changes by g dt / 2 within that half. Without its work it were g dt / v.
+  // Second order in the step: the velocity changes by g dt / 2 within that half. Without its work it were g dt / v.
   CHECK(history.energy_error() == Approx(g * g * dt * dt / (4 * speed * speed)).epsilon(1e-6));
 }
 

@@ -15,7 +15,7 @@ struct KerasLayer {
   std::vector<double> bias;    ///< empty for a layer without
 };
 
-/// What a model file is to hold, in the layout in which Keras saves one, and what is to be odd about it.
+/// Content of a model file, in the layout in which Keras saves one, and what is to be odd about it.
 struct KerasFile {
   std::vector<KerasLayer> layers;
   std::vector<double> scaling{}, range{};

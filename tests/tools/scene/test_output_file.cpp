@@ -9,7 +9,7 @@
 namespace test_output_file
 {
 
-/// What a command is asked to write never takes the place of what it reads.
+/// An output of a command never replaces one of its inputs.
 using namespace tamp::test;
 namespace fs = std::filesystem;
 

@@ -19,7 +19,7 @@ using tools::read_network_file;
 namespace
 {
 
-/// What is told of a file with this content, without the folder's path.
+/// Problems of a file with this content, without the folder's path.
 std::string problems_of_network(const KerasFile& content, const std::string& model_config)
 {
   const TemporaryFolder folder;

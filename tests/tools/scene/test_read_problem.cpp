@@ -74,8 +74,8 @@ TEST_CASE("a body whose problem may lay out its particles has those of the latti
     return tools::read_scene(path, with_problem(ring_of + flag + "}", {log_solid, ring_of_disk}));
   };
 
-  // Of the sites at 0.25, 0.75, 1.25 and 1.75 along both axes none of the corners, 1.06 from the centre, nor of the
-  // four in the middle, 0.354 from it, lies in the ring.
+  // Sites are at 0.25, 0.75, 1.25 and 1.75 along both axes. The corners, 1.06 from the centre, and the four in the
+  // middle, 0.354 from it, lie outside of the ring.
   CHECK(of_flag("false").scene.bodies.at(0).n_particles == 8);
   CHECK(!of_flag("false").scene.bodies.at(0).functions.layout);
   CHECK(of_flag("true").scene.bodies.at(0).functions.layout);

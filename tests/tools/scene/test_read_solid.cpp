@@ -38,7 +38,7 @@ components::Solid<2> plane_solid(const std::string& geometry)
   return std::get<components::Solid<2>>(scene.bodies.at(0).solid);
 }
 
-/// What is wrong with a geometry in space, without the place.
+/// Problems of a geometry in 3-D, without the place.
 std::string fault(const std::string& geometry)
 {
   return problems_with(in_space(geometry));

@@ -8,13 +8,13 @@
 namespace test_budgets
 {
 
-/// What would take for ever, or more than there is, is refused at once.
+/// Inputs that would take for ever, or too much memory, are refused at once.
 using namespace tamp::test;
 
 namespace
 {
 
-/// What the check says to a scene with an assignment; it must not take long.
+/// Answer of the check to a scene with an assignment; it must not take long.
 Outcome checked_with(const std::string& assignments)
 {
   const TemporaryFolder folder;

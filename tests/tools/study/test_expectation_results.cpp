@@ -16,7 +16,7 @@ using Kind = Expectation::Kind;
 namespace
 {
 
-/// What is judged of a method whose errors on cells of 4, 2 and 1 are these; NaN for a run that became unstable.
+/// Result for a method with these errors on cells of 4, 2 and 1; NaN for a run that became unstable.
 ExpectationResult judged(const Expectation& expectation, const std::vector<double>& errors)
 {
   const TemporaryFolder folder;

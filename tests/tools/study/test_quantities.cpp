@@ -17,7 +17,7 @@ using namespace tamp::tools::study;
 namespace
 {
 
-/// What is taken of a table of times and depths.
+/// Answer of a quantity to a table of times and depths.
 Answer taken(const Quantity& quantity, const std::string& rows = "0,1\n1,3\n2,2\n4,0\n")
 {
   const TemporaryFolder folder;

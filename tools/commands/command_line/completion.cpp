@@ -20,7 +20,7 @@ std::vector<std::string> names_below(const CLI::App& app)
   return names;
 }
 
-/// What may come next in a command, when it is no file.
+/// Words that may come next in a command, besides files.
 std::vector<std::string> words_of(const CLI::App& command)
 {
   std::vector<std::string> words = names_below(command);

@@ -34,7 +34,7 @@ std::string wrapped(const std::string& text, std::size_t at, std::size_t indent)
   return lines;
 }
 
-/// What something is called, and from a common column on what it is for.
+/// A name, and its meaning from a common column on.
 std::string entry(const std::string& name, const std::string& meaning)
 {
   constexpr std::size_t indent = 26;

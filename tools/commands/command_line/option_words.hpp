@@ -11,7 +11,7 @@ namespace tamp::tools
 struct OptionWords {
   /// "--threads", or "SCENE".
   std::string name;
-  /// What stands for its value: "N", "FILE"; empty for a flag.
+  /// Placeholder of its value: "N", "FILE"; empty for a flag.
   std::string value;
   bool is_repeated = false;
   bool is_required = false;

@@ -77,7 +77,7 @@ class RecordedUpdates
   std::vector<SymmetricTensor<3>> strain_, old_stress_;
   std::vector<Matrix<3>> deformation_gradient_;
   std::vector<State> old_state_;
-  // Of one batch.
+  // Data of one batch.
   std::vector<SymmetricTensor<3>> stress_;
   std::vector<State> state_;
   std::vector<double> bulk_modulus_, shear_modulus_, plastic_work_;

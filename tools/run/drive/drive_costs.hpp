@@ -7,7 +7,7 @@
 namespace tamp::tools
 {
 
-/// What the updates along a path cost.
+/// Cost of the updates along a path.
 struct DriveCosts {
   std::size_t n_updates;
   components::UpdateCounts counts;  ///< of all of them

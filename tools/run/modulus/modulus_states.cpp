@@ -75,14 +75,14 @@ class RelativeErrors
   int n_ = 0;
 };
 
-/// What this process holds of the heap.
+/// Bytes that this process has allocated on the heap.
 std::size_t heap_bytes()
 {
   const struct mallinfo2 info = mallinfo2();
   return info.uordblks + info.hblkhd;
 }
 
-/// Of a model with all that it points to, which is what a copy takes.
+/// Bytes of a model with all that it points to, measured as those of a copy.
 std::size_t bytes_of(const Modulus& modulus)
 {
   return std::visit(

@@ -24,7 +24,7 @@ struct ModulusStates {
 /// read_csv_table does.
 ModulusStates read_modulus_states(const std::filesystem::path& file);
 
-/// What a model answers in one state.
+/// A model's answer in one state.
 struct ModulusAnswer {
   double pressure, bulk_modulus, modulus_by_plastic;
   bool in_range;
@@ -46,7 +46,7 @@ std::string modulus_row(double elastic, double plastic, const ModulusAnswer& ans
 std::string modulus_table(const components::Modulus& modulus, components::ElasticUpdate form, double shear_ratio,
                           const ModulusStates& states);
 
-/// What an evaluation costs.
+/// Cost of an evaluation.
 struct ModulusCosts {
   std::size_t n_evaluations;
   double ns_per_evaluation;

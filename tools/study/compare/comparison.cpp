@@ -30,7 +30,7 @@ double common_time(const Comparison& comparison)
 namespace
 {
 
-/// Of what `value(sample)` is.
+/// Interpolates `value(sample)` in time.
 template <class Value>
 double value_at(const ModelResult& model, double time, const Value& value)
 {

@@ -10,14 +10,14 @@
 namespace tamp::tools::compare
 {
 
-/// What one model's steps cost in one round; in the same round all models go through the same simulated time.
+/// Cost of one model's steps in one round; in the same round all models go through the same simulated time.
 struct Round {
   double time;  ///< at its end [s]
   long steps;
   double step_wall;  ///< median of its steps [s]; 0 without a step
 };
 
-/// What is plotted of the state at one moment.
+/// Plotted values of the state at one moment.
 struct Sample {
   double time;                   ///< [s]
   double step_size;              ///< of the last step [s]

@@ -90,10 +90,10 @@ Json rounds(const ModelResult& model)
   return json;
 }
 
-/// What a model, or a coarser grid, changes of one value of the first model.
+/// Changes of one value of the first model by another model and by a coarser grid.
 struct Change {
   double value;
-  /// The same by cells twice as large; NaN where that is not known.
+  /// Change by cells twice as large; NaN where that is not known.
   double by_grid;
 
   std::string text() const

@@ -14,7 +14,7 @@ nlohmann::ordered_json to_json(const Comparison& comparison);
 /// `compare.csv`: a row for each model with the figures that `compare.json` has under the same names.
 std::string to_csv(const Comparison& comparison);
 
-/// The same for a person at a terminal.
+/// The comparison as text for a terminal.
 std::string to_text(const Comparison& comparison);
 
 }  // namespace tamp::tools::compare

@@ -29,7 +29,7 @@ bool is_known_miss(const Json& result)
   return result["holds"] == false && is_known_to_miss(result);
 }
 
-/// What was found of those that are asked for, and what was expected, with the reason under a key.
+/// One line for each chosen result: found, expected, and the reason under a key.
 template <class IsAskedFor>
 std::vector<std::string> lines_of(const Json& study, const IsAskedFor& is_asked_for, const char* key_of_reason)
 {
@@ -223,7 +223,7 @@ class QuantityTable
     return std::any_of(results.begin(), results.end(), is_known_miss) ? "no, as known" : "yes";
   }
 
-  /// Of the point with the most of them that is done.
+  /// Cost of the largest point that is done.
   static std::string cost_text(const std::vector<Json>& points)
   {
     double most = 0, seconds = 0;

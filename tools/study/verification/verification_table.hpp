@@ -5,7 +5,7 @@
 
 #include "tools/scene/document.hpp"
 
-/// What a verification found, as tables for people.
+/// Results of a verification, as tables for people.
 namespace tamp::tools::verify
 {
 
@@ -18,10 +18,10 @@ std::string to_markdown(const std::vector<Json>& studies);
 /// expected; `passed` null where nothing was expected.
 Json to_list(const std::vector<Json>& studies);
 
-/// What was to hold and does not, a line each.
+/// Expectations that are to hold and do not, a line each.
 std::vector<std::string> failures_of(const Json& study);
 
-/// What is known to be missed and is, with why; and what holds nevertheless.
+/// Expectations that are missed as known, with the reason; and those listed as missed that hold.
 std::vector<std::string> known_misses_of(const Json& study);
 std::vector<std::string> held_misses_of(const Json& study);
 

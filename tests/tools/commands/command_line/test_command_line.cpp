@@ -17,7 +17,7 @@ namespace
 const std::vector<std::string> all_commands{"run",     "check", "schema", "graph", "profile", "drive",      "compare",
                                             "modulus", "study", "bench",  "help",  "version", "completion", "man"};
 
-/// What bash offers for a line of which the last word is being typed.
+/// Words that bash offers for a line of which the last word is being typed.
 std::string bash_offers(const std::string& line)
 {
   const TemporaryFolder folder;

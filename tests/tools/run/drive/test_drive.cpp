@@ -136,7 +136,7 @@ TEST_CASE("the report's sand has the stress of its companion's single particle i
   CHECK(s22 == Approx(3.5e9).margin(0.1e9));
   CHECK(s11 - s22 == Approx(0.9e9).margin(0.1e9));
   CHECK(cap == Approx(4.78e9).margin(0.1e9));
-  // What it comes to, in increments that make no difference.
+  // The converged answer: smaller increments make no difference.
   CHECK(s11 == Approx(4.4439e9).epsilon(1e-3));
   CHECK(s22 == Approx(3.4967e9).epsilon(1e-3));
   CHECK(cap == Approx(4.7951e9).epsilon(1e-3));

@@ -17,7 +17,7 @@ namespace
 
 const std::string at_rest = "0 1 0 0 0 1 0 0 0 1 0 0 0 1\n";
 
-/// What is said of a path that cannot be read, without the folder's name.
+/// Problems of a path that cannot be read, without the folder's name.
 std::string complaint(const std::string& text)
 {
   const test::TemporaryFolder folder;

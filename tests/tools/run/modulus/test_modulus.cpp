@@ -17,7 +17,7 @@ using namespace tamp::test;
 namespace
 {
 
-/// What `tamp modulus FILE OPTIONS` answers.
+/// Answer of `tamp modulus FILE OPTIONS`.
 Outcome modulus(const std::filesystem::path& file, const std::string& options)
 {
   return tamp_with("modulus " + file.string() + " " + options);
