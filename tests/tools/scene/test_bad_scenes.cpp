@@ -117,9 +117,9 @@ TEST_CASE("a key of one transfer is refused with another")
   CHECK(problems_with({"/transfer=blend", "/filter_order=2"}) ==
         "--set#/filter_order: a key that another transfer has; expected the transfer xpic or fmpm with it");
   CHECK(problems_with({"/transfer=blend", "/flip_part=1.5"}) == "--set#/flip_part: 1.5; expected a number from 0 to 1");
-  CHECK(problems_with({"/transfer=fmpm", "/filter_order=9"}) ==
-        "--set#/filter_order: 9; expected a whole number from 1 to 8");
-  CHECK(problems_with({"/transfer=xpic", "/filter_order=8"}) == "");
+  CHECK(problems_with({"/transfer=fmpm", "/filter_order=101"}) ==
+        "--set#/filter_order: 101; expected a whole number from 1 to 100");
+  CHECK(problems_with({"/transfer=xpic", "/filter_order=12"}) == "");
   CHECK(problems_with({"/transfer=apic"}) == "");
   CHECK(
       problems_with({"/transfer=apic", "/interpolator=linear", "/time/rule=published"}) ==
