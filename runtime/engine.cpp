@@ -1,6 +1,13 @@
 #include "runtime/engine.hpp"
 
+#include <algorithm>
+#include <exception>
+#include <tuple>
 #include <utility>
+
+#include "runtime/execute/move_patches.hpp"
+#include "runtime/execute/on_workers.hpp"
+#include "runtime/ranks/common_failure.hpp"
 
 namespace tamp::runtime
 {
@@ -8,39 +15,144 @@ namespace tamp::runtime
 namespace
 {
 
-std::deque<TaskGraph> compiled(std::vector<GraphTasks> graphs, const PatchLayout& layout,
-                               const std::vector<std::string>& group_names)
+const GlobalLabel<Progress, "progress"> progress_label;
+
+/// What the hosts of the ranks ask of each other.
+struct Requests {
+  unsigned bits = 0;
+
+  static constexpr auto fields = std::tuple{AnyBit{&Requests::bits}};
+};
+const ReductionLabel<Requests, "requests"> requests_label;
+
+/// On every patch, with particles or without, so that every rank that has one is heard.
+TaskDeclaration gather_requests()
 {
-  std::deque<TaskGraph> all;
-  for (GraphTasks& graph : graphs) all.emplace_back(std::move(graph.tasks), layout, group_names, graph.host);
-  return all;
+  return task("gather requests").over_patches().reduces(requests_label).body([](const TaskContext& at, auto data) {
+    data[requests_label].bits = at.step.host_requests;
+  });
 }
 
-std::vector<const TaskGraph*> pointers_to(const std::deque<TaskGraph>& graphs)
+/// With what the engine itself has in a step.
+std::vector<GraphTasks> with_own(std::vector<GraphTasks> graphs)
 {
-  std::vector<const TaskGraph*> all;
-  for (const TaskGraph& graph : graphs) all.push_back(&graph);
-  return all;
+  auto& [tasks, host] = graphs.front();
+  tasks.insert(tasks.begin(), gather_requests());
+  host.state.push_back(&progress_label);
+  host.results.push_back(&requests_label);
+  return graphs;
 }
 
 }  // namespace
 
-Engine::Engine(const PatchLayout& layout, const std::vector<std::string>& group_names, std::vector<GraphTasks> graphs,
-               int n_workers, const Communicator& communicator)
-    : layout_(layout),
-      graphs_(compiled(std::move(graphs), layout_, group_names)),
-      warehouse_(pointers_to(graphs_), communicator.rank())
+Engine::Engine(const PatchLayout& layout, std::vector<std::string> group_names, std::vector<GraphTasks> graphs,
+               Executor& executor, const Communicator& communicator)
+    : group_names_(std::move(group_names)),
+      tasks_(with_own(std::move(graphs))),
+      executor_(executor),
+      communicator_(communicator),
+      after_failure_(communicator.duplicate()),
+      placed_(placed_on(layout)),
+      profiler_(schedule(), bound(), executor.n_threads())
 {
-  for (const TaskGraph& graph : graphs_) {
-    bound_.emplace_back(graph, warehouse_, communicator);
-    schedules_.emplace_back(bound_.back(), n_workers);
-  }
 }
 
-void Engine::advance(Executor& executor, const Step& step)
+std::unique_ptr<PlacedGraphs> Engine::placed_on(const PatchLayout& layout) const
 {
-  executor.run(schedules_.front(), step);
-  warehouse_.advance();
+  return std::make_unique<PlacedGraphs>(layout, group_names_, tasks_, executor_.n_threads(), communicator_);
+}
+
+Progress& Engine::now() const
+{
+  return placed_->warehouse.global_state(progress_label);
+}
+
+const Progress& Engine::progress() const
+{
+  return now();
+}
+
+void Engine::advance(double size, double end)
+{
+  balance_if_due();
+  const auto [n_steps, time, last_size] = progress();
+  size = std::min(size, end - time);
+  run_step({n_steps, time, size, last_size, std::exchange(requests_, 0U)});
+  warehouse().advance();
+  if (schedule().recording) profiler_.add_step();
+  asked_ = warehouse().result(requests_label).bits;
+  constexpr double round_off = 1e-14;
+  now() = {n_steps + 1, time + size >= end * (1 - round_off) ? end : time + size, size};
+}
+
+/// An error of one rank becomes the same error on all.
+void Engine::run_step(const Step& step)
+{
+  std::exception_ptr own;
+  try {
+    executor_.run(schedule(), step);
+    return;
+  } catch (const TaskError& error) {
+    // What is wrong with the state is told by itself; what else goes wrong, by its task.
+    own = is_step_error(error.cause) ? error.cause : std::current_exception();
+    if (communicator_.size() == 1) std::rethrow_exception(own);
+  } catch (const OtherRankFailed&) {
+  }
+  throw_common_failure(own, step.index, after_failure_);
+}
+
+void Engine::run(std::size_t graph)
+{
+  const Progress& at = progress();
+  executor_.run(schedule(graph), {at.n_steps, at.time, 0, at.step_size});
+}
+
+void Engine::balance_if_due()
+{
+  const long step = progress().n_steps;
+  if (communicator_.size() == 1 || !balance_.is_due(step)) return;
+  const auto watch = executor_.watch("redistributing patches");
+  const auto ranks = balance_.look(step, layout(), profiler_.take_patch_costs(), communicator_);
+  if (ranks) deal_to(*ranks);
+}
+
+void Engine::deal_to(const std::vector<int>& ranks)
+{
+  PatchLayout layout = placed_->layout;
+  layout.give_to_ranks(ranks, communicator_.size());
+  auto placed = placed_on(layout);
+  move_patches(placed_->warehouse, placed->warehouse, communicator_);
+  placed->schedules.front().recording = schedule().recording;
+  profiler_.follow(placed->schedules.front(), placed->bound.front());
+  placed_ = std::move(placed);
+}
+
+CheckpointHeader Engine::header(const std::string& fingerprint) const
+{
+  return {progress().n_steps, progress().time, fingerprint};
+}
+
+void Engine::write_checkpoint(const std::filesystem::path& folder, const std::string& fingerprint,
+                              std::span<const std::byte> host, int keep)
+{
+  runtime::write_checkpoint(folder, header(fingerprint), host, warehouse(), group_names_, keep, communicator_);
+}
+
+CheckpointCopy Engine::copy_checkpoint(const std::string& fingerprint, std::span<const std::byte> host)
+{
+  // The workers' run has a watch of its own; what follows it is messages.
+  std::unique_ptr<Watchdog::Watch> watch;
+  const auto for_all = [&](int n, const auto& work) {
+    on_workers(executor_, n, work);
+    watch.reset(new Watchdog::Watch(executor_.watch("gathering the state")));
+  };
+  return runtime::copy_checkpoint(header(fingerprint), host, warehouse(), group_names_, for_all, communicator_);
+}
+
+std::vector<std::byte> Engine::restart(const FoundCheckpoint& found)
+{
+  read_checkpoint(found, warehouse(), group_names_, communicator_);
+  return found.host;
 }
 
 }  // namespace tamp::runtime

@@ -1,58 +1,108 @@
 #pragma once
 
 #include <cstddef>
-#include <deque>
+#include <filesystem>
+#include <limits>
+#include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
-#include "runtime/execute/bound_graph.hpp"
-#include "runtime/execute/executor.hpp"
-#include "runtime/graph/task_graph.hpp"
-#include "runtime/ranks/communicator.hpp"
-#include "runtime/warehouse/warehouse.hpp"
+#include "runtime/execute/placed_graphs.hpp"
+#include "runtime/profile/profiler.hpp"
+#include "runtime/ranks/load_balance.hpp"
+#include "runtime/storage/checkpoints/checkpoint.hpp"
 
 namespace tamp::runtime
 {
 
-/// The tasks of a graph, and what its host gives and takes.
-struct GraphTasks {
-  std::vector<TaskDeclaration> tasks;
-  HostData host;
+/// How far a run has come.
+struct Progress {
+  std::int64_t n_steps = 0;
+  double time = 0;       ///< s
+  double step_size = 0;  ///< of the last step [s]
 };
 
-/// The runtime's front door: graphs over the patches of one layout, with their data, ready to run on threads and ranks.
-/// docs/first_task_graph.md is a tour. The first graph is the step, which makes the state that the next one reads; the
-/// others read that state too, and make results.
+/// The runtime's front door: runs the steps of a simulation on threads and ranks. docs/first_task_graph.md is a tour.
+///
+/// The first graph is the step, which makes the state that the next one reads; the others read that state too, and make
+/// results. All that changes from step to step is state, in the warehouse: a checkpoint holds it, and it moves along
+/// where patches are dealt to other ranks. All calls are collective unless they say otherwise.
 class Engine
 {
  public:
-  /// `n_workers` is the number of threads of the executors that will run it. Throws GraphError with every mistake that
-  /// the tasks hold. Collective.
-  Engine(const PatchLayout& layout, const std::vector<std::string>& group_names, std::vector<GraphTasks> graphs,
-         int n_workers, const Communicator& communicator = {});
-  Engine(const Engine&) = delete;
-  Engine& operator=(const Engine&) = delete;
+  /// `executor` must outlive the engine. Throws GraphError with every mistake that the tasks hold.
+  Engine(const PatchLayout& layout, std::vector<std::string> group_names, std::vector<GraphTasks> graphs,
+         Executor& executor, const Communicator& communicator = {});
 
-  /// Runs the first graph and makes what it computed the state. What a task throws comes out as TaskError; the state is
-  /// then still that of before, unless particles migrate without waiting for a check. After the failure of another
-  /// rank, which is thrown as it is, the engine cannot advance any more.
-  void advance(Executor& executor, const Step& step);
+  /// One step of `size` [s], or as much less as it takes to end at `end`.
+  ///
+  /// A StepError that a task throws is thrown on all ranks, and the state is then still that of before, unless
+  /// particles migrate without waiting for a check. What else goes wrong comes as TaskError, or as std::runtime_error
+  /// on several ranks, which cannot go on then.
+  void advance(double size, double end = std::numeric_limits<double>::infinity());
+  /// Runs another graph, for its results.
+  void run(std::size_t graph);
 
-  const PatchLayout& layout() const { return layout_; }
+  const Progress& progress() const;
+
+  /// Bits that this rank's host tells all ranks with the next step; not collective. A rank without patches is not
+  /// heard.
+  void ask(unsigned requests) { requests_ |= requests; }
+  /// What any rank asked for with the last step; not collective.
+  unsigned asked() const { return asked_; }
+
+  /// How many steps there are between two looks at the load of the ranks, each of which may deal the patches anew; 0:
+  /// patches stay where they are. References to the layout, the warehouse and the graphs do not outlive a deal.
+  void balance_every(long n_steps) { balance_.look_every(n_steps); }
+  const std::vector<Rebalance>& rebalances() const { return balance_.rebalances(); }
+
+  /// Of the steps so far on all ranks.
+  Profile profile() const { return profiler_.profile(communicator_); }
+  /// Of the first steps, as many as `trace_steps` asked for before them: none if it was not called.
+  Trace trace() const { return profiler_.trace(communicator_); }
+  void trace_steps(long n_steps) { profiler_.trace_steps(n_steps); }
+  /// Off only to measure what recording costs.
+  void record(bool on) { schedule().recording = on; }
+
+  /// Keeps the state in a folder, with bytes of the host's own, which are the same on all ranks; see
+  /// runtime::write_checkpoint. Throws FileError.
+  void write_checkpoint(const std::filesystem::path& folder, const std::string& fingerprint,
+                        std::span<const std::byte> host, int keep);
+  /// The same in two parts: a copy, on the first rank, which that rank may write when and in which thread it likes.
+  CheckpointCopy copy_checkpoint(const std::string& fingerprint, std::span<const std::byte> host);
+  /// Goes on where a checkpoint of the same graphs was written, on any ranks; returns the host's bytes.
+  std::vector<std::byte> restart(const FoundCheckpoint& found);
+
+  const Communicator& communicator() const { return communicator_; }
+  Executor& executor() const { return executor_; }
+  const PatchLayout& layout() const { return placed_->layout; }
   /// The state and the results, for the host between steps.
-  Warehouse& warehouse() { return warehouse_; }
-  const Warehouse& warehouse() const { return warehouse_; }
-
-  const TaskGraph& graph(std::size_t i = 0) const { return graphs_[i]; }
-  BoundGraph& bound(std::size_t i = 0) { return bound_[i]; }
-  Schedule& schedule(std::size_t i = 0) { return schedules_[i]; }
+  Warehouse& warehouse() { return placed_->warehouse; }
+  const Warehouse& warehouse() const { return placed_->warehouse; }
+  const TaskGraph& graph(std::size_t i = 0) const { return placed_->graphs[i]; }
+  BoundGraph& bound(std::size_t i = 0) { return placed_->bound[i]; }
+  Schedule& schedule(std::size_t i = 0) { return placed_->schedules[i]; }
 
  private:
-  const PatchLayout layout_;
-  std::deque<TaskGraph> graphs_;
-  Warehouse warehouse_;
-  std::deque<BoundGraph> bound_;
-  std::deque<Schedule> schedules_;
+  Progress& now() const;
+  std::unique_ptr<PlacedGraphs> placed_on(const PatchLayout& layout) const;
+  void run_step(const Step& step);
+  void balance_if_due();
+  void deal_to(const std::vector<int>& ranks);
+  CheckpointHeader header(const std::string& fingerprint) const;
+
+  std::vector<std::string> group_names_;
+  std::vector<GraphTasks> tasks_;
+  Executor& executor_;
+  Communicator communicator_;
+  /// Ranks that failed at different places meet here, where no other messages are.
+  Communicator after_failure_;
+  std::unique_ptr<PlacedGraphs> placed_;
+  Profiler profiler_;
+  LoadBalance balance_;
+  unsigned requests_ = 0;
+  unsigned asked_ = 0;
 };
 
 }  // namespace tamp::runtime

@@ -114,14 +114,6 @@ inline const runtime::NodeLabel<components::NodeVector<D>, "returned momentum"> 
 
 }  // namespace node
 
-/// What the hosts of the ranks ask of each other, see runtime::Step; no part of the physics.
-struct HostRequests {
-  unsigned bits = 0;
-
-  static constexpr auto fields = std::tuple{runtime::AnyBit{&HostRequests::bits}};
-};
-inline const runtime::ReductionLabel<HostRequests, "host requests"> host_requests;
-
 /// Accumulated from the start: what a step adds to the energies, and how long the next may be.
 inline const runtime::ReductionLabel<StepTotals, "step totals"> step_totals;
 inline const runtime::ReductionLabel<GridTotals, "grid totals"> grid_totals;

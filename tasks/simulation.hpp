@@ -1,38 +1,21 @@
 #pragma once
 
-#include <cstdint>
-#include <functional>
-#include <limits>
 #include <memory>
 #include <string>
 #include <vector>
 
-#include "runtime/data/memory_ledger.hpp"
 #include "runtime/engine.hpp"
 #include "runtime/execute/executor.hpp"
-#include "runtime/graph/task_graph.hpp"
-#include "runtime/profile/profiler.hpp"
 #include "runtime/ranks/communicator.hpp"
-#include "runtime/storage/checkpoints/checkpoint.hpp"
 #include "runtime/storage/fields/field_copy.hpp"
 #include "tasks/energy_ledger.hpp"
 #include "tasks/labels.hpp"
 #include "tasks/report/report.hpp"
-#include "tasks/rigid_body.hpp"
 #include "tasks/scene.hpp"
 #include "tasks/step_totals.hpp"
 
 namespace tamp::tasks
 {
-
-/// Patches dealt anew to the ranks before a step. An imbalance is the load of the busiest rank over the mean.
-struct Rebalance {
-  long step = 0;
-  double imbalance_before = 1;
-  double imbalance_expected = 1;
-  /// Measured over the steps that followed; 0 before there were enough.
-  double imbalance_got = 0;
-};
 
 /// Bytes that a particle takes.
 struct ParticleBytes {
@@ -59,10 +42,6 @@ struct MeanForces {
 
 /// A scene in time. Made with all particles in place; each `advance` is one time step. Over several ranks every call is
 /// collective unless it says otherwise, and what it returns is the same on all of them.
-///
-/// Errors: `advance` throws SimulationError when a particle inverts, a state is not finite, a material cannot be
-/// updated, or the time step falls below the scene's minimum; the state of the last good step is then still there. An
-/// error on one rank is thrown on all.
 class Simulation
 {
  public:
@@ -75,11 +54,15 @@ class Simulation
   virtual ~Simulation() = default;
 
   const Scene& scene() const { return scene_; }
-  long n_steps() const { return n_steps_; }
-  double time() const { return time_; }
-  double last_step_size() const { return last_step_size_; }
+  /// Runs the steps: checkpoints, requests of the host, load balance and the profile are its.
+  runtime::Engine& engine() { return *engine_; }
+  const runtime::Engine& engine() const { return *engine_; }
   int n_threads() const { return executor_->n_threads(); }
-  const runtime::Communicator& communicator() const { return communicator_; }
+  const runtime::Communicator& communicator() const { return engine_->communicator(); }
+
+  long n_steps() const { return engine_->progress().n_steps; }
+  double time() const { return engine_->progress().time; }
+  double last_step_size() const { return engine_->progress().step_size; }
   /// The longest next step that is stable, before the multiplier [s].
   double stable_step() const { return warehouse().global_state(longest_step); }
   const EnergyLedger& energies() const { return warehouse().global_state(energy_ledger); }
@@ -90,60 +73,36 @@ class Simulation
   /// Since the start.
   const LostParticles& lost() const { return warehouse().total(lost_particles); }
 
+  /// One step, as long as stability allows and not past `end` [s]. Throws SimulationError when a particle inverts, a
+  /// state is not finite, a material cannot be updated, or the time step falls below the scene's minimum; the state of
+  /// the last good step is then still there. An error on one rank is thrown on all.
+  void advance(double end);
+  ParticleReport report();
+  /// Peaks near noses in the last report; those of no particle where the scene has no nose.
+  NoseReport near_noses() const;
   /// Those since the last call, or the start; not collective, but to be called by all ranks alike.
   MeanForces take_mean_forces();
 
-  /// Bits that this rank tells all ranks with the next step; not collective. A rank without patches is not heard.
-  void ask(unsigned requests) { requests_ |= requests; }
-  /// What any rank asked for in the last step.
-  unsigned asked() const { return asked_; }
-  /// How many steps there are between two looks at the load of the ranks; 0: patches stay where they are.
-  void balance_every(long n_steps) { balance_interval_ = n_steps; }
-  const std::vector<Rebalance>& rebalances() const { return rebalances_; }
-
-  /// One step, as long as stability allows and not past `end` [s].
-  virtual void advance(double end) = 0;
-  virtual ParticleReport report() = 0;
-  /// Peaks near noses in the last report; those of no particle where the scene has no nose.
-  virtual NoseReport near_noses() const = 0;
-
-  virtual const runtime::TaskGraph& graph() const = 0;
-  /// This rank's.
-  virtual const runtime::MemoryLedger& ledger() const = 0;
-  /// The memory of fields on all ranks [bytes].
-  virtual std::size_t forecast_bytes() const = 0;
-  virtual runtime::Profile profile() const = 0;
-  /// Of the first steps, as many as `trace_steps` asked for before them: none if it was not called.
-  virtual runtime::Trace trace() const = 0;
-  virtual void trace_steps(long n_steps) = 0;
-  /// Off only to measure what recording costs.
-  virtual void record(bool on) = 0;
-
   /// Particles of a material now, on all ranks.
-  virtual std::size_t n_particles(int material) const = 0;
+  std::size_t n_particles(int material) const;
   /// A copy of the chosen fields of particles, and if asked for of nodes, this rank's part.
   virtual runtime::FieldCopy fields(const FieldChoice& choice, bool with_nodes) = 0;
   /// All fields, this rank's part, valid until they are asked for again.
   std::vector<runtime::ParticleBlock> particle_columns() { return (particles_ = fields({}, false)).particles; }
   runtime::NodeBlock node_columns() { return (nodes_ = fields({}, true)).nodes.value(); }
-  /// Keeps the state in a folder, with bytes of the host's own, which are the same on all ranks; see
-  /// runtime::write_checkpoint. Throws FileError.
-  virtual void write_checkpoint(const std::filesystem::path& folder, const std::string& fingerprint,
-                                std::span<const std::byte> host, int keep) = 0;
-  /// The same in two parts: a copy, on the first rank, which that rank may write when and in which thread it likes.
-  virtual runtime::CheckpointCopy copy_checkpoint(const std::string& fingerprint, std::span<const std::byte> host) = 0;
-  /// Goes on where a checkpoint of the same scene was written, on any ranks; returns the host's bytes.
-  virtual std::vector<std::byte> restart(const runtime::FoundCheckpoint& found) = 0;
   /// A hash of every particle's state in the order of their ids, for all materials; 16 hexadecimal digits.
-  virtual std::string digest() = 0;
+  std::string digest();
+
+  /// The memory of fields on all ranks, as particles start [bytes].
+  std::size_t forecast_bytes() const { return forecast_bytes_; }
   /// Bytes of the particle arrays that a step must at least read and write, per particle of a material.
-  virtual std::size_t least_bytes_per_particle(int material) const = 0;
+  std::size_t least_bytes_per_particle(int material) const;
   /// What a particle of a material takes in memory.
-  virtual ParticleBytes particle_bytes(int material) const = 0;
+  ParticleBytes particle_bytes(int material) const;
 
  protected:
-  Simulation(Scene scene, std::shared_ptr<runtime::Executor> executor, const runtime::Communicator& communicator)
-      : scene_(std::move(scene)), executor_(std::move(executor)), communicator_(communicator)
+  Simulation(Scene scene, std::shared_ptr<runtime::Executor> executor)
+      : scene_(std::move(scene)), executor_(std::move(executor))
   {
   }
 
@@ -151,15 +110,12 @@ class Simulation
 
   Scene scene_;
   std::shared_ptr<runtime::Executor> executor_;
-  runtime::Communicator communicator_;
-  unsigned requests_ = 0;
-  unsigned asked_ = 0;
-  long balance_interval_ = 0;
-  std::vector<Rebalance> rebalances_;
-  long n_steps_ = 0;
-  double time_ = 0;
-  double last_step_size_ = 0;
   std::unique_ptr<runtime::Engine> engine_;
+  std::size_t forecast_bytes_ = 0;
+
+ private:
+  double next_step_size() const;
+
   /// Last asked for.
   runtime::FieldCopy particles_;
   runtime::FieldCopy nodes_;

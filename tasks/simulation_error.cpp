@@ -21,7 +21,7 @@ std::string told(const std::string& reason, const std::string& material, std::in
 
 SimulationError::SimulationError(const std::string& reason, std::string material_, std::int64_t particle_,
                                  std::vector<double> position_)
-    : std::runtime_error(told(reason, material_, particle_, position_)),
+    : runtime::StepError(told(reason, material_, particle_, position_)),
       material(std::move(material_)),
       particle(particle_),
       position(std::move(position_))

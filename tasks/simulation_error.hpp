@@ -1,15 +1,16 @@
 #pragma once
 
 #include <cstdint>
-#include <stdexcept>
 #include <string>
 #include <vector>
+
+#include "runtime/step_error.hpp"
 
 namespace tamp::tasks
 {
 
 /// A simulation that has become invalid: which particle, where, and why. Step and time are added by who runs it.
-struct SimulationError : std::runtime_error {
+struct SimulationError : runtime::StepError {
   SimulationError(const std::string& reason, std::string material_, std::int64_t particle_,
                   std::vector<double> position_);
 

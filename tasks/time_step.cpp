@@ -24,15 +24,6 @@ void add_state_of(const MaterialModel& model, runtime::HostData& data)
       model);
 }
 
-/// On every patch, with particles or without, so that every rank that has one is heard.
-runtime::TaskDeclaration hear_hosts()
-{
-  return runtime::task("hear hosts")
-      .over_patches()
-      .reduces(host_requests)
-      .body([](const runtime::TaskContext& at, auto data) { data[host_requests].bits = at.step.host_requests; });
-}
-
 /// At the end of a step particles go to the patches that they are in by then.
 template <int D>
 runtime::TaskDeclaration migrate(const Method<D>& method)
@@ -47,8 +38,7 @@ template <int D>
 runtime::TaskList time_step(const Method<D>& method)
 {
   runtime::TaskList step;
-  for (const runtime::TaskList& phase : {runtime::TaskList{hear_hosts()},
-                                         update_stress_first(method),
+  for (const runtime::TaskList& phase : {update_stress_first(method),
                                          share_stress(method),
                                          particles_to_grid(method),
                                          press(method),
@@ -84,7 +74,7 @@ runtime::HostData host_data(const Method<D>& method)
        &particle::velocity<D>, &particle::deformation_gradient<D>, &particle::volume, &particle::stress<D>,
        &particle::viscous_pressure, &rigid_states, &step_totals, &grid_totals, &lost_particles, &contact_impulses,
        &load_totals, &forces_taken_at, &energy_ledger, &longest_step},
-      {&host_requests}};
+      {}};
   for (const SceneMaterial& material : method.materials) add_state_of(material.model, data);
   if (method.scene.is_periodic()) data.state.push_back(&particle::laps);
   if (method.brings_gradients()) data.state.push_back(&particle::velocity_gradient<D>);

@@ -76,19 +76,16 @@ double error_of_heat(int n, double end, int n_threads, const Communicator& ranks
   layout.give_to_ranks(rank_of_patch, ranks.size());
 
   const HostData host{{&temperature}, {&errors}};
-  Engine engine(layout, {"plate"}, {{{diffuse(grid), compare(grid)}, host}}, n_threads, ranks);
+  Executor executor(n_threads);
+  Engine engine(layout, {"plate"}, {{{diffuse(grid), compare(grid)}, host}}, executor, ranks);
   for (const Patch& patch : engine.layout()) {
     if (!engine.warehouse().is_local(patch)) continue;
     const auto start = engine.warehouse().grid_state(temperature, patch.id, 0);
     for_each(patch.cells, [&](const Index& i) { start[i] = exact(grid, i, 0); });
   }
 
-  Executor executor(n_threads);
-  const long n_steps = std::lround(end * 5 * n * n);
-  const double dt = end / static_cast<double>(n_steps);
-  for (long step = 0; step < n_steps; ++step) {
-    engine.advance(executor, {step, static_cast<double>(step) * dt, dt, dt});
-  }
+  const double dt = grid.cell_size * grid.cell_size / 5;
+  while (engine.progress().time < end) engine.advance(dt, end);
   return engine.warehouse().result(errors).greatest;
 }
 

@@ -6,6 +6,21 @@
 namespace tamp::runtime
 {
 
+namespace
+{
+
+std::vector<double> sum_over_ranks(const std::vector<double>& own, const Communicator& communicator)
+{
+  std::vector<double> sums(own.size(), 0.0);
+  for (const auto& bytes : communicator.gather(std::as_bytes(std::span(own)))) {
+    const auto* theirs = reinterpret_cast<const double*>(bytes.data());
+    for (std::size_t p = 0; p < sums.size(); ++p) sums[p] += theirs[p];
+  }
+  return sums;
+}
+
+}  // namespace
+
 std::optional<NewDeal> better_deal(const PatchLayout& layout, std::span<const double> costs, double least_gain)
 {
   const int n_ranks = layout.n_ranks();
@@ -15,6 +30,21 @@ std::optional<NewDeal> better_deal(const PatchLayout& layout, std::span<const do
   deal.imbalance_expected = imbalance(costs, deal.ranks, n_ranks);
   if (deal.imbalance_before < least_gain * deal.imbalance_expected) return std::nullopt;
   return deal;
+}
+
+std::optional<std::vector<int>> LoadBalance::look(long step, const PatchLayout& layout,
+                                                  const std::vector<double>& own_costs,
+                                                  const Communicator& communicator)
+{
+  const std::vector<double> costs = sum_over_ranks(own_costs, communicator);
+  if (!rebalances_.empty() && rebalances_.back().imbalance_got == 0) {
+    rebalances_.back().imbalance_got = imbalance(costs, layout.ranks(), communicator.size());
+  }
+  constexpr double least_gain = 1.1;
+  const auto deal = better_deal(layout, costs, least_gain);
+  if (!deal) return std::nullopt;
+  rebalances_.push_back({step, deal->imbalance_before, deal->imbalance_expected, 0});
+  return deal->ranks;
 }
 
 }  // namespace tamp::runtime

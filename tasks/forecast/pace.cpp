@@ -65,7 +65,7 @@ std::optional<Trial> tried(const Scene& scene, int factor, double seconds)
   for (const SceneBody& body : scene.bodies) {
     if (simulation->n_particles(body.material) == 0) return std::nullopt;
   }
-  simulation->record(false);
+  simulation->engine().record(false);
   const double start = processor_seconds();
   Trial trial{factor, {{}}};
   while (!trial.complete() && trial.end().seconds < seconds) {

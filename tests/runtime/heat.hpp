@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "runtime/engine.hpp"
+#include "tests/runtime/shared_cores.hpp"
 
 /// A heat equation on cells, periodic in nothing and with insulated ends: a user of the runtime that has no mechanics
 /// in it. dT/dt = a lap T on the unit square, T = cos(pi x) cos(pi y) exp(-2 pi^2 a t).
@@ -18,15 +19,24 @@ inline const CellLabel<double, "temperature"> temperature;
 struct Heat {
   static inline const ReductionLabel<double, "total heat"> total;
 
-  Heat(int n_cells, Index n_patches, int n_threads)
+  /// To begin with the first rank has all patches.
+  Heat(int n_cells, Index n_patches, int n_threads, const Communicator& ranks = {})
       : grid{2, {0, 0, 0}, 1.0 / n_cells, {n_cells, n_cells, 1}},
-        engine({grid, n_patches}, {"heat"}, {{{diffusion(grid)}, {{&temperature, &total}, {}}}}, n_threads),
-        executor(n_threads)
+        executor(n_threads, on_shared_cores()),
+        engine(of_first(PatchLayout(grid, n_patches), ranks), {"heat"},
+               {{{diffusion(grid)}, {{&temperature, &total}, {}}}}, executor, ranks)
   {
     for (const Patch& patch : engine.layout()) {
+      if (!engine.warehouse().is_local(patch)) continue;
       const auto view = engine.warehouse().grid_state(temperature, patch.id, 0);
       for_each(patch.cells, [&](const Index& i) { view[i] = exact(i, 0); });
     }
+  }
+
+  static PatchLayout of_first(PatchLayout layout, const Communicator& ranks)
+  {
+    layout.give_to_ranks(std::vector<int>(static_cast<std::size_t>(layout.size()), 0), ranks.size());
+    return layout;
   }
 
   double exact(const Index& i, double time) const
@@ -63,17 +73,23 @@ struct Heat {
 
   void run(long n_steps, double dt)
   {
-    for (long n = 0; n < n_steps; ++n) {
-      engine.advance(executor, {n, static_cast<double>(n) * dt, dt, dt});
-    }
+    for (long n = 0; n < n_steps; ++n) engine.advance(dt);
   }
 
+  /// Of all ranks.
   std::vector<double> values()
   {
-    std::vector<double> all;
+    std::vector<double> own, all;
     for_each(grid.cells(), [&](const Index& i) {
-      all.push_back(engine.warehouse().grid_state(temperature, engine.layout().patch_of_cell(i), 0)[i]);
+      const Patch& patch = engine.layout()[engine.layout().patch_of_cell(i)];
+      own.push_back(engine.warehouse().is_local(patch) ? engine.warehouse().grid_state(temperature, patch.id, 0)[i]
+                                                       : 0);
     });
+    all.resize(own.size());
+    for (const auto& bytes : engine.communicator().gather(std::as_bytes(std::span(own)))) {
+      const auto* theirs = reinterpret_cast<const double*>(bytes.data());
+      for (std::size_t i = 0; i < all.size(); ++i) all[i] += theirs[i];
+    }
     return all;
   }
 
@@ -87,8 +103,8 @@ struct Heat {
   }
 
   Grid grid;
-  Engine engine;
   Executor executor;
+  Engine engine;
 };
 
 }  // namespace tamp::test

@@ -87,10 +87,10 @@ TEST_CASE("a task reads what an accumulated reduction came to before the step", 
           .computes(before)
           .body([&](const TaskContext&, auto data) { data[before] = data[cells.previous()] + data[cells] / 1000; });
   const Grid grid{2, {0, 0, 0}, 1, {4, 4, 1}};
-  Engine engine({grid, {2, 2, 1}}, {"all"}, {{{count, look}, {{&cells, &before}, {}}}}, 1);
   Executor executor(1);
+  Engine engine({grid, {2, 2, 1}}, {"all"}, {{{count, look}, {{&cells, &before}, {}}}}, executor);
 
-  for (long n = 0; n < 3; ++n) engine.advance(executor, {n, 0, 1, 1});
+  for (int n = 0; n < 3; ++n) engine.advance(1);
 
   CHECK(engine.warehouse().global_state(before) == 32.016);
   CHECK(engine.warehouse().total(cells) == 48);

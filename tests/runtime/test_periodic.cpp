@@ -137,8 +137,8 @@ struct RingOfHeat {
   static constexpr int n_waves = 2;
 
   RingOfHeat(const Index& n_patches, int n_threads, const Communicator& all = {})
-      : engine(dealt(n_patches, all), {"only"}, {{{give(), diffuse()}, {{&heat}, {&node_sum}}}}, n_threads, all),
-        executor(n_threads, test::on_shared_cores()),
+      : executor(n_threads, test::on_shared_cores()),
+        engine(dealt(n_patches, all), {"only"}, {{{give(), diffuse()}, {{&heat}, {&node_sum}}}}, executor, all),
         communicator(all)
   {
     for (const Patch& patch : engine.layout()) {
@@ -210,7 +210,7 @@ struct RingOfHeat {
 
   void run(long n_steps, double dt)
   {
-    for (long n = 0; n < n_steps; ++n) engine.advance(executor, {n, static_cast<double>(n) * dt, dt, dt});
+    for (long n = 0; n < n_steps; ++n) engine.advance(dt);
   }
 
   /// The value of every index in the boxes of the patches, x fastest over all, alike on all ranks.
@@ -243,8 +243,8 @@ struct RingOfHeat {
         [&](int patch) { return engine.warehouse().grid_result(node_sum, patch, 0); });
   }
 
-  Engine engine;
   Executor executor;
+  Engine engine;
   Communicator communicator;
 };
 
@@ -312,9 +312,9 @@ struct Traveller {
 /// Particles that drift by (dx, dy) a step through 9 x 6 cells, periodic along x, from a grid's corner at (1, 2).
 struct Carousel {
   Carousel(const Index& n_patches, double dx, double dy, const Communicator& all = {}, int n_threads = 2)
-      : engine(dealt(n_patches, all), {"only"},
-               {{{drift(dx, dy), migration(place, &laps)}, {{&place, &number, &laps}, {}}}}, n_threads, all),
-        executor(n_threads, test::on_shared_cores()),
+      : executor(n_threads, test::on_shared_cores()),
+        engine(dealt(n_patches, all), {"only"},
+               {{{drift(dx, dy), migration(place, &laps)}, {{&place, &number, &laps}, {}}}}, executor, all),
         communicator(all)
   {
     for (const Patch& patch : engine.layout()) {
@@ -354,7 +354,7 @@ struct Carousel {
 
   void run(int n_steps)
   {
-    for (int n = 0; n < n_steps; ++n) engine.advance(executor, {n, 0, 1, 1});
+    for (int n = 0; n < n_steps; ++n) engine.advance(1);
   }
 
   /// By number; what is not in the cells of its patch is left out.
@@ -379,8 +379,8 @@ struct Carousel {
     return all;
   }
 
-  Engine engine;
   Executor executor;
+  Engine engine;
   Communicator communicator;
 };
 

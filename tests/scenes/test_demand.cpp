@@ -35,7 +35,8 @@ TEST_CASE("the memory of fields that is forecast from labels is what a simulatio
   // Sums over all particles, which are few, are not forecast.
   CHECK(demand.fields == Approx(static_cast<double>(simulation->forecast_bytes())).epsilon(0.03));
   double copied = 0;
-  for (const auto& bytes : simulation->copy_checkpoint("", {}).bytes) copied += static_cast<double>(bytes.size());
+  for (const auto& bytes : simulation->engine().copy_checkpoint("", {}).bytes)
+    copied += static_cast<double>(bytes.size());
   CHECK(demand.checkpoint_file == Approx(copied).epsilon(0.03));
 }
 

@@ -60,7 +60,7 @@ TEST_CASE("fields that are gathered from ranks are those of one process", "[rank
   }
 
   const runtime::FieldCopy own = alone->fields({}, true);
-  const runtime::FieldCopy all = gathered(together->fields({}, true), together->graph().layout(), world);
+  const runtime::FieldCopy all = gathered(together->fields({}, true), together->engine().graph().layout(), world);
 
   if (world.is_first()) {
     const Numbers numbers = numbers_of(all);

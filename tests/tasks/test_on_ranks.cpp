@@ -112,7 +112,7 @@ TEST_CASE("a collision around a periodic domain ends with the same bits on any r
   const Ending expected = alone(scene, 0.3);
 
   const auto simulation = on_all_ranks(scene, n_threads);
-  simulation->balance_every(20);
+  simulation->engine().balance_every(20);
   advance_to(*simulation, 0.3);
 
   CHECK(ending(*simulation) == expected);
@@ -205,15 +205,16 @@ TEST_CASE("patches that follow the load to other ranks change no bit", "[ranks]"
 {
   const Scene scene = glancing_disks();
   const auto simulation = on_all_ranks(scene, 2);
-  simulation->balance_every(5);
+  simulation->engine().balance_every(5);
 
   advance_to(*simulation, 0.3);
 
   CHECK(ending(*simulation) == alone(scene, 0.3));
   // The disks move on and leave, and the load with them.
   const bool several = simulation->communicator().size() > 1;
-  CHECK(simulation->rebalances().empty() != several);
-  for (const Rebalance& r : simulation->rebalances()) CHECK(r.imbalance_expected < r.imbalance_before);
+  CHECK(simulation->engine().rebalances().empty() != several);
+  for (const runtime::Rebalance& r : simulation->engine().rebalances())
+    CHECK(r.imbalance_expected < r.imbalance_before);
 }
 
 TEST_CASE("a particle that goes wrong on one rank is the same error on all", "[ranks]")

@@ -68,7 +68,7 @@ TEST_CASE("the grid phases pass over patches that no particle is near", "[ranks]
 
   simulation->advance(1);
 
-  const runtime::Profile profile = simulation->profile();
+  const runtime::Profile profile = simulation->engine().profile();
   for (const char* name : {"particles to grid", "accelerate nodes", "contact", "walls", "grid to particles"}) {
     const auto task = std::find_if(profile.tasks.begin(), profile.tasks.end(),
                                    [&](const runtime::TaskStatistics& t) { return t.name == name; });
@@ -90,9 +90,9 @@ TEST_CASE("a rank is heard when all of its patches are empty", "[ranks]")
   for (int speaker = 0; speaker < all.size(); ++speaker) {
     // A rank may have no patch at all.
     if (n_boxes[static_cast<std::size_t>(speaker)] == 0) continue;
-    if (all.rank() == speaker) simulation->ask(4);
+    if (all.rank() == speaker) simulation->engine().ask(4);
     simulation->advance(1 + speaker);
-    CHECK(simulation->asked() == 4);
+    CHECK(simulation->engine().asked() == 4);
   }
 }
 

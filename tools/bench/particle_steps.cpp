@@ -51,7 +51,7 @@ class StepsClock
     const double updates = particles_of(simulation_.scene()) * static_cast<double>(n_steps);
     StepsTime time{n_steps, wall, seconds / updates * 1e9, 0, {}, least_work(simulation_, updates_, n_steps)};
     time.ns_between_tasks = time.ns;
-    for (const runtime::TaskStatistics& task : simulation_.profile().tasks) {
+    for (const runtime::TaskStatistics& task : simulation_.engine().profile().tasks) {
       const double ns = task.total_s * seconds / wall * 1e9;
       time.phases.push_back({task.name, ns / updates, task.particles > 0 ? ns / task.particles : 0});
       time.ns_between_tasks -= time.phases.back().ns;
@@ -70,7 +70,7 @@ class StepsClock
 WindowStart kept_start(tasks::Simulation& simulation, const Window& window, const std::filesystem::path& folder)
 {
   const std::filesystem::path own = folder / window.name;
-  simulation.write_checkpoint(own, "", {}, 1);
+  simulation.engine().write_checkpoint(own, "", {}, 1);
   std::vector<std::string> refused;
   auto found = runtime::newest_checkpoint(own, refused);
   if (!found) throw std::logic_error("a checkpoint that was just written is not there");
@@ -107,7 +107,7 @@ WholeRun run_whole(const tasks::Scene& scene, std::span<const Window> windows, c
 std::unique_ptr<tasks::Simulation> at_start(const tasks::Scene& scene, const WindowStart& start, int n_threads)
 {
   auto simulation = tasks::Simulation::make(scene, n_threads);
-  simulation->restart(start.checkpoint);
+  simulation->engine().restart(start.checkpoint);
   return simulation;
 }
 

@@ -47,10 +47,10 @@ void add_recording_ratios(tasks::Simulation& simulation, long n_steps, std::vect
 {
   const double end = simulation.scene().time.end;
   for (long step = 0; step < n_steps && simulation.time() < end; step += 2) {
-    simulation.record(true);
+    simulation.engine().record(true);
     const double recorded = seconds_of_step(simulation);
     if (simulation.time() == end) return;
-    simulation.record(false);
+    simulation.engine().record(false);
     ratios.push_back(recorded / seconds_of_step(simulation));
   }
 }

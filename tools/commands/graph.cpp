@@ -33,7 +33,7 @@ void dump_graph(const GraphArguments& options)
   const CheckedScene scene = read_scene(options.scene, options.assignments);
   expect_outputs({{"--out", options.out}});
   const auto simulation = tasks::Simulation::make(scene.scene, 1);
-  const runtime::TaskGraph& graph = simulation->graph();
+  const runtime::TaskGraph& graph = simulation->engine().graph();
   if (options.patch >= graph.layout().size()) {
     throw InputError(
         {"--patch", std::to_string(options.patch), "a patch from 0 to " + std::to_string(graph.layout().size() - 1)});

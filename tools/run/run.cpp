@@ -114,8 +114,8 @@ class Runner
         checkpoint_clock_(options.checkpoints),
         end_(std::min(checked.scene.time.end, options.until))
   {
-    simulation_->balance_every(options.balance_interval);
-    simulation_->trace_steps(options.n_traced_steps);
+    simulation_->engine().balance_every(options.balance_interval);
+    simulation_->engine().trace_steps(options.n_traced_steps);
     if (is_first()) warn_all(plausibility_warnings(checked));
     if (options.restart) {
       restart();
@@ -146,7 +146,7 @@ class Runner
       write_due();
       while (simulation_->time() < end_ && simulation_->n_steps() < options_.max_steps) {
         with_resources_for(fmt::format("after step {}", simulation_->n_steps()), [&] { advance(); });
-        if (const StopReason* reason = stop_reason(simulation_->asked())) {
+        if (const StopReason* reason = stop_reason(simulation_->engine().asked())) {
           progress.finish();
           leave(*reason);
         }
@@ -171,7 +171,7 @@ class Runner
     step_seconds_.push_back(static_cast<float>(seconds));
     machine_history_.add_step(seconds);
     expect_energy();
-    if ((simulation_->asked() & end_as_output_has_failed) != 0) output_.finish();
+    if ((simulation_->engine().asked() & end_as_output_has_failed) != 0) output_.finish();
     write_due();
     keep_state();
   }
@@ -196,7 +196,7 @@ class Runner
   void restart()
   {
     const auto found = checkpoint_to_restart(options_.folder, checked_, options_.communicator);
-    const std::vector<std::byte> own = simulation_->restart(found);
+    const std::vector<std::byte> own = simulation_->engine().restart(found);
     if (own.size() != sizeof(due_)) {
       throw InputError({found.file.string(), "a checkpoint of another version of tamp",
                         "expected one that this version has written"});
@@ -300,12 +300,13 @@ class Runner
   {
     const int signal = signals_.received();
     for (const StopReason& reason : stop_reasons) {
-      if (signal == reason.signal && reason.request != wall_limit_reached.request) simulation_->ask(reason.request);
+      if (signal == reason.signal && reason.request != wall_limit_reached.request)
+        simulation_->engine().ask(reason.request);
     }
     if (!is_first()) return;
-    if (output_.has_failed()) simulation_->ask(end_as_output_has_failed);
-    if (checkpoint_clock_.wall_time_over()) simulation_->ask(write_checkpoint);
-    if (seconds_since(start_) > options_.wall_limit) simulation_->ask(wall_limit_reached.request);
+    if (output_.has_failed()) simulation_->engine().ask(end_as_output_has_failed);
+    if (checkpoint_clock_.wall_time_over()) simulation_->engine().ask(write_checkpoint);
+    if (seconds_since(start_) > options_.wall_limit) simulation_->engine().ask(wall_limit_reached.request);
   }
 
   /// Nothing more may be written into a folder that is another program's.
@@ -317,7 +318,7 @@ class Runner
   void keep_state()
   {
     const bool due = checkpoint_clock_.due(simulation_->n_steps(), simulation_->time());
-    if (!due && simulation_->asked() == 0) return;
+    if (!due && simulation_->engine().asked() == 0) return;
     expect_own_folder();
     due_.largest = history_.largest();
     runtime::ByteWriter own;
@@ -375,8 +376,8 @@ class Runner
     OutputTime output_time = output_.time();
     output_time.history = history_seconds_;
     history_.measure();
-    const runtime::Profile profile = simulation_->profile();
-    const nlohmann::json json = to_json(profile, simulation_->ledger(), options_.communicator);
+    const runtime::Profile profile = simulation_->engine().profile();
+    const nlohmann::json json = to_json(profile, simulation_->engine().warehouse().ledger(), options_.communicator);
     const nlohmann::ordered_json summary =
         run_summary(*simulation_, history_,
                     {status, reason, seconds_since(start_), median({step_seconds_.begin(), step_seconds_.end()}),
@@ -393,7 +394,7 @@ class Runner
 
   void write_trace()
   {
-    const runtime::Trace trace = simulation_->trace();
+    const runtime::Trace trace = simulation_->engine().trace();
     on_first_rank([&] {
       runtime::WholeFile file(options_.folder / "trace.json");
       runtime::write_trace(trace, [&](std::string_view text) { file.write(text); });

@@ -64,7 +64,7 @@ void RunOutput::write_fields(bool with_nodes)
     const auto watch = executor_.watch("writing fields");
     if (!options_.in_background) return fields_->write_step(step, time, own.particles, own.nodes);
     const auto all = std::make_shared<runtime::FieldCopy>(
-        gathered(std::move(own), simulation_.graph().layout(), simulation_.communicator()));
+        gathered(std::move(own), simulation_.engine().graph().layout(), simulation_.communicator()));
     leave(fields_kind, [this, step, time, all] { fields_->write_step(step, time, all->particles, all->nodes); });
   });
 }
@@ -76,9 +76,10 @@ void RunOutput::write_checkpoint(const std::string& fingerprint, std::span<const
     const std::filesystem::path folder = options_.folder / "checkpoints";
     if (!options_.in_background) {
       const auto watch = executor_.watch("writing a checkpoint");
-      return simulation_.write_checkpoint(folder, fingerprint, host, options_.keep);
+      return simulation_.engine().write_checkpoint(folder, fingerprint, host, options_.keep);
     }
-    const auto copy = std::make_shared<runtime::CheckpointCopy>(simulation_.copy_checkpoint(fingerprint, host));
+    const auto copy =
+        std::make_shared<runtime::CheckpointCopy>(simulation_.engine().copy_checkpoint(fingerprint, host));
     leave(checkpoint_kind,
           [this, folder, copy] { runtime::write_checkpoint(folder, std::move(*copy), options_.keep); });
   });

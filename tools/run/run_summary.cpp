@@ -131,7 +131,7 @@ Json output(const RunOutcome& outcome)
 Json rebalances(const tasks::Simulation& simulation)
 {
   Json all = Json::array();
-  for (const tasks::Rebalance& r : simulation.rebalances()) {
+  for (const runtime::Rebalance& r : simulation.engine().rebalances()) {
     all.push_back({{"step", r.step},
                    {"imbalance_before", r.imbalance_before},
                    {"imbalance_expected", r.imbalance_expected},
@@ -148,7 +148,8 @@ Json run_summary(tasks::Simulation& simulation, const RunHistory& history, const
   const tasks::LostParticles lost = simulation.lost();
   const Json counts = particles(simulation, lost);
   const OverRanks rss = over_ranks(simulation, peak_rss_bytes());
-  const OverRanks ledger = over_ranks(simulation, static_cast<std::size_t>(simulation.ledger().total().peak()));
+  const OverRanks ledger =
+      over_ranks(simulation, static_cast<std::size_t>(simulation.engine().warehouse().ledger().total().peak()));
   const EnergyBalance& e = history.energies();
   const components::UpdateCounts& updates = simulation.updates();
   const double n_total = counts["total"].get<double>();

@@ -23,14 +23,10 @@ TEST_CASE("a quantile of durations is right to a bin", "[profile]")
 TEST_CASE("the profile counts every instance and its shares sum to one", "[profile]")
 {
   test::Heat heat(16, {2, 2, 1}, 2);
-  Profiler profiler(heat.engine.schedule(), heat.engine.bound(), 2);
-  profiler.trace_steps(3);
-  for (int n = 0; n < 10; ++n) {
-    heat.run(1, 1e-4);
-    profiler.add_step();
-  }
+  heat.engine.trace_steps(3);
+  heat.run(10, 1e-4);
 
-  const nlohmann::json json = to_json(profiler.profile(), heat.engine.warehouse().ledger());
+  const nlohmann::json json = to_json(heat.engine.profile(), heat.engine.warehouse().ledger());
 
   double shares = 0;
   std::uint64_t count = 0;
@@ -47,20 +43,16 @@ TEST_CASE("the profile counts every instance and its shares sum to one", "[profi
 TEST_CASE("the trace has every instance of the first steps, as JSON that other programs read", "[profile]")
 {
   test::Heat heat(16, {2, 2, 1}, 2);
-  Profiler profiler(heat.engine.schedule(), heat.engine.bound(), 2);
-  profiler.trace_steps(3);
-  for (int n = 0; n < 10; ++n) {
-    heat.run(1, 1e-4);
-    profiler.add_step();
-  }
+  heat.engine.trace_steps(3);
+  heat.run(10, 1e-4);
 
   std::string text;
-  write_trace(profiler.trace(), [&](std::string_view piece) { text += piece; });
+  write_trace(heat.engine.trace(), [&](std::string_view piece) { text += piece; });
 
   const nlohmann::json events = nlohmann::json::parse(text)["traceEvents"];
   CHECK(events.size() == 3 * heat.engine.graph().instances().size());
   CHECK(events[0]["dur"].get<double>() >= 0);
-  CHECK(profiler.profile().n_traced_steps == 3);
+  CHECK(heat.engine.profile().n_traced_steps == 3);
 }
 
 TEST_CASE("no more is traced than fits, and without a wish nothing is", "[profile]")

@@ -248,7 +248,7 @@ TEST_CASE("a checkpoint of a version that kept other things of the run is refuse
   const auto checked = tamp::tools::read_scene(quick);
   const auto simulation = tamp::tasks::Simulation::make(checked.scene, 1);
   const std::vector<std::byte> of_other_version(8);
-  simulation->write_checkpoint(run / "checkpoints", tamp::tools::fingerprint(checked), of_other_version, 2);
+  simulation->engine().write_checkpoint(run / "checkpoints", tamp::tools::fingerprint(checked), of_other_version, 2);
 
   const Outcome outcome = tamp_with("run " + quick + " --quiet --restart " + run.string());
 

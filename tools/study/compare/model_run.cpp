@@ -117,7 +117,7 @@ ModelResult ModelRun::result()
   result_.median_step_wall = median(step_walls_);
   result_.modulus_evaluations = simulation_->updates().modulus_evaluations;
   if (!modulus_ns_.empty()) result_.modulus_ns = median(modulus_ns_);
-  result_.ledger_peak_bytes = simulation_->ledger().total().peak();
+  result_.ledger_peak_bytes = simulation_->engine().warehouse().ledger().total().peak();
   result_.digest = simulation_->digest();
   return result_;
 }

@@ -1,0 +1,127 @@
+#include "runtime/engine.hpp"
+
+#include <catch2/catch.hpp>
+
+#include "runtime/step_error.hpp"
+#include "tests/runtime/heat.hpp"
+#include "tests/runtime/storage/temporary_folder.hpp"
+
+namespace tamp::test::test_engine
+{
+
+namespace
+{
+
+constexpr double dt = 1e-4;
+
+Heat plate(const Communicator& ranks, int n_threads = 2)
+{
+  return Heat(24, {4, 3, 1}, n_threads, ranks);
+}
+
+/// All that a run can be told by.
+std::vector<double> all_of(Heat& heat)
+{
+  std::vector<double> all = heat.values();
+  const Progress& progress = heat.engine.progress();
+  all.insert(all.end(), {heat.engine.warehouse().total(Heat::total), static_cast<double>(progress.n_steps),
+                         progress.time, progress.step_size});
+  return all;
+}
+
+std::vector<double> alone(int n_steps)
+{
+  Heat heat = plate({}, 1);
+  heat.run(n_steps, dt);
+  return all_of(heat);
+}
+
+}  // namespace
+
+TEST_CASE("the last step is as long as it takes to the end", "[engine]")
+{
+  Heat heat = plate({});
+
+  while (heat.engine.progress().time < 2.5 * dt) heat.engine.advance(dt, 2.5 * dt);
+
+  CHECK(heat.engine.progress().time == 2.5 * dt);
+  CHECK(heat.engine.progress().n_steps == 3);
+  CHECK(heat.engine.progress().step_size == Approx(0.5 * dt));
+}
+
+TEST_CASE("patches that follow the load to other ranks take all along", "[engine][ranks]")
+{
+  Heat heat = plate(Communicator::world());
+  heat.engine.balance_every(7);
+
+  heat.run(20, dt);
+
+  CHECK(all_of(heat) == alone(20));
+  const bool several = Communicator::world().size() > 1;
+  CHECK(heat.engine.rebalances().empty() != several);
+  for (const Rebalance& deal : heat.engine.rebalances()) CHECK(deal.imbalance_expected < deal.imbalance_before);
+  CHECK(heat.engine.profile().n_steps == 20);
+}
+
+TEST_CASE("an engine goes on from a checkpoint to the same bits, however patches are dealt", "[engine][ranks]")
+{
+  const Communicator ranks = Communicator::world();
+  const TemporaryFolder folder(ranks);
+  const std::vector<std::byte> own{std::byte{1}, std::byte{2}};
+  {
+    Heat heat = plate(ranks);
+    heat.run(12, dt);
+    heat.engine.write_checkpoint(folder.path, "plate", own, 1);
+  }
+  Heat heat = plate(ranks, 1);
+  heat.engine.balance_every(5);
+  heat.run(6, dt);
+  std::vector<std::string> refused;
+
+  CHECK(heat.engine.restart(newest_checkpoint(folder.path, refused, ranks).value()) == own);
+  heat.run(8, dt);
+
+  CHECK(all_of(heat) == alone(20));
+}
+
+TEST_CASE("what one rank asks for, all hear with the next step and once", "[engine][ranks]")
+{
+  const Communicator ranks = Communicator::world();
+  Heat heat = plate(ranks);
+
+  // The first rank, which has all patches.
+  if (ranks.is_first()) heat.engine.ask(4);
+  heat.run(1, dt);
+  CHECK(heat.engine.asked() == 4);
+  heat.run(1, dt);
+  CHECK(heat.engine.asked() == 0);
+}
+
+TEST_CASE("a step that a state does not allow is the same error on all ranks, and leaves the state", "[engine][ranks]")
+{
+  const Communicator ranks = Communicator::world();
+  const ReductionLabel<double, "steam"> steam;
+  const GlobalLabel<double, "pressure"> pressure;
+  const auto boil =
+      task("boil").over_patches().reduces(steam).body([&](const TaskContext&, auto data) { data[steam] = 0.25; });
+  const auto burst = task("burst")
+                         .over_ranks()
+                         .reads(steam, pressure.previous())
+                         .computes(pressure)
+                         .body([&](const TaskContext& at, auto data) {
+                           data[pressure] = data[pressure.previous()] + data[steam];
+                           if (data[pressure] > 3) throw StepError("burst in step " + std::to_string(at.step.index));
+                         });
+  PatchLayout layout({2, {0, 0, 0}, 1, {4, 4, 1}}, {2, 2, 1});
+  layout.give_to_ranks({0, 1 % ranks.size(), 2 % ranks.size(), 3 % ranks.size()}, ranks.size());
+  Executor executor(2, on_shared_cores());
+  Engine engine(layout, {"all"}, {{{boil, burst}, {{&pressure}, {}}}}, executor, ranks);
+  for (int n = 0; n < 3; ++n) engine.advance(1);
+
+  CHECK_THROWS_MATCHES(engine.advance(1), StepError, Catch::Message("burst in step 3"));
+
+  CHECK(engine.progress().n_steps == 3);
+  CHECK(engine.warehouse().global_state(pressure) == 3);
+}
+
+}  // namespace tamp::test::test_engine
