@@ -5,9 +5,14 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <filesystem>
 #include <numbers>
+#include <string>
+#include <tuple>
+#include <vector>
 
 #include "runtime/engine.hpp"
+#include "runtime/profile/report.hpp"
 
 using namespace tamp::runtime;
 
@@ -66,37 +71,77 @@ TaskDeclaration compare(const Grid& grid)
       });
 }
 
-// The greatest error at `end` on n x n cells.
-double error_of_heat(int n, double end, int n_threads, const Communicator& ranks)
-{
-  const Grid grid{2, {0, 0, 0}, 1.0 / n, {n, n, 1}};
-  PatchLayout layout(grid, {4, 4, 1});
-  std::vector<int> rank_of_patch(16);
-  for (int p = 0; p < 16; ++p) rank_of_patch[static_cast<std::size_t>(p)] = p * ranks.size() / 16;
-  layout.give_to_ranks(rank_of_patch, ranks.size());
-
-  const HostData host{{&temperature}, {&errors}};
-  Executor executor(n_threads);
-  Engine engine(layout, {"plate"}, {{{diffuse(grid), compare(grid)}, host}}, executor, ranks);
-  for (const Patch& patch : engine.layout()) {
-    if (!engine.warehouse().is_local(patch)) continue;
-    const auto start = engine.warehouse().grid_state(temperature, patch.id, 0);
-    for_each(patch.cells, [&](const Index& i) { start[i] = exact(grid, i, 0); });
+// A plate of n x n cells in time, on 16 patches. To begin with the first rank has them all.
+struct Plate {
+  Plate(int n, Executor& executor, const Communicator& ranks)
+      : grid{2, {0, 0, 0}, 1.0 / n, {n, n, 1}}, engine(make_engine(grid, executor, ranks))
+  {
+    for (const Patch& patch : engine.layout()) {
+      if (!engine.warehouse().is_local(patch)) continue;
+      const auto start = engine.warehouse().grid_state(temperature, patch.id, 0);
+      for_each(patch.cells, [&](const Index& i) { start[i] = exact(grid, i, 0); });
+    }
+    engine.balance_every(10);
   }
 
-  const double dt = grid.cell_size * grid.cell_size / 5;
-  while (engine.progress().time < end) engine.advance(dt, end);
-  return engine.warehouse().result(errors).greatest;
+  static Engine make_engine(const Grid& grid, Executor& executor, const Communicator& ranks)
+  {
+    PatchLayout layout(grid, {4, 4, 1});
+    layout.give_to_ranks(std::vector<int>(16, 0), ranks.size());
+    const HostData host{{&temperature, &errors}, {}};
+    return Engine(layout, {"plate"}, {{{diffuse(grid), compare(grid)}, host}}, executor, ranks);
+  }
+
+  void run_to(double end)
+  {
+    const double dt = grid.cell_size * grid.cell_size / 5;
+    while (engine.progress().time < end) engine.advance(dt, end);
+  }
+
+  // In the last step, and in all steps so far.
+  double error() { return engine.warehouse().result(errors).greatest; }
+  double greatest_error() { return engine.warehouse().total(errors).greatest; }
+
+  Grid grid;
+  Engine engine;
+};
+
+// The greatest error of a plate that goes on from what the folder keeps.
+double error_of_restarted(int n, double end, const std::filesystem::path& folder, Executor& executor,
+                          const Communicator& ranks)
+{
+  Plate plate(n, executor, ranks);
+  std::vector<std::string> refused;
+  plate.engine.restart(newest_checkpoint(folder, refused, ranks).value());
+  plate.run_to(end);
+  return plate.greatest_error();
 }
 
 int main(int argc, char** argv)
 {
   const MpiSession mpi(argc, argv);
   const Communicator ranks = Communicator::world();
-  const double coarse = error_of_heat(16, 0.02, 2, ranks), fine = error_of_heat(32, 0.02, 2, ranks);
+  const std::filesystem::path folder = argc > 1 ? argv[1] : "heat";
+  Executor executor(2);
+  const double middle = 0.01, end = 0.02;
+  Plate coarse(16, executor, ranks), fine(32, executor, ranks);
+  coarse.run_to(end);
+  fine.run_to(middle);
+  fine.engine.write_checkpoint(folder, "plate of 32 x 32 cells", {}, 1);
+  fine.run_to(end);
+  const double restarted = error_of_restarted(32, end, folder, executor, ranks);
+
+  const double order = std::log2(coarse.error() / fine.error());
+  const std::string profile = to_text(to_json(fine.engine.profile(), fine.engine.warehouse().ledger(), ranks));
   if (ranks.is_first()) {
-    fmt::print("greatest error on 16 x 16 cells {:.17g}, on 32 x 32 {:.17g}: order {:.3f}\n", coarse, fine,
-               std::log2(coarse / fine));
+    fmt::print("error at the end on 16 x 16 cells {:.17g}, on 32 x 32 {:.17g}: order {:.3f}\n", coarse.error(),
+               fine.error(), order);
+    fmt::print("greatest error until then {:.17g}, restarted {:.17g}\n", fine.greatest_error(), restarted);
+    for (const Rebalance& deal : fine.engine.rebalances()) {
+      fmt::print(stderr, "patches dealt anew before step {}\n", deal.step);
+    }
+    fmt::print(stderr, "{}", profile);
   }
-  return std::abs(std::log2(coarse / fine) - 2) < 0.1 ? EXIT_SUCCESS : EXIT_FAILURE;
+  const bool is_good = std::abs(order - 2) < 0.1 && restarted == fine.greatest_error();
+  return is_good ? EXIT_SUCCESS : EXIT_FAILURE;
 }

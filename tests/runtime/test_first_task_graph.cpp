@@ -5,6 +5,8 @@
 #include <sstream>
 #include <string>
 
+#include "tests/runtime/storage/temporary_folder.hpp"
+
 namespace test_first_task_graph
 {
 
@@ -48,19 +50,34 @@ TEST_CASE("the page on the first task graph shows lines of its program, and no o
     CHECK(program.find(page.substr(begin, end - begin)) != std::string::npos);
     ++n_blocks;
   }
-  CHECK(n_blocks == 7);
+  CHECK(n_blocks == 12);
 }
 
-TEST_CASE("the program of the first task graph finds its order, and the same digits on three ranks", "[mpiexec]")
+TEST_CASE("the program of the first task graph finds its order, restarts and is balanced on any ranks", "[mpiexec]")
 {
-  const Run alone = run(TAMP_FIRST_TASK_GRAPH);
-  const Run together = run("OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 " TAMP_MPIEXEC
-                           " -np 3 --oversubscribe --bind-to none " TAMP_FIRST_TASK_GRAPH);
+  const tamp::test::TemporaryFolder folder;
+  const std::string log = folder.path / "log", arguments = " " + (folder.path / "plate").string() + " 2> " + log;
+  const auto log_has = [&](const std::string& words) {
+    std::stringstream text;
+    text << std::ifstream(log).rdbuf();
+    return text.str().find(words) != std::string::npos;
+  };
+
+  const Run alone = run(TAMP_FIRST_TASK_GRAPH + arguments);
 
   CHECK(alone.status == 0);
-  CHECK(together.status == 0);
   CHECK(alone.output.find("order 1.9") != std::string::npos);
-  CHECK(together.output == alone.output);
+  CHECK(log_has("diffuse"));
+  CHECK_FALSE(log_has("dealt anew"));
+  for (const char* n_ranks : {"2", "3"}) {
+    const Run together = run(std::string("OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 " TAMP_MPIEXEC
+                                         " --oversubscribe --bind-to none -np ") +
+                             n_ranks + " " TAMP_FIRST_TASK_GRAPH + arguments);
+    CHECK(together.status == 0);
+    CHECK(together.output == alone.output);
+    CHECK(log_has("diffuse"));
+    CHECK(log_has("dealt anew before step 10"));
+  }
 }
 
 }  // namespace test_first_task_graph

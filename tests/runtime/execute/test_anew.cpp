@@ -54,11 +54,11 @@ TEST_CASE("a label that begins anew is summed from zero, and what was read befor
   std::vector<TaskDeclaration> tasks{give("give once", share.reference(), 1), give("give again", share.reference(), 2),
                                      keep("keep first", first_sum), give("give anew", share.anew(), 10),
                                      keep("keep second", second_sum)};
-  Engine engine(layout, {"only"}, {{std::move(tasks), {{}, {&first_sum, &second_sum}}}}, executor->n_threads(), all);
+  Engine engine(layout, {"only"}, {{std::move(tasks), {{}, {&first_sum, &second_sum}}}}, *executor, all);
 
   bool as_expected = true;
   for (long step = 0; step < 20; ++step) {
-    engine.advance(*executor, {step, 0, 1, 1});
+    engine.advance(1);
     for (const Patch& patch : layout) {
       if (patch.rank != all.rank()) continue;
       const auto first = engine.warehouse().grid_result(first_sum, patch.id, 0);

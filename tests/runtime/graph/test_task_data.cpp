@@ -73,11 +73,11 @@ TEST_CASE("a label that is declared on a condition which does not hold is empty,
                    has_weight = !data[weight].empty();
                    n_volumes = data[volume].size();
                  });
-  Engine engine(layout, {"only"}, {{{std::move(weigh), std::move(use)}, {{&mass}, {&volume, &weight}}}}, 1);
-  engine.warehouse().set_n_particles(0, 0, 3);
   Executor executor(1);
+  Engine engine(layout, {"only"}, {{{std::move(weigh), std::move(use)}, {{&mass}, {&volume, &weight}}}}, executor);
+  engine.warehouse().set_n_particles(0, 0, 3);
 
-  engine.advance(executor, {});
+  engine.advance(1);
 
   CHECK(n_masses == (is_there ? 3U : 0U));
   CHECK(has_weight == is_there);
@@ -99,12 +99,12 @@ TEST_CASE("a label of the start or of the end of the step is asked for by itself
                   .reads(mass.at(end))
                   .computes(volume)
                   .body([&](const TaskContext&, auto data) { seen = data[mass][0]; });
-  Engine engine(layout, {"only"}, {{{std::move(grow), std::move(look)}, {{&mass}, {&volume}}}}, 1);
+  Executor executor(1);
+  Engine engine(layout, {"only"}, {{{std::move(grow), std::move(look)}, {{&mass}, {&volume}}}}, executor);
   engine.warehouse().set_n_particles(0, 0, 1);
   engine.warehouse().state(mass, 0, 0)[0] = 5;
-  Executor executor(1);
 
-  engine.advance(executor, {});
+  engine.advance(1);
 
   CHECK(seen == (end == StepEnd::start ? 5 : 6));
 }
