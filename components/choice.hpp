@@ -23,7 +23,7 @@ class Choice
 {
  public:
   /// By its word, `Choice("flip")`; a word that there is not does not compile.
-  consteval Choice(const char* word) : number_(number_of(word)) {}  // NOLINT(google-explicit-constructor)
+  consteval Choice(const char* word) : number_(number_of(word)) {}
   /// By its place among the alternatives.
   explicit constexpr Choice(int number) : number_(number) {}
   explicit constexpr operator int() const { return number_; }
