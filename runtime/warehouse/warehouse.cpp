@@ -134,7 +134,12 @@ double Warehouse::forecast_bytes(std::span<const TaskGraph* const> graphs, std::
   double bytes = 0;
   for (const LabelUse& use : merged_uses(graphs)) {
     const Centring centring = use.label->centring();
-    if (has_one_value(centring)) continue;
+    if (has_one_value(centring)) {
+      // A reduction has parts of all patches, of each group and of none, beside the whole.
+      const double n_parts = centring == Centring::global ? 0 : layout.size() * (graphs.front()->n_groups() + 1.0);
+      bytes += (int{use.state} + int{use.computed} + n_parts) * static_cast<double>(use.label->value_bytes());
+      continue;
+    }
     const bool of_particles = centring == Centring::particle;
     const int n_buffers =
         int{use.state} + int{use.computed || (of_particles && !use.state)} + int{use.accumulated && !of_particles};

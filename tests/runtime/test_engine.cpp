@@ -3,8 +3,8 @@
 #include <catch2/catch.hpp>
 
 #include "runtime/step_error.hpp"
+#include "runtime/storage/temporary_folder.hpp"
 #include "tests/runtime/heat.hpp"
-#include "tests/runtime/storage/temporary_folder.hpp"
 
 namespace tamp::test::test_engine
 {
@@ -71,14 +71,14 @@ TEST_CASE("an engine goes on from a checkpoint to the same bits, however patches
   {
     Heat heat = plate(ranks);
     heat.run(12, dt);
-    heat.engine.write_checkpoint(folder.path, "plate", own, 1);
+    heat.engine.write_checkpoint(folder.path(), "plate", own, 1);
   }
   Heat heat = plate(ranks, 1);
   heat.engine.balance_every(5);
   heat.run(6, dt);
   std::vector<std::string> refused;
 
-  CHECK(heat.engine.restart(newest_checkpoint(folder.path, refused, ranks).value()) == own);
+  CHECK(heat.engine.restart(newest_checkpoint(folder.path(), refused, ranks).value()) == own);
   heat.run(8, dt);
 
   CHECK(all_of(heat) == alone(20));

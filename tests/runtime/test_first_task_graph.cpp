@@ -5,7 +5,7 @@
 #include <sstream>
 #include <string>
 
-#include "tests/runtime/storage/temporary_folder.hpp"
+#include "runtime/storage/temporary_folder.hpp"
 
 namespace test_first_task_graph
 {
@@ -55,8 +55,8 @@ TEST_CASE("the page on the first task graph shows lines of its program, and no o
 
 TEST_CASE("the program of the first task graph finds its order, restarts and is balanced on any ranks", "[mpiexec]")
 {
-  const tamp::test::TemporaryFolder folder;
-  const std::string log = folder.path / "log", arguments = " " + (folder.path / "plate").string() + " 2> " + log;
+  const tamp::runtime::TemporaryFolder folder;
+  const std::string log = folder.path() / "log", arguments = " " + (folder.path() / "plate").string() + " 2> " + log;
   const auto log_has = [&](const std::string& words) {
     std::stringstream text;
     text << std::ifstream(log).rdbuf();

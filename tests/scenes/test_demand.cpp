@@ -32,7 +32,6 @@ TEST_CASE("the memory of fields that is forecast from labels is what a simulatio
   for (std::size_t m = 0; m < scene.materials.size(); ++m) n_particles += simulation->n_particles(static_cast<int>(m));
   INFO(name);
   CHECK(demand.n_particles == n_particles);
-  // Sums over all particles, which are few, are not forecast.
   CHECK(demand.fields == Approx(static_cast<double>(simulation->forecast_bytes())).epsilon(0.03));
   double copied = 0;
   for (const auto& bytes : simulation->engine().copy_checkpoint("", {}).bytes)
