@@ -60,8 +60,10 @@ function(tamp_library room)
   tamp_unite_folders(tamp_${room})
 endfunction()
 
-# Where CMAKE_UNITY_BUILD is on, the sources of a folder are compiled as one: what they borrow is read, and its
-# templates are made, once. Sources with options of their own stay by themselves.
+# Where CMAKE_UNITY_BUILD is on, the sources of a folder are compiled as one, or as a few where there are more than
+# TAMP_MOST_UNITED: what they borrow is read, and its templates are made, once. Sources with options of their own stay
+# by themselves.
+set(TAMP_MOST_UNITED 16)
 function(tamp_unite_folders target)
   get_target_property(sources ${target} SOURCES)
   foreach(source IN LISTS sources)
@@ -69,9 +71,30 @@ function(tamp_unite_folders target)
     cmake_path(ABSOLUTE_PATH folder)
     cmake_path(RELATIVE_PATH folder BASE_DIRECTORY ${PROJECT_SOURCE_DIR})
     string(MAKE_C_IDENTIFIER "${folder}" group)
-    set_source_files_properties(${source} PROPERTIES UNITY_GROUP ${group})
+    list(APPEND groups ${group})
+    list(APPEND sources_of_${group} ${source})
+  endforeach()
+  list(REMOVE_DUPLICATES groups)
+  foreach(group IN LISTS groups)
+    list(LENGTH sources_of_${group} n)
+    math(EXPR n_units "(${n} + ${TAMP_MOST_UNITED} - 1) / ${TAMP_MOST_UNITED}")
+    set(i 0)
+    foreach(source IN LISTS sources_of_${group})
+      math(EXPR unit "${i} * ${n_units} / ${n}")
+      math(EXPR i "${i} + 1")
+      set(name ${group})
+      if(unit GREATER 0)
+        string(APPEND name _${unit})
+      endif()
+      set_source_files_properties(${source} PROPERTIES UNITY_GROUP ${name})
+    endforeach()
   endforeach()
   set_target_properties(${target} PROPERTIES UNITY_BUILD_MODE GROUP)
+endfunction()
+
+# Sources that take the compiler long, or much memory, stay by themselves there.
+function(tamp_compile_alone)
+  set_source_files_properties(${ARGN} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
 endfunction()
 
 # What is not worth more of the compiler's time: it is no part of a time step.

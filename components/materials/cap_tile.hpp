@@ -7,6 +7,7 @@
 
 #include "components/materials/cap_integrator.hpp"
 #include "components/materials/cap_lanes.hpp"
+#include "components/moduli/modulus.hpp"
 #include "components/packs.hpp"
 
 namespace tamp::components
@@ -34,19 +35,7 @@ class CapTile
   }
 
   /// Brings all that were taken in to the end of their step.
-  void advance()
-  {
-    for (List& list : starting_) {
-      list.for_each_pack([&](const Pack& pack) { try_whole(pack); });
-      list.clear();
-      judge_under_way();
-      while (!under_way_.empty()) {
-        under_way_.for_each_pack([&](const Pack& pack) { substep(pack, sizes(pack)); });
-        judge_under_way();
-      }
-    }
-    one_.counts().modulus_evaluations += static_cast<std::size_t>(reduce(std::exchange(n_evaluations_, 0.0)));
-  }
+  void advance();
 
   /// The end of the step of particles from number `first` on.
   CapOutcomeOf<Lanes> lanes_at(std::size_t first) const { return tried_.lanes_at(first); }
@@ -111,5 +100,29 @@ class CapTile
   List left_;
   Lanes n_evaluations_ = 0.0;  ///< by CapLanes, of the elastic model
 };
+
+template <class Model>
+void CapTile<Model>::advance()
+{
+  for (List& list : starting_) {
+    list.for_each_pack([&](const Pack& pack) { try_whole(pack); });
+    list.clear();
+    judge_under_way();
+    while (!under_way_.empty()) {
+      under_way_.for_each_pack([&](const Pack& pack) { substep(pack, sizes(pack)); });
+      judge_under_way();
+    }
+  }
+  one_.counts().modulus_evaluations += static_cast<std::size_t>(reduce(std::exchange(n_evaluations_, 0.0)));
+}
+
+// Each takes the compiler ten seconds: they are made in cap_tile_*.cpp. Those of other models are made where they are
+// used.
+extern template class CapTile<UnloadingTable>;
+extern template class CapTile<ModulusSurface>;
+extern template class CapTile<SupportVectorModulus>;
+extern template class CapTile<EngineeringStrain<SupportVectorModulus>>;
+extern template class CapTile<NetworkModulus>;
+extern template class CapTile<EngineeringStrain<NetworkModulus>>;
 
 }  // namespace tamp::components

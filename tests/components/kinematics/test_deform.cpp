@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "components/kinematics/deform.hpp"
+#include "components/kinematics/strain_increment.hpp"
 
 namespace test_deform
 {

@@ -1,0 +1,9 @@
+#include "components/materials/cap_tile.hpp"
+
+namespace tamp::components
+{
+
+template class CapTile<NetworkModulus>;
+template class CapTile<EngineeringStrain<NetworkModulus>>;
+
+}  // namespace tamp::components
