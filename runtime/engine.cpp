@@ -144,6 +144,7 @@ CheckpointCopy Engine::copy_checkpoint(const std::string& fingerprint, std::span
   std::unique_ptr<Watchdog::Watch> watch;
   const auto for_all = [&](int n, const auto& work) {
     on_workers(executor_, n, work);
+    // NOLINTNEXTLINE(modernize-make-unique): a Watch cannot be moved into its place
     watch.reset(new Watchdog::Watch(executor_.watch("gathering the state")));
   };
   return runtime::copy_checkpoint(header(fingerprint), host, warehouse(), group_names_, for_all, communicator_);

@@ -76,9 +76,10 @@ Method<D>::Method(const Scene& given)
 template <int D>
 std::vector<int> Method<D>::rigid_materials() const
 {
-  std::vector<int> materials;
-  for (const RigidBody& body : rigid_bodies) materials.push_back(body.material);
-  return materials;
+  std::vector<int> of_bodies;
+  of_bodies.reserve(rigid_bodies.size());
+  for (const RigidBody& body : rigid_bodies) of_bodies.push_back(body.material);
+  return of_bodies;
 }
 
 template <int D>

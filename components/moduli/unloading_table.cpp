@@ -205,8 +205,9 @@ void UnloadingTable::check_rises(std::span<const double> elastic, std::span<cons
                                  double plastic) const
 {
   const auto falls = std::adjacent_find(elastic.begin(), elastic.end(), std::greater_equal<>());
-  if (falls != elastic.end())
-    refuse_between_curves("strain does not rise", pressures[falls - elastic.begin()], plastic);
+  if (falls == elastic.end()) return;
+  const auto at = static_cast<std::size_t>(falls - elastic.begin());
+  refuse_between_curves("strain does not rise", pressures[at], plastic);
 }
 
 void UnloadingTable::refuse_between_curves(const std::string& found, double pressure, double plastic) const

@@ -32,7 +32,8 @@ void for_each_pair(const Act& act, std::array<T, n>& a, const std::array<T, n>& 
   for (std::size_t k = 0; k < n; ++k) for_each_pair(act, a[k], b[k]);
 }
 
-/// The rules: of values with a <, the least or the greatest; of whole numbers all bits that are set in any part.
+/// The rules, whose guides clang 14 needs: of values with a <, the least or the greatest; of whole numbers all bits
+/// that are set in any part.
 template <class Struct, class Member>
 struct Least {
   Member Struct::*member;
@@ -43,6 +44,8 @@ struct Least {
   }
 };
 template <class Struct, class Member>
+Least(Member Struct::*) -> Least<Struct, Member>;
+template <class Struct, class Member>
 struct Greatest {
   Member Struct::*member;
 
@@ -52,6 +55,8 @@ struct Greatest {
   }
 };
 template <class Struct, class Member>
+Greatest(Member Struct::*) -> Greatest<Struct, Member>;
+template <class Struct, class Member>
 struct AnyBit {
   Member Struct::*member;
 
@@ -60,6 +65,8 @@ struct AnyBit {
     for_each_pair([](auto& a, const auto& b) { a |= b; }, into, part);
   }
 };
+template <class Struct, class Member>
+AnyBit(Member Struct::*) -> AnyBit<Struct, Member>;
 
 template <class T>
 void combine(T& into, const T& part);

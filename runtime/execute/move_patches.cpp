@@ -65,6 +65,7 @@ void move_patches(Warehouse& from, Warehouse& to, const Communicator& communicat
   }
   const std::vector<std::vector<std::byte>> from_each = communicator.exchange(to_each);
   std::vector<const std::byte*> at;
+  at.reserve(from_each.size());
   for (const auto& bytes : from_each) at.push_back(bytes.data());
   for (const Patch& patch : to.layout()) {
     if (!to.is_local(patch)) continue;

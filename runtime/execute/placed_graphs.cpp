@@ -17,6 +17,7 @@ std::deque<TaskGraph> compiled(const std::vector<GraphTasks>& graphs, const Patc
 std::vector<const TaskGraph*> pointers_to(const std::deque<TaskGraph>& graphs)
 {
   std::vector<const TaskGraph*> all;
+  all.reserve(graphs.size());
   for (const TaskGraph& graph : graphs) all.push_back(&graph);
   return all;
 }

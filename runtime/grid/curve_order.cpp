@@ -57,6 +57,7 @@ std::vector<int> curve_order(const Index& n)
   });
   std::sort(places.begin(), places.end());
   std::vector<int> order;
+  order.reserve(places.size());
   for (const auto& [place, number] : places) order.push_back(number);
   return order;
 }

@@ -218,7 +218,7 @@ std::string Location::text_attribute(const std::string& name) const
   const Type type(checked(H5Aget_type(attribute)));
   std::string text(H5Tget_size(type), '\0');
   checked(H5Aread(attribute, type, text.data()));
-  return text.c_str();
+  return text.substr(0, text.find('\0'));
 }
 
 DatasetInfo Location::info(const std::string& path) const
@@ -249,7 +249,7 @@ std::string Location::read_text(const std::string& path) const
   const Type type(checked(H5Dget_type(dataset)));
   std::string text(H5Tget_size(type), '\0');
   checked(H5Dread(dataset, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, text.data()));
-  return text.c_str();
+  return text.substr(0, text.find('\0'));
 }
 
 OpenFile::OpenFile(const fs::path& file, Access access, std::string doing, const Communicator& communicator)

@@ -17,7 +17,7 @@ template <int D>
 void check_failed_updates(const Method<D>& method, const StepTotals& before, const StepTotals& step)
 {
   const std::size_t failures = before.updates.failures + step.updates.failures;
-  const int allowed = method.scene.failed_updates_allowed;
+  const long allowed = method.scene.failed_updates_allowed;
   if (failures <= static_cast<std::size_t>(allowed)) return;
   const FailedUpdate& failed = step.failed;
   const SceneMaterial& material = method.materials[static_cast<std::size_t>(failed.material)];

@@ -40,7 +40,8 @@ runtime::TaskList count_lost(const Method<D>&)
                 const runtime::Grid& grid = at.layout.grid();
                 const std::vector<std::size_t> axes = open_axes(grid, at.patch);
                 const auto stays = [&](const Vector<D>& x) {
-                  return std::all_of(axes.begin(), axes.end(), [&](std::size_t k) { return grid.spans(k, x[k]); });
+                  return std::all_of(axes.begin(), axes.end(),
+                                     [&](std::size_t k) { return grid.spans(k, x[static_cast<int>(k)]); });
                 };
                 for (std::size_t p = 0; p < mass.size(); ++p) {
                   if (stays(position[p])) continue;

@@ -195,6 +195,7 @@ void write_checkpoint(const fs::path& folder, const CheckpointHeader& header, st
 {
   const std::vector<StateTable> tables = state_tables(warehouse, group_names);
   std::vector<std::vector<PatchEntry>> own;
+  own.reserve(tables.size());
   for (const StateTable& table : tables) own.push_back(own_entries(table, communicator));
   const CheckpointContents contents =
       contents_of(header, host, warehouse.layout(), group_names, checkpoint_tables(tables, own, communicator));
