@@ -15,9 +15,12 @@ struct Word {
   std::string_view word;
   Value value;
   std::string_view meaning{};
+  /// What it was in earlier versions, where that is still read.
+  std::string_view old_word{};
 };
 
-/// One of the alternatives of a variant, each of which has a `word`, its name in scenes, and a `meaning`.
+/// One of the alternatives of a variant, each of which has a `word`, its name in scenes, a `meaning`, and where it was
+/// renamed an `old_word`.
 template <class Alternatives>
 class Choice
 {
@@ -36,6 +39,7 @@ class Choice
     std::vector<Word<Choice>> all;
     for_each_alternative<Alternatives>([&]<class T>(std::type_identity<T>) {
       all.push_back({T::word, Choice(static_cast<int>(all.size())), T::meaning});
+      if constexpr (requires { T::old_word; }) all.back().old_word = T::old_word;
     });
     return all;
   }

@@ -3,9 +3,9 @@
 #include <cstdint>
 #include <tuple>
 
+#include "components/anti_locking/cell_average.hpp"
 #include "components/contact/logistic_plane.hpp"
 #include "components/loads/pressure_load.hpp"
-#include "components/relief/cell_average.hpp"
 #include "components/shapes/node_sums.hpp"
 #include "components/tensors.hpp"
 #include "runtime/data/label.hpp"

@@ -37,7 +37,7 @@ Method<D>::Method(const Scene& given)
       n_passes(with_transfer([](const auto& transfer) { return transfer.n_passes(); })),
       amplification(with_transfer([](const auto& transfer) -> double { return transfer.amplification(); })),
       deformation_update(scene.deformation_update),
-      relief(scene.relief),
+      anti_locking(scene.anti_locking),
       stress_timing(scene.stress_timing),
       cell_size(scene.grid.cell_size),
       least_node_mass(least_weight * least_particle_mass(scene)),

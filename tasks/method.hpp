@@ -90,7 +90,7 @@ struct Method {
   std::vector<int> rigid_materials() const;
 
   /// Whether the particles of a cell share the changes of its volume and the stress that works against them.
-  bool deforms_as_cells() const { return relief == Relief::cell_average && !deformable_materials.empty(); }
+  bool deforms_as_cells() const { return anti_locking == AntiLocking::cell_average && !deformable_materials.empty(); }
 
   /// What gravity and a steady centrifuge have done to matter that is at x, less what they have at the origin, per mass
   /// [J/kg]. A centrifuge that speeds up has no such function, and is left out.
@@ -109,7 +109,7 @@ struct Method {
   /// Of the motion of nodes by the transfer, for the bound on the step.
   double amplification;
   DeformationUpdate deformation_update;
-  Relief relief;
+  AntiLocking anti_locking;
   StressTiming stress_timing;
   double cell_size;
   /// Nodes with less mass [kg] are not accelerated: they are touched by an edge of a particle to within round-off, and

@@ -8,6 +8,7 @@
 #include <variant>
 #include <vector>
 
+#include "components/anti_locking/anti_locking.hpp"
 #include "components/choice.hpp"
 #include "components/contact/contact_table.hpp"
 #include "components/geometry/solid.hpp"
@@ -19,7 +20,6 @@
 #include "components/materials/material_model.hpp"
 #include "components/parameter.hpp"
 #include "components/problems/body_functions.hpp"
-#include "components/relief/relief.hpp"
 #include "components/rigid/prescribed_motion.hpp"
 #include "components/shapes/interpolator.hpp"
 #include "components/transfers/transfers.hpp"
@@ -53,7 +53,7 @@ inline std::vector<components::Word<StressTiming>> words_of(StressTiming)
 {
   return {{"usl", StressTiming::usl, "last, by those that move particles"},
           {"usf", StressTiming::usf,
-           "first, by those that particles bring, not for `\"affine\"` with sand that `comes_apart`"},
+           "first, by those that particles bring, not for `\"tflip\"` with sand whose `separation` is on"},
           {"musl", StressTiming::musl, "last, by those that particles bring back with their new velocities"}};
 }
 
@@ -61,8 +61,8 @@ using components::Interpolator;
 
 using components::Transfer;
 
+using components::AntiLocking;
 using components::DeformationUpdate;
-using components::Relief;
 using components::StepRule;
 
 struct SceneTime {
@@ -216,7 +216,7 @@ struct Scene {
   Transfer transfer = "flip";
   components::TransferNumbers transfer_numbers{};
   DeformationUpdate deformation_update = "exact";
-  Relief relief = Relief::none;
+  AntiLocking anti_locking = AntiLocking::none;
   StressTiming stress_timing = StressTiming::usl;
   /// Along each axis of a cell.
   int particles_per_axis = 2;

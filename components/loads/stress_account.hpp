@@ -47,7 +47,7 @@ struct StressAccount {
 };
 
 /// Artificial viscosity, energies, and the bound on the next step of `dt` [s], in lanes: each particle gets the bits
-/// that scalar code gives it. Where no modulus is, matter has come apart.
+/// that scalar code gives it. Where no modulus is, matter has separated.
 template <int D, std::size_t N>
 void account_for_stress(const AccountRules& rules, double dt, const StressedBatch<D>& batch,
                         std::span<double> viscous_pressure, StressAccount<N>& account)

@@ -72,7 +72,7 @@ inline double greatest_own_stiffness(int dimension, int n_per_axis, double along
   return portable::pow(std::max(1.0, 0.5 * n_per_axis), dimension - 1) * dimension * along_axis;
 }
 
-/// Bound for matter that has come apart and so has no waves, as a part of those above: it moves at most a tenth of a
+/// Bound for matter that has separated and so has no waves, as a part of those above: it moves at most a tenth of a
 /// cell in a step, so that a collision compacts it by no more than that at once.
 constexpr double part_of_step_apart = 0.1;
 

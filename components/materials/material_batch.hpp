@@ -18,7 +18,7 @@
 ///    or a `read_model` of its own in tools/scene/read_material.cpp;
 ///  - `initial_moduli()`, K and G without strain;
 ///  - `update(model, batch, counts)`, which answers a batch of particles;
-///  - where it may lose all stiffness, `may_come_apart()`;
+///  - where it may lose all stiffness, `may_separate()`;
 ///  - with a state, `state_name`, and `columns()` and `extremes()`, what output shows of it, see state_columns.hpp;
 ///  - where the stress follows from the deformation gradient alone, `stored_energy<D>(deformation_gradient)`.
 ///
@@ -61,7 +61,7 @@ struct MaterialBatch {
   std::span<SymmetricTensor<D>> stress;
   /// New; may be the same memory as `old_state`.
   std::span<State> state;
-  /// For waves in the material as it now is [Pa]; zero where it has come apart.
+  /// For waves in the material as it now is [Pa]; zero where it has separated.
   std::span<double> bulk_modulus;
   std::span<double> shear_modulus;
   /// Work on the step's plastic strain [J per m3 of current volume], not negative.

@@ -5,7 +5,7 @@
 namespace tamp::components
 {
 
-/// Sand that comes apart: grains that fly by themselves bear nothing and resist nothing until their volume is again
+/// Sand that separates: grains that fly by themselves bear nothing and resist nothing until their volume is again
 /// what it was when they parted. That they bear nothing below a density is from S. Dunatunga and K. Kamrin, Continuum
 /// modelling and simulation of granular flows through their many phases, J. Fluid Mech. 779, 2015; here they must have
 /// been torn from each other too, at the tension vertex. Volumes are det F, over that at the start.
@@ -18,13 +18,13 @@ inline bool is_torn(const TabularCap& sand, double pressure, double j2)
   return j2 == 0 && pressure <= (1 - round_off) * sand.parameters().yield.vertex_pressure();
 }
 
-/// Whether what is torn is so light that it comes apart.
+/// Whether what is torn is so light that it separates.
 inline bool is_light(const TabularCap& sand, double volume)
 {
   return volume * sand.parameters().separation_density.value() > 1;
 }
 
-/// Energy that is lost as a particle at the tension vertex comes apart, beside the work on its plastic strain in that
+/// Energy that is lost as a particle at the tension vertex separates, beside the work on its plastic strain in that
 /// step, of which it may take back a part [J per m3 of current volume]. That is what it has stored, p^2 / 2K, less what
 /// its stress would still have done: the work of a step is that of the mean of the stresses at its ends (see
 /// update_stress.cpp), and the one at this end is now zero. `expansion` is the step's.

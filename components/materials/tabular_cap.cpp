@@ -118,7 +118,7 @@ constexpr std::array<StateColumn<TabularCap>, 8> cap_columns{{
      [](const auto&, const CapState& s, const auto&) { return static_cast<double>(s.n_failures); },
      Shown::in_field_files},
     {"apart", "", [](const auto&, const CapState& s, const auto&) { return s.separation_volume > 0 ? 1.0 : 0.0; },
-     Shown::in_field_files, [](const TabularCap& sand) { return sand.may_come_apart(); }},
+     Shown::in_field_files, [](const TabularCap& sand) { return sand.may_separate(); }},
     {"in_range", "", in_range, Shown::by_drive},
     {"outside", "-", outside, Shown::by_drive},
 }};
@@ -151,7 +151,7 @@ class CapBatch
       : sand_(sand),
         model_(model),
         batch_(batch),
-        may_part_(sand.may_come_apart()),
+        may_part_(sand.may_separate()),
         integrator_(sand, model),
         tile_(integrator_)
   {
@@ -303,7 +303,7 @@ class CapBatch
     ++counts_.apart;
   }
 
-  /// After an update, of a particle that was apart until then (from `parted_at` on) or may come apart now.
+  /// After an update, of a particle that was apart until then (from `parted_at` on) or may separate now.
   void join_or_part(std::size_t i, double parted_at, double pressure, double j2)
   {
     if (parted_at > 0) {

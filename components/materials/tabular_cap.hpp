@@ -49,7 +49,7 @@ struct TabularCapParameters {
   YieldSurface yield;
   double tolerance = usual_tolerance;  ///< of the stress in one step, relative: sets the number of substeps
   int max_substeps = usual_max_substeps;
-  /// Part of the initial density below which sand at the tension vertex comes apart, see separation.hpp; without it, it
+  /// Part of the initial density below which sand at the tension vertex separates, see separation.hpp; without it, it
   /// never does.
   std::optional<double> separation_density{};
 };
@@ -60,7 +60,7 @@ class TabularCap
   using State = CapState;
   static constexpr std::string_view type = "tabular_cap";
   static constexpr char state_name[] = "cap state";
-  /// Strains, the crush pressure X "cap", the tangent bulk modulus "K", failed updates, whether it has come apart; of a
+  /// Strains, the crush pressure X "cap", the tangent bulk modulus "K", failed updates, whether it has separated; of a
   /// single point also whether the elastic model was asked within its range, and how far the stress is outside of the
   /// yield surface, over the length of that, crush pressure less tension vertex.
   static std::span<const StateColumn<TabularCap>, 8> columns();
@@ -72,7 +72,7 @@ class TabularCap
   const TabularCapParameters& parameters() const { return parameters_; }
   double poisson_ratio() const { return parameters_.poisson_ratio; }
 
-  bool may_come_apart() const { return parameters_.separation_density.has_value(); }
+  bool may_separate() const { return parameters_.separation_density.has_value(); }
 
   /// G / K.
   double shear_ratio() const { return shear_ratio_; }
@@ -106,7 +106,7 @@ class TabularCap
 /// smaller than the increment over `max_substeps`, and one of that size is taken whatever its error, and counted. An
 /// increment larger than 0.2 is refused. A particle that cannot be updated keeps its stress and strains, and is marked
 /// in its state and counted; the answer is the first of them. `counts` is added to. Deformation gradients are looked at
-/// only of sand that may come apart: while it is, stress and moduli are zero.
+/// only of sand that may separate: while it is, stress and moduli are zero.
 template <int D>
 BatchFailure update(const TabularCap& sand, const MaterialBatch<D, CapState>& batch, UpdateCounts& counts);
 

@@ -4,12 +4,12 @@
 #include <variant>
 
 #include "components/choice.hpp"
-#include "components/transfers/affine.hpp"
 #include "components/transfers/apic.hpp"
 #include "components/transfers/blend.hpp"
 #include "components/transfers/flip.hpp"
 #include "components/transfers/fmpm.hpp"
 #include "components/transfers/pic.hpp"
+#include "components/transfers/tflip.hpp"
 #include "components/transfers/tpic.hpp"
 #include "components/transfers/xpic.hpp"
 
@@ -17,7 +17,7 @@ namespace tamp::components
 {
 
 /// All the transfers there are, see transfer.hpp; one more is added here.
-using Transfers = std::variant<Flip, Pic, Blend, Affine, Apic, Tpic, Xpic, Fmpm>;
+using Transfers = std::variant<Flip, Pic, Blend, Tflip, Apic, Tpic, Xpic, Fmpm>;
 
 /// How velocities go between particles and grid; docs/method.md says what each is for.
 using Transfer = Choice<Transfers>;

@@ -6,9 +6,9 @@
 #include <cstddef>
 #include <span>
 
+#include "components/anti_locking/f_bar.hpp"
+#include "components/anti_locking/volume_changes.hpp"
 #include "components/kinematics/deform.hpp"
-#include "components/relief/f_bar.hpp"
-#include "components/relief/volume_changes.hpp"
 #include "components/shapes/transfer.hpp"
 #include "tasks/labels.hpp"
 #include "tasks/method.hpp"
@@ -76,7 +76,7 @@ void take_gradients(const Method<D>& method, const runtime::TaskContext& at, con
   std::array<Matrix<D>, motion_batch> buffer;
   const auto g = std::span(buffer).first(motion.size());
   for (std::size_t i = 0; i < g.size(); ++i) g[i] = at.step.size * motion[i].velocity_gradient;
-  if (method.relief == components::Relief::f_bar) {
+  if (method.anti_locking == components::AntiLocking::f_bar) {
     std::array<Matrix<D>, motion_batch> at_centre;
     std::array<double, motion_batch> change;
     const auto centres = std::span(at_centre).first(g.size());

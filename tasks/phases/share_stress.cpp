@@ -1,4 +1,4 @@
-#include "components/relief/cell_average.hpp"
+#include "components/anti_locking/cell_average.hpp"
 #include "tasks/phases/phases.hpp"
 #include "tasks/phases/places.hpp"
 

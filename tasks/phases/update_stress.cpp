@@ -179,12 +179,12 @@ runtime::TaskDeclaration with_body(const Method<D>& method, const Model& model, 
   }
 }
 
-/// Where particles take the velocity of the nodes, these have slowed the motion within what comes apart.
+/// Where particles take the velocity of the nodes, these have slowed the motion within what separates.
 template <class Model>
 bool forgets_gradients(const Model& model, const Scene& scene)
 {
-  if constexpr (requires { model.may_come_apart(); }) {
-    return model.may_come_apart() && components::brings_own_gradients(scene.transfer) &&
+  if constexpr (requires { model.may_separate(); }) {
+    return model.may_separate() && components::brings_own_gradients(scene.transfer) &&
            scene.stress_timing != StressTiming::usf;
   } else {
     return false;

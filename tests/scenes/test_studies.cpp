@@ -109,7 +109,7 @@ TEST_CASE("the short study of the bar finds second order, and the published boun
 {
   const ShortStudy study = run_short("bar");
   CHECK(study.order("GIMP, flip") == Approx(2).margin(0.15));
-  CHECK(study.order("splines, affine") == Approx(2).margin(0.15));
+  CHECK(study.order("splines, tflip") == Approx(2).margin(0.15));
   CHECK(study.methods("unstable") == std::set<std::string>{"published bound, 1"});
 }
 

@@ -50,7 +50,7 @@ TEST_CASE("bodies that collide in free space keep their mass and momentum")
 {
   const int dimension = GENERATE(2, 3);
   Scene scene = collision(dimension);
-  scene.transfer = GENERATE(Transfer("flip"), Transfer("pic"), Transfer("blend"), Transfer("affine"), Transfer("apic"),
+  scene.transfer = GENERATE(Transfer("flip"), Transfer("pic"), Transfer("blend"), Transfer("tflip"), Transfer("apic"),
                             Transfer("tpic"), Transfer("xpic"), Transfer("fmpm"));
   scene.transfer_numbers.filter_order = 3;
   scene.interpolator = GENERATE(Interpolator("gimp"), Interpolator("quadratic_spline"));
@@ -79,7 +79,7 @@ TEST_CASE("what walls and gravity give is what the particles have gained")
 {
   Scene scene = punch();
   scene.interpolator = GENERATE(Interpolator("gimp"), Interpolator("quadratic_spline"));
-  scene.transfer = GENERATE(Transfer("flip"), Transfer("affine"), Transfer("apic"), Transfer("xpic"), Transfer("fmpm"));
+  scene.transfer = GENERATE(Transfer("flip"), Transfer("tflip"), Transfer("apic"), Transfer("xpic"), Transfer("fmpm"));
   const auto simulation = Simulation::make(scene, 2);
   const ParticleReport before = simulation->report();
 

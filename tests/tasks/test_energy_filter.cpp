@@ -231,7 +231,7 @@ Scene thrown_block()
 TEST_CASE("with what particles filter out the energy of balls that meet and spin is all there")
 {
   Scene scene = spinning_balls(GENERATE(2, 3));
-  scene.transfer = GENERATE(Transfer("flip"), Transfer("affine"));
+  scene.transfer = GENERATE(Transfer("flip"), Transfer("tflip"));
   scene.interpolator = GENERATE(Interpolator("gimp"), Interpolator("quadratic_spline"));
   const double given = kinetic_at_start(scene);
 
@@ -244,7 +244,7 @@ TEST_CASE("with what particles filter out the energy of balls that meet and spin
 TEST_CASE("with what particles filter out the energy of a punch in sand is all there")
 {
   Scene scene = punch(GENERATE(2, 3));
-  scene.transfer = GENERATE(Transfer("flip"), Transfer("affine"));
+  scene.transfer = GENERATE(Transfer("flip"), Transfer("tflip"));
   const double given = kinetic_at_start(scene);
 
   const Closing seen = closing(scene, 5e-4);

@@ -66,7 +66,7 @@ TEST_CASE("a collision with losses ends with the same bits on any ranks and thre
   Scene scene = glancing_disks();
   const auto [transfer, interpolator, n_threads] = GENERATE(
       std::tuple{Transfer("flip"), Interpolator("gimp"), 1}, std::tuple{Transfer("flip"), Interpolator("gimp"), 3},
-      std::tuple{Transfer("affine"), Interpolator("quadratic_spline"), 2});
+      std::tuple{Transfer("tflip"), Interpolator("quadratic_spline"), 2});
   scene.transfer = transfer;
   scene.interpolator = interpolator;
   const Ending expected = alone(scene, 0.3);
@@ -105,7 +105,7 @@ TEST_CASE("a collision around a periodic domain ends with the same bits on any r
       GENERATE(std::pair{runtime::Index{2, 1, 1}, 3}, std::pair{runtime::Index{6, 6, 1}, 3});
   scene.n_patches = n_patches;
   const bool smooth = scene.n_patches[0] == 6;
-  scene.transfer = smooth ? GENERATE(Transfer("affine"), Transfer("apic"), Transfer("fmpm")) : Transfer("flip");
+  scene.transfer = smooth ? GENERATE(Transfer("tflip"), Transfer("apic"), Transfer("fmpm")) : Transfer("flip");
   scene.interpolator = smooth ? Interpolator("quadratic_spline") : Interpolator("gimp");
   // The disks pass all faces.
   for (SceneBody& body : scene.bodies) body.velocity[1] -= 5;

@@ -53,7 +53,7 @@ TEST_CASE("matter that fills a periodic domain flies around in it undeformed")
   scene.grid.lower = {-0.1, 0.2, 0.7};
   scene.grid.periodic = {true, true, dimension == 3};
   scene.n_patches = n_patches;
-  scene.transfer = GENERATE(Transfer("flip"), Transfer("affine"));
+  scene.transfer = GENERATE(Transfer("flip"), Transfer("tflip"));
   scene.interpolator = GENERATE(Interpolator("gimp"), Interpolator("quadratic_spline"));
   const Eigen::Vector3d v(3, -1.7, dimension == 3 ? 0.9 : 0);
   add_box(scene, add_elastic(scene, 7800, 2e5, 0.3), {-9, -9, -9}, {9, 9, 9}, {v[0], v[1], v[2]});
@@ -103,7 +103,7 @@ Scene drifting_disks(bool periodic, int n_patches)
 TEST_CASE("bodies collide across the ends of a periodic domain as they do in the middle of a long one")
 {
   const int n_patches = GENERATE(1, 2, 4);
-  const Transfer transfer = GENERATE(Transfer("flip"), Transfer("affine"));
+  const Transfer transfer = GENERATE(Transfer("flip"), Transfer("tflip"));
   const auto make = [&](bool periodic) {
     Scene scene = drifting_disks(periodic, n_patches);
     scene.transfer = transfer;
@@ -257,7 +257,7 @@ TEST_CASE("waves in an endless bar run at the speed of sound, also while it drif
   const double speed = axis == 0 ? 10 : 10 / std::sqrt(3.0), k = 2 * pi / length;
   Scene scene = endless_bar(48);
   scene.n_patches = {2, 1, 1};
-  scene.transfer = GENERATE(Transfer("flip"), Transfer("affine"));
+  scene.transfer = GENERATE(Transfer("flip"), Transfer("tflip"));
   scene.interpolator = GENERATE(Interpolator("gimp"), Interpolator("quadratic_spline"));
   // Once around in a period.
   const double drift = GENERATE(0.0, 10.0);
@@ -268,7 +268,7 @@ TEST_CASE("waves in an endless bar run at the speed of sound, also while it drif
 TEST_CASE("a standing wave between mirrors is half of one around a periodic domain")
 {
   const double k = 2 * pi / length;
-  const Transfer transfer = GENERATE(Transfer("flip"), Transfer("affine"));
+  const Transfer transfer = GENERATE(Transfer("flip"), Transfer("tflip"));
   const auto make = [&](bool periodic, int n_cells, int n_patches) {
     Scene scene = endless_bar(64);
     scene.grid.n_cells[0] = n_cells;

@@ -76,17 +76,17 @@ double growth(Scene scene, double multiplier)
 TEST_CASE("free elastic bodies stay bounded up to the bound on the step, and not far beyond it")
 {
   const auto body = GENERATE(FreeBody{"block", 2, 4}, FreeBody{"block", 3, 2.5}, FreeBody{"ball", 3, 3});
-  const bool viscous = GENERATE(false, true), affine = GENERATE(false, true), smooth = GENERATE(false, true);
+  const bool viscous = GENERATE(false, true), tflip = GENERATE(false, true), smooth = GENERATE(false, true);
   Scene scene = free_body(body, viscous);
-  scene.transfer = affine ? Transfer("affine") : Transfer("flip");
+  scene.transfer = tflip ? Transfer("tflip") : Transfer("flip");
   scene.interpolator = smooth ? Interpolator("quadratic_spline") : Interpolator("gimp");
-  CAPTURE(body.name, body.dimension, viscous, affine, smooth);
+  CAPTURE(body.name, body.dimension, viscous, tflip, smooth);
 
   CHECK(growth(scene, Scene{}.time.multiplier) < 1);
   CHECK(growth(scene, 1) < 1);
   // Viscosity acts in half of the steps, while the material closes; the bound counts on all of them. Nor does it count
   // on what velocity gradients bring back to the nodes, which is more where the weights are smoother.
-  const double brought_back = !affine ? 0 : smooth ? 0.7 : 0.2;
+  const double brought_back = !tflip ? 0 : smooth ? 0.7 : 0.2;
   CHECK(growth(scene, (viscous ? 1.8 : 1.5) + brought_back) > 1e3);
 }
 

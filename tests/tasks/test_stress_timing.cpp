@@ -93,7 +93,7 @@ TEST_CASE("where stress works at velocities of its own, the difference is filter
 {
   Scene scene = meeting_disks(false);
   scene.stress_timing = GENERATE(StressTiming::usf, StressTiming::musl);
-  scene.transfer = GENERATE(Transfer("flip"), Transfer("affine"));
+  scene.transfer = GENERATE(Transfer("flip"), Transfer("tflip"));
   scene.local_damping = 0.05;
   const auto simulation = Simulation::make(scene, 1);
   const double at_start = all_energy(*simulation);
@@ -109,16 +109,16 @@ TEST_CASE("where stress works at velocities of its own, the difference is filter
 
 TEST_CASE("whenever stress follows, disks meet with the same bits on any ranks and threads", "[ranks]")
 {
-  const auto [timing, transfer, relief, is_rigid, n_threads] =
-      GENERATE(std::tuple{StressTiming::usf, Transfer("flip"), Relief::cell_average, false, 2},
-               std::tuple{StressTiming::usf, Transfer("tpic"), Relief::none, true, 3},
-               std::tuple{StressTiming::musl, Transfer("affine"), Relief::cell_average, false, 1},
-               std::tuple{StressTiming::musl, Transfer("apic"), Relief::f_bar, false, 2},
-               std::tuple{StressTiming::musl, Transfer("fmpm"), Relief::none, true, 2});
+  const auto [timing, transfer, anti_locking, is_rigid, n_threads] =
+      GENERATE(std::tuple{StressTiming::usf, Transfer("flip"), AntiLocking::cell_average, false, 2},
+               std::tuple{StressTiming::usf, Transfer("tpic"), AntiLocking::none, true, 3},
+               std::tuple{StressTiming::musl, Transfer("tflip"), AntiLocking::cell_average, false, 1},
+               std::tuple{StressTiming::musl, Transfer("apic"), AntiLocking::f_bar, false, 2},
+               std::tuple{StressTiming::musl, Transfer("fmpm"), AntiLocking::none, true, 2});
   Scene scene = meeting_disks(is_rigid);
   scene.stress_timing = timing;
   scene.transfer = transfer;
-  scene.relief = relief;
+  scene.anti_locking = anti_locking;
   const auto alone = Simulation::make(scene, 1);
   advance_to(*alone, 0.04);
 

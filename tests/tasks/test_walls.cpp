@@ -107,7 +107,7 @@ TEST_CASE("what is thrown at a wall with friction leaves it again")
 
 TEST_CASE("with any transfer a wall with friction takes along it no more than Coulomb's part of its push")
 {
-  const Transfer transfer = GENERATE(Transfer("flip"), Transfer("pic"), Transfer("blend"), Transfer("affine"),
+  const Transfer transfer = GENERATE(Transfer("flip"), Transfer("pic"), Transfer("blend"), Transfer("tflip"),
                                      Transfer("tpic"), Transfer("apic"), Transfer("xpic"));
   const StressTiming timing = GENERATE(StressTiming::usl, StressTiming::musl);
   CAPTURE(static_cast<int>(transfer), static_cast<int>(timing));

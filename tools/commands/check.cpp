@@ -62,6 +62,7 @@ void check(const CheckArguments& options)
     print_volumes(scene, body);
   }
   for (const std::string& line : compiled_moduli(checked)) print_err("  {}\n", line);
+  print_notes(checked.notes);
   for (const std::string& line : plausibility_warnings(checked)) print_err("tamp: warning: {}\n", line);
   for (const std::string& line : material_warnings(checked)) print_err("tamp: warning: {}\n", line);
   Forecast forecast = tools::forecast(scene);

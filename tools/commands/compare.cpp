@@ -69,6 +69,7 @@ void throw_if_unstable(const compare::Comparison& comparison)
 void compare_models(CompareArguments& options)
 {
   const auto scenes = compare::read_model_scenes(options.scene, options.assignments, options.models);
+  print_notes(scenes.front().scene.notes);
   options.comparison.folder = options.out.empty() ? "compare/" + scenes.front().scene.scene.name : options.out;
   for (const compare::ModelScene& scene : scenes) expect_room(scene.scene, forecast(scene.scene.scene));
   const bool has_differences = options.with_grid_error && scenes.size() > 1;

@@ -62,7 +62,9 @@ void check_finite(const DriveArguments& options, const tasks::MaterialModel& mod
 
 void drive_point(const DriveArguments& options)
 {
-  const tasks::SceneMaterial material = read_material_file(options.material, options.assignments);
+  const CheckedMaterial checked = read_checked_material(options.material, options.assignments);
+  print_notes(checked.notes);
+  const tasks::SceneMaterial& material = checked.material;
   const DeformationPath path = read_path(options.path);
   expect_outputs({{"--out", options.out}, {"--summary", options.summary}});
   std::optional<runtime::CsvWriter> file;

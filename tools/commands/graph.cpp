@@ -31,6 +31,7 @@ struct GraphArguments {
 void dump_graph(const GraphArguments& options)
 {
   const CheckedScene scene = read_scene(options.scene, options.assignments);
+  print_notes(scene.notes);
   expect_outputs({{"--out", options.out}});
   const auto simulation = tasks::Simulation::make(scene.scene, 1);
   const runtime::TaskGraph& graph = simulation->engine().graph();

@@ -79,7 +79,9 @@ AskedModel model_of_material(const ModulusArguments& options)
   if (!options.scaling.empty()) {
     throw InputError({"--scaling", "given with a material", "expected --set /modulus/scaling=[...] there"});
   }
-  const tasks::SceneMaterial material = read_material_file(options.file, options.assignments);
+  const CheckedMaterial checked = read_checked_material(options.file, options.assignments);
+  print_notes(checked.notes);
+  const tasks::SceneMaterial& material = checked.material;
   const auto* const sand = std::get_if<components::TabularCap>(&material.model);
   if (sand == nullptr) {
     throw InputError({options.file + "#/type", "a material without a model of its moduli", "expected tabular_cap"});

@@ -160,6 +160,7 @@ CLI::App* add_run_command(CLI::App& app)
   command->callback([options, command, out, force, restart] {
     note_early_signals();
     const CheckedScene scene = read_scene(options->scene, options->assignments);
+    if (options->run.communicator.is_first()) print_notes(scene.notes);
     expect_few_checkpoints(options->run.checkpoints, scene.scene.time.end);
     options->run.restart = restart->count() > 0;
     options->run.folder = options->run.restart ? options->restart

@@ -32,13 +32,13 @@ void check_stress_timing(const JsonReader& reader, const tasks::Scene& scene)
 {
   if (scene.stress_timing != tasks::StressTiming::usf || !components::brings_own_gradients(scene.transfer)) return;
   for (const tasks::SceneMaterial& material : scene.materials) {
-    const auto may_come_apart = [](const auto& model) {
-      if constexpr (requires { model.may_come_apart(); }) return model.may_come_apart();
+    const auto may_separate = [](const auto& model) {
+      if constexpr (requires { model.may_separate(); }) return model.may_separate();
       return false;
     };
-    if (!std::visit(may_come_apart, material.model)) continue;
+    if (!std::visit(may_separate, material.model)) continue;
     reader.add_problem("stress_timing",
-                       fmt::format("\"usf\" with the transfer {} and sand that comes apart, \"{}\"",
+                       fmt::format("\"usf\" with the transfer {} and sand that separates, \"{}\"",
                                    scene.transfer.word(), material.name),
                        "expected usl or musl, as sand that is apart has to forget the gradient of its velocity, which "
                        "with usf it only gets after its stress; or another transfer");

@@ -6,6 +6,7 @@
 #include <charconv>
 #include <set>
 
+#include "tools/scene/old_words.hpp"
 #include "tools/scene/parse_json.hpp"
 
 namespace tamp::tools
@@ -51,10 +52,12 @@ void lay_over(Json& base, const Json& patch)
 
 }  // namespace
 
-Document::Document(const std::filesystem::path& file) : root(parse_json(file)), file_(file)
+Document::Document(const std::filesystem::path& file, const ObjectKeys& keys)
+    : root(parse_json(file)), file_(file), keys_(&keys)
 {
   if (!root.is_object()) throw InputError({file.string() + "#", root.type_name(), "expected an object"});
   add_input(file);
+  origins_ = replace_old_words_in(root, keys, JsonPointer(), file.string());
 }
 
 void Document::set(const std::string& assignment)
@@ -77,9 +80,28 @@ void Document::set(const std::string& assignment)
     throw no_place;
   }
   origins_.push_back({pointer, command_line, pointer});
+  const std::vector<Origin> renamed = replace_old_words_in(root, *keys_, JsonPointer(), command_line);
+  origins_.insert(origins_.end(), renamed.begin(), renamed.end());
 }
 
-void Document::merge_file_named_at(const JsonPointer& pointer)
+std::vector<Document::Origin> Document::replace_old_words_in(Json& object, const ObjectKeys& keys,
+                                                             const JsonPointer& pointer, const std::string& file)
+{
+  std::vector<Origin> origins;
+  for (const OldWord& old : replace_old_words(object, keys)) {
+    const std::string place = file + "#" + old.place.to_string();
+    const std::string note = fmt::format("{}: \"{}\" is now \"{}\"", place, old.word, old.word_now);
+    if (std::find(notes.begin(), notes.end(), note) == notes.end()) notes.push_back(note);
+    if (old.is_repeated && file != command_line) {
+      problems.push_back(
+          {place, fmt::format("the key is given twice, as \"{}\" too", old.word_now), "expected it once"});
+    }
+    origins.push_back({(pointer / old.place_now).to_string(), file, old.place.to_string()});
+  }
+  return origins;
+}
+
+void Document::merge_file_named_at(const JsonPointer& pointer, const ObjectKeys& keys)
 {
   const JsonPointer here = pointer / "file";
   std::error_code ignored;  // then the path as it is will do
@@ -96,7 +118,8 @@ void Document::merge_file_named_at(const JsonPointer& pointer)
     if (base.is_null()) return;
     Json patch = root.at(pointer);
     patch.erase("file");
-    note_merge(base, patch, pointer, path.string());
+    const std::vector<Origin> renamed = replace_old_words_in(base, keys, pointer, path.string());
+    note_merge(base, patch, pointer, path.string(), renamed);
     if (base.contains("file")) {
       lay_over(base, patch);
     } else {
@@ -133,7 +156,8 @@ Json Document::object_of(const std::filesystem::path& path, const JsonPointer& n
   return nullptr;
 }
 
-void Document::note_merge(const Json& base, const Json& patch, const JsonPointer& pointer, const std::string& path)
+void Document::note_merge(const Json& base, const Json& patch, const JsonPointer& pointer, const std::string& path,
+                          const std::vector<Origin>& renamed)
 {
   const std::string here = pointer.to_string();
   std::vector<Origin> kept;
@@ -141,6 +165,7 @@ void Document::note_merge(const Json& base, const Json& patch, const JsonPointer
     if (!lies_below(o.pointer, here)) kept.push_back(o);
   }
   kept.push_back({here, path, ""});
+  kept.insert(kept.end(), renamed.begin(), renamed.end());
   keep_origins(base, patch, pointer, kept);
   // Origins from further down stay, but not those of objects that are now of both: their keys have been noted above.
   const auto is_object = [](const Json& in, const JsonPointer& at) { return in.contains(at) && in.at(at).is_object(); };

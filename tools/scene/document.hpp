@@ -16,22 +16,25 @@ namespace tamp::tools
 using Json = nlohmann::ordered_json;
 using JsonPointer = Json::json_pointer;
 
+struct ObjectKeys;
+
 /// A scene being read: its JSON, where each part of it came from, and what was found to be wrong so far. Reading fills
 /// in defaults, so that at the end `root` is the scene as resolved.
 class Document
 {
  public:
-  /// Reads a file. Throws FileError if it cannot be opened, InputError for what `parse_json` refuses.
-  explicit Document(const std::filesystem::path& file);
+  /// Reads a file whose object has these keys (keys.hpp). Old words in it, and in all that comes in later, are replaced
+  /// by those of now. Throws FileError if it cannot be opened, InputError for what `parse_json` refuses.
+  Document(const std::filesystem::path& file, const ObjectKeys& keys);
 
   /// Applies `POINTER=VALUE`: the value is JSON, or else a string; objects on the way are made. Throws InputError for
   /// an assignment that cannot be made; whether the place has a meaning shows when it is read.
   void set(const std::string& assignment);
 
-  /// Replaces the object at `pointer`, which has the key "file", by that file's JSON with the object's other keys
-  /// merged over it (RFC 7386); again if that file names another. Without that key nothing happens; what goes wrong is
-  /// added to the problems.
-  void merge_file_named_at(const JsonPointer& pointer);
+  /// Replaces the object at `pointer`, which has these keys and the key "file", by that file's JSON with the object's
+  /// other keys merged over it (RFC 7386); again if that file names another. Without that key nothing happens; what
+  /// goes wrong is added to the problems.
+  void merge_file_named_at(const JsonPointer& pointer, const ObjectKeys& keys);
 
   /// FILE#/pointer of the value, in the file that it came from.
   std::string place(const JsonPointer& pointer) const;
@@ -50,6 +53,8 @@ class Document
 
   Json root;
   std::vector<Problem> problems;
+  /// The old words that were replaced, a line each, with its place.
+  std::vector<std::string> notes;
   /// Every file that has been read for it, in the order in which they were named.
   std::vector<InputFile> inputs;
   /// Dimension of the scene, 2 or 3, when it has been read; 0 before, and where there is no scene.
@@ -70,11 +75,18 @@ class Document
   std::filesystem::path file_named_at(const JsonPointer& pointer);
   /// The object of a file; null, with problems noted, if it holds none.
   Json object_of(const std::filesystem::path& path, const JsonPointer& named_at);
-  /// All at `pointer` comes from `path` now, but for what `patch` overrides in `base`: that stays from where it was.
-  void note_merge(const Json& base, const Json& patch, const JsonPointer& pointer, const std::string& path);
+  /// Replaces old words in an object from `file` that stands, or will stand, at `pointer`, and notes them. Returns the
+  /// origins of what they name. A file that has a key under both its names is a problem; an assignment overrides.
+  std::vector<Origin> replace_old_words_in(Json& object, const ObjectKeys& keys, const JsonPointer& pointer,
+                                           const std::string& file);
+  /// All at `pointer` comes from `path` now, with renamed parts, but for what `patch` overrides in `base`: that stays
+  /// from where it was.
+  void note_merge(const Json& base, const Json& patch, const JsonPointer& pointer, const std::string& path,
+                  const std::vector<Origin>& renamed);
   void keep_origins(const Json& base, const Json& patch, const JsonPointer& pointer, std::vector<Origin>& kept) const;
 
   std::filesystem::path file_;
+  const ObjectKeys* keys_;
   std::vector<Origin> origins_;
 };
 

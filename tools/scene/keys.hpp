@@ -2,6 +2,7 @@
 
 #include <fmt/core.h>
 
+#include <map>
 #include <string>
 #include <utility>
 #include <variant>
@@ -84,6 +85,8 @@ struct Choice {
   KeysOf instead = nullptr;
   /// That object, as a message shows it.
   std::string shown_instead{};
+  /// Words of earlier versions that are still read, each with the word of now.
+  std::map<std::string, std::string> old_words{};
 };
 struct Object {
   KeysOf keys;
@@ -119,6 +122,8 @@ struct Key {
   std::string meaning;
   /// The dimension of the scenes that have the key; 0: all.
   int only_in = 0;
+  /// What it was in earlier versions, where that is still read.
+  std::string old_name{};
 };
 
 /// One word of the key "type", and the keys that go with it.
@@ -146,7 +151,7 @@ template <class T>
 std::string meanings_of(const std::vector<components::Word<T>>& words)
 {
   std::string text;
-  for (const auto& [word, value, meaning] : words) {
+  for (const auto& [word, value, meaning, old_word] : words) {
     text += fmt::format("{}`\"{}\"`: {}", text.empty() ? "" : "; ", word, meaning);
   }
   return text;
@@ -159,8 +164,9 @@ Key choice(std::string name, T default_value, const std::vector<components::Word
 {
   Choice choice{.words = {}, .instead = instead, .shown_instead = std::move(shown_instead)};
   Default left_out;
-  for (const auto& [word, value, meaning_of_word] : words) {
+  for (const auto& [word, value, meaning_of_word, old_word] : words) {
     choice.words.emplace_back(word);
+    if (!old_word.empty()) choice.old_words.emplace(old_word, word);
     choice.values.push_back(static_cast<int>(value));
     if (value == default_value) left_out.value = word;
   }

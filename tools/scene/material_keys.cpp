@@ -145,17 +145,19 @@ std::vector<Key> keys_of<components::TabularCap>()
            "",
            {TabularCapParameters::usual_max_substeps},
            "substeps that one step may be cut into"},
-          {"comes_apart",
+          {"separation",
            Flag{},
            "",
            {false},
            "whether sand that is torn bears and resists nothing until its volume is again what it was then, see "
-           "[method.md](method.md)"},
+           "[method.md](method.md)",
+           0,
+           "comes_apart"},
           {"separation_density",
            Number{{.lower = 0, .upper = 1, .holds_lower = false}},
            "",
            {TabularCapParameters::usual_separation_density},
-           "part of the initial density below which sand that may come apart does so"}};
+           "part of the initial density below which sand that may separate does so"}};
 }
 
 template <class... Model>

@@ -113,7 +113,7 @@ std::optional<tasks::MaterialModel> read_tabular_cap(JsonReader& reader)
   const auto update = reader.choice<components::ElasticUpdate>("elastic_update");
   const double tolerance = reader.number("tolerance");
   const int max_substeps = reader.whole_number("max_substeps");
-  const bool comes_apart = reader.flag("comes_apart");
+  const bool separates = reader.flag("separation");
   const double separation_density = reader.number("separation_density");
   const auto measure = reader.choice<StrainMeasure>("strain_measure");
   check_tests(reader);
@@ -123,7 +123,7 @@ std::optional<tasks::MaterialModel> read_tabular_cap(JsonReader& reader)
   if (problems.size() > n_before || !modulus || !yield || !crush) return std::nullopt;
   try {
     return components::TabularCap({poisson_ratio, update, *modulus, crush->curve, *yield, tolerance, max_substeps,
-                                   comes_apart ? std::optional(separation_density) : std::nullopt});
+                                   separates ? std::optional(separation_density) : std::nullopt});
   } catch (const BadValue& bad) {
     // All but the crush curve was checked above.
     if (crush->table) {
@@ -205,13 +205,13 @@ std::optional<tasks::SceneMaterial> read_material(const std::string& name, JsonR
 
 CheckedMaterial read_checked_material(const std::filesystem::path& file, const std::vector<std::string>& assignments)
 {
-  Document document(file);
+  Document document(file, material_keys());
   for (const std::string& assignment : assignments) document.set(assignment);
-  document.merge_file_named_at(JsonPointer());
+  document.merge_file_named_at(JsonPointer(), material_keys());
   auto material = read_material(file.stem().string(), JsonReader(document, material_keys()));
   if (!document.problems.empty()) throw InputError(std::move(document.problems));
   document.root["inputs"] = to_json(document.inputs);
-  return {std::move(*material), std::move(document.root)};
+  return {std::move(*material), std::move(document.root), std::move(document.notes)};
 }
 
 tasks::SceneMaterial read_material_file(const std::filesystem::path& file, const std::vector<std::string>& assignments)

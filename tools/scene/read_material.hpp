@@ -18,6 +18,8 @@ std::optional<tasks::SceneMaterial> read_material(const std::string& name, JsonR
 struct CheckedMaterial {
   tasks::SceneMaterial material;
   Json resolved;
+  /// Old words in it, a line each, with its place and the word of now.
+  std::vector<std::string> notes;
 };
 
 /// Reads a material's file by itself, after `assignments` (POINTER=VALUE, pointers into the file). The material's name

@@ -44,7 +44,7 @@ class SceneReader
     read_transfer();
     if (document_.problems.size() == n_before) check_method(root_, scene_);
     scene_.deformation_update = root_.choice<tasks::DeformationUpdate>("deformation_update");
-    scene_.relief = root_.choice<tasks::Relief>("relief");
+    scene_.anti_locking = root_.choice<tasks::AntiLocking>("anti_locking");
     scene_.stress_timing = root_.choice<tasks::StressTiming>("stress_timing");
     read_particles_per_cell();
     read_loads();
@@ -278,7 +278,7 @@ class SceneReader
         document_.add_problem(root_.pointer("materials") / name, "a word of the contact key normal",
                               "expected another name");
       }
-      document_.merge_file_named_at(root_.pointer("materials") / name);
+      document_.merge_file_named_at(root_.pointer("materials") / name, material_keys());
     }
     for (auto& [name, reader] : root_.members("materials")) {
       material_names_.push_back(name);
@@ -403,13 +403,13 @@ class SceneReader
 
 CheckedScene read_scene(const std::filesystem::path& file, const std::vector<std::string>& assignments)
 {
-  Document document(file);
-  document.merge_file_named_at(JsonPointer());
+  Document document(file, scene_keys());
+  document.merge_file_named_at(JsonPointer(), scene_keys());
   for (const std::string& assignment : assignments) document.set(assignment);
   tasks::Scene scene = SceneReader(document).read();
   if (!document.problems.empty()) throw InputError(std::move(document.problems));
   document.root["inputs"] = to_json(document.inputs);
-  return {std::move(scene), std::move(document.root), std::move(document.inputs)};
+  return {std::move(scene), std::move(document.root), std::move(document.inputs), std::move(document.notes)};
 }
 
 }  // namespace tamp::tools

@@ -15,6 +15,8 @@ struct CheckedScene {
   tasks::Scene scene;
   Json resolved;
   std::vector<InputFile> inputs;
+  /// Old words in it, a line each, with its place and the word of now.
+  std::vector<std::string> notes{};
 };
 
 /// Reads a scene's file, applies `assignments` (POINTER=VALUE) in order, and checks all of it. The keys are those of

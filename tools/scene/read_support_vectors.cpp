@@ -38,7 +38,10 @@ const ObjectKeys& fit_keys()
 class SupportVectorReader
 {
  public:
-  explicit SupportVectorReader(const std::filesystem::path& file) : document_(file), reader_(document_, fit_keys()) {}
+  explicit SupportVectorReader(const std::filesystem::path& file)
+      : document_(file, fit_keys()), reader_(document_, fit_keys())
+  {
+  }
 
   SupportVectorFit read()
   {

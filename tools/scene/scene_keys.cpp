@@ -145,8 +145,9 @@ std::vector<Key> method_keys()
   keys.push_back(choice("deformation_update", scene.deformation_update, tasks::DeformationUpdate::words(),
                         "how particles deform in a step, by g = dt times the velocity gradient: " +
                             meanings_of(tasks::DeformationUpdate::words()) + see));
-  keys.push_back(choice("relief", scene.relief, words_of(scene.relief),
-                        "from locking, by sharing changes of volume: " + words(scene.relief)));
+  keys.push_back(choice("anti_locking", scene.anti_locking, words_of(scene.anti_locking),
+                        "against locking, by sharing changes of volume: " + words(scene.anti_locking)));
+  keys.back().old_name = "relief";
   keys.push_back(choice("stress_timing", scene.stress_timing, words_of(scene.stress_timing),
                         "when stress follows the motion, and which velocities of the nodes deform particles: " +
                             words(scene.stress_timing)));

@@ -108,7 +108,9 @@ class SchemaWriter
   }
   Json of(const Choice& choice, Extent extent)
   {
-    std::vector<Json> either{{{"enum", choice.words}}};
+    std::vector<std::string> words = choice.words;
+    for (const auto& [old, now] : choice.old_words) words.push_back(old);
+    std::vector<Json> either{{{"enum", words}}};
     if (choice.instead != nullptr) either.push_back(object(choice.instead(), extent));
     return one_schema_of(either);
   }
@@ -141,18 +143,29 @@ class SchemaWriter
     return schema;
   }
 
+  /// Under the name that the key had, which an editor is not to fill in.
+  Json schema_of_old(const Key& key, Extent extent)
+  {
+    Json schema = schema_of(key, extent);
+    schema["description"] = "now " + key.name;
+    schema.erase("default");
+    return schema;
+  }
+
   /// The keys of the lists; one that stands in several may be as in any of them.
   Json fields(const std::vector<const std::vector<Key>*>& lists, Extent extent)
   {
     std::vector<std::pair<std::string, std::vector<Json>>> properties;
+    const auto add = [&](const std::string& name, const Json& schema) {
+      auto at = std::find_if(properties.begin(), properties.end(), [&](const auto& p) { return p.first == name; });
+      if (at == properties.end()) at = properties.insert(at, {name, {}});
+      if (std::find(at->second.begin(), at->second.end(), schema) == at->second.end()) at->second.push_back(schema);
+    };
     Json required = Json::array();
     for (const std::vector<Key>* list : lists) {
       for (const Key& key : *list) {
-        auto at =
-            std::find_if(properties.begin(), properties.end(), [&](const auto& p) { return p.first == key.name; });
-        if (at == properties.end()) at = properties.insert(at, {key.name, {}});
-        const Json schema = schema_of(key, extent);
-        if (std::find(at->second.begin(), at->second.end(), schema) == at->second.end()) at->second.push_back(schema);
+        add(key.name, schema_of(key, extent));
+        if (!key.old_name.empty()) add(key.old_name, schema_of_old(key, extent));
         if (key.default_value.compulsory && key.only_in == 0) required.push_back(key.name);
       }
     }

@@ -23,12 +23,27 @@ std::vector<std::string> assignments_of(const Settings& settings)
   return assignments;
 }
 
-/// The scene or material that is measured, with every default filled in.
-Json resolved(const Measure& measure, const Settings& settings)
+struct Measured {
+  /// The scene or material with every default filled in.
+  Json resolved;
+  std::vector<std::string> notes;
+};
+
+Measured read_measured(const Measure& measure, const Settings& settings)
 {
   const std::vector<std::string> assignments = assignments_of(settings);
-  return measure.kind == Measure::Kind::run ? read_scene(measure.file, assignments).resolved
-                                            : read_checked_material(measure.file, assignments).resolved;
+  if (measure.kind == Measure::Kind::run) {
+    CheckedScene scene = read_scene(measure.file, assignments);
+    return {std::move(scene.resolved), std::move(scene.notes)};
+  }
+  CheckedMaterial material = read_checked_material(measure.file, assignments);
+  return {std::move(material.resolved), std::move(material.notes)};
+}
+
+/// A place in a point's settings, as one in the study's file.
+std::string place_in_study(const Study& study, const std::string& place)
+{
+  return place.starts_with("--set#") ? study.file.string() + place.substr(place.find('#')) : place;
 }
 
 /// A key of an object that is there, which may be new, or an item of a list.
@@ -105,9 +120,11 @@ std::string in_one_line(std::string text)
 
 Measurement measurement_of(const Study& study, const Settings& settings)
 {
-  Measurement measurement{"", "", command_of(study, settings)};
+  Measurement measurement{"", {}, "", command_of(study, settings)};
   try {
-    std::string text = json_text(resolved(study.measure, settings)) + std::to_string(study.n_threads);
+    const Measured measured = read_measured(study.measure, settings);
+    for (const std::string& note : measured.notes) measurement.notes.push_back(place_in_study(study, note));
+    std::string text = json_text(measured.resolved) + std::to_string(study.n_threads);
     if (!study.measure.along.empty()) {
       text += read_input_file(study.measure.along) + fmt::format("{}", study.measure.increment);
     }
@@ -124,7 +141,7 @@ Measurement measurement_of(const Study& study, const Settings& settings)
 std::vector<Measurement> measurements_of(const Study& study, const std::vector<Point>& points)
 {
   expect_refined(study, points);
-  const Json base = resolved(study.measure, {});
+  const Json base = read_measured(study.measure, {}).resolved;
   std::vector<Measurement> measurements;
   // To read a scene again takes time, as its models are made too.
   std::map<Settings, Measurement> known;

@@ -13,6 +13,8 @@ namespace tamp::tools::study
 struct Measurement {
   /// Why its settings are refused; empty where they are not.
   std::string refusal;
+  /// Old words in its settings and in what is measured, a line each.
+  std::vector<std::string> notes;
   /// A hash of all that its answers depend on, but for the program: what is measured with every default filled in, and
   /// the content of every file. Empty where it is refused.
   std::string key;

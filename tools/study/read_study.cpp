@@ -529,7 +529,7 @@ class StudyReader
 
 Study read_study(const std::filesystem::path& file, bool in_short)
 {
-  Document document(file);
+  Document document(file, study_keys());
   if (in_short && document.root.contains("short")) {
     const Json patch = document.root["short"];
     if (!patch.is_object()) throw InputError({file.string() + "#/short", patch.type_name(), "expected an object"});

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <set>
+
 #include "runtime/storage/whole_file.hpp"
 #include "tasks/simulation_error.hpp"
 #include "tools/scene/print_json.hpp"
@@ -35,10 +37,19 @@ void expect_sound_reference(const Study& study, const std::vector<Point>& points
   }
 }
 
+/// Once, however many points have them.
+void print_notes_of(const std::vector<Measurement>& measurements)
+{
+  std::set<std::string> notes;
+  for (const Measurement& measurement : measurements) notes.insert(measurement.notes.begin(), measurement.notes.end());
+  print_notes({notes.begin(), notes.end()});
+}
+
 StudyResults measure_all(const Study& study, const StudyOptions& options, const std::filesystem::path& cache)
 {
   const std::vector<Point> points = points_of(study);
   StudyResults results{study, command_of(options), {}, measurements_of(study, points), {}, {}};
+  print_notes_of(results.measurements);
   expect_sound_reference(study, points, results.measurements);
   const auto measured = run_points(study, points, results.measurements, cache, options.quiet);
   for (std::size_t i = 0; i < points.size(); ++i) results.points.push_back({points[i], measured[i]});

@@ -75,4 +75,9 @@ void write_err(std::string_view text)
   std::clearerr(stderr);
 }
 
+void print_notes(const std::vector<std::string>& notes)
+{
+  for (const std::string& note : notes) print_err("tamp: note: {}\n", note);
+}
+
 }  // namespace tamp::tools

@@ -5,6 +5,7 @@
 #include <string>
 #include <string_view>
 #include <utility>
+#include <vector>
 
 namespace tamp::tools
 {
@@ -24,6 +25,9 @@ void write_err(std::string_view text);
 /// A text that leaves a terminal as it is: control characters but the ends of lines are written out, such as \x1b.
 /// Names of files and keys may hold any.
 std::string without_controls(std::string_view text);
+
+/// Writes notes on stderr, a line each.
+void print_notes(const std::vector<std::string>& notes);
 
 template <class... Args>
 void print_out(fmt::format_string<Args...> format, Args&&... args)

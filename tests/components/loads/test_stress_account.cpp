@@ -12,7 +12,7 @@ namespace
 
 constexpr std::size_t room = 32;
 
-/// Particles of sand that is squeezed and sheared a little, and one in seven that has come apart.
+/// Particles of sand that is squeezed and sheared a little, and one in seven that has separated.
 struct Particles {
   explicit Particles(std::size_t n)
   {

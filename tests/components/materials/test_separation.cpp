@@ -22,7 +22,7 @@ namespace
 
 constexpr double vertex = -24.5e3;
 
-/// Sand that comes apart below 0.8 of its initial density.
+/// Sand that separates below 0.8 of its initial density.
 TabularCap parting_sand(ElasticUpdate form)
 {
   TabularCapParameters parameters = concrete_sand::sand(form).parameters();
@@ -207,7 +207,7 @@ void check_any_order(const TabularCap& sand)
 
 }  // namespace
 
-TEST_CASE("sand stretched evenly comes apart at 0.8 of its density, without stress, stiffness and stored energy")
+TEST_CASE("sand stretched evenly separates at 0.8 of its density, without stress, stiffness and stored energy")
 {
   const TabularCap sand = parting_sand(GENERATE(ElasticUpdate::rate, ElasticUpdate::state));
 
@@ -223,7 +223,7 @@ TEST_CASE("sand joins at the volume at which it parted, and is then sand of its 
   check_joining<3>(sand);
 }
 
-TEST_CASE("sand that has joined comes apart again")
+TEST_CASE("sand that has joined separates again")
 {
   const TabularCap sand = parting_sand(ElasticUpdate::rate);
   Stretched<3> particle;
@@ -237,7 +237,7 @@ TEST_CASE("sand that has joined comes apart again")
   CHECK(particle.sample.counts.separations == 2);
 }
 
-TEST_CASE("sand under pressure, or that bears shear, does not come apart however thin it is")
+TEST_CASE("sand under pressure, or that bears shear, does not separate however thin it is")
 {
   const TabularCap sand = parting_sand(GENERATE(ElasticUpdate::rate, ElasticUpdate::state));
   const auto thin = [&](double pressure) {
@@ -263,7 +263,7 @@ TEST_CASE("sand under pressure, or that bears shear, does not come apart however
   CHECK(torn.state.separation_volume > 2.999F);
 }
 
-TEST_CASE("sand that may not come apart bears the tension of its vertex at any density")
+TEST_CASE("sand that may not separate bears the tension of its vertex at any density")
 {
   const TabularCap sand = concrete_sand::sand(ElasticUpdate::rate);
   Stretched<3> particle;
@@ -300,7 +300,7 @@ TEST_CASE("to sand that is apart no strain is too large, but one that is no numb
   CHECK(sample.state.n_failures == 1);
 }
 
-TEST_CASE("sand that comes apart below none or above all of its density is refused")
+TEST_CASE("sand that separates below none or above all of its density is refused")
 {
   TabularCapParameters parameters = concrete_sand::sand(ElasticUpdate::rate).parameters();
   for (const double part : {0.0, -1.0, 1.001, static_cast<double>(NAN)}) {

@@ -28,7 +28,7 @@ namespace
 namespace fs = std::filesystem;
 
 /// The quick punch, with the transfer that has particles keep most.
-const std::string scene = TAMP_SOURCE_DIR "/inputs/punch/quick.json --set /transfer=affine";
+const std::string scene = TAMP_SOURCE_DIR "/inputs/punch/quick.json --set /transfer=tflip";
 
 std::string run_of(const fs::path& folder, const std::string& options)
 {
@@ -130,6 +130,19 @@ TEST_CASE("a run that goes on, on other ranks and threads, ends with the bits of
   CHECK(read_text(run / "history.csv") == straight().history);
 }
 
+TEST_CASE("a run that was begun with an old word goes on under the new one")
+{
+  const TemporaryFolder folder;
+  const fs::path run = folder.path() / "run";
+  const std::string old = "run " TAMP_SOURCE_DIR "/inputs/punch/quick.json --set /transfer=affine --quiet";
+  REQUIRE(tamp_with(old + " --steps 80 --checkpoint-steps 40 --out " + run.string()).exit_code == 0);
+
+  REQUIRE(tamp_with(restart_of(run, "--steps 150")).exit_code == 0);
+
+  CHECK(summary_of(run)["restarted_at_step"] == 80);
+  CHECK(summary_of(run)["state_digest"] == straight().digest);
+}
+
 TEST_CASE("a driven body goes on from where it was, on other ranks too, with the bits of a straight run", "[mpiexec]")
 {
   check_parted_run(TAMP_SOURCE_DIR "/inputs/cone/quick.json --set /grid/cell_size=0.01", 2);
@@ -137,7 +150,7 @@ TEST_CASE("a driven body goes on from where it was, on other ranks too, with the
 
 TEST_CASE("soil on walls goes on, on other ranks too, with the bits of a straight run", "[mpiexec]")
 {
-  const std::string transfer = GENERATE("affine", "apic --set /stress_timing=musl", "tpic --set /stress_timing=usf",
+  const std::string transfer = GENERATE("tflip", "apic --set /stress_timing=musl", "tpic --set /stress_timing=usf",
                                         "fmpm --set /filter_order=3 --set /boundaries/y-=no_slip");
   const TemporaryFolder folder;
   const fs::path scene = folder.path() / "column.json";
@@ -165,14 +178,14 @@ TEST_CASE("with any interpolator a run goes on, on other ranks too, with the bit
       TAMP_SOURCE_DIR "/inputs/verification/axis_aligned/quick.json --set /interpolator=" + interpolator + rule, 2);
 }
 
-TEST_CASE("sand that has come apart goes on with the bits of a straight run, on other ranks too", "[mpiexec]")
+TEST_CASE("sand that has separated goes on with the bits of a straight run, on other ranks too", "[mpiexec]")
 {
   const TemporaryFolder folder;
   const fs::path scene = folder.write("block.json", R"({
     "dimension": 2, "grid": {"upper": [0.8, 0.8], "cell_size": 0.05, "patches": [4, 2]}, "time": {"end": 1},
-    "transfer": "affine", "artificial_viscosity": {},
+    "transfer": "tflip", "artificial_viscosity": {},
     "materials": {"sand": {"file": ")" TAMP_SOURCE_DIR R"(/inputs/materials/concrete-sand/table.json",
-                           "comes_apart": true}},
+                           "separation": true}},
     "bodies": {"block": {"material": "sand", "angular_velocity": [1500],
                          "geometry": {"type": "box", "lower": [0.05, 0.3], "upper": [0.35, 0.5]}}}
   })");

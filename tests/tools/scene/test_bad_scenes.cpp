@@ -537,16 +537,16 @@ TEST_CASE("soil whose numbers do not go together is refused, with the one that d
         "--set#/materials/steel/cohesion: \"much\"; expected a number of 0 or above [Pa]");
 }
 
-TEST_CASE("sand that comes apart at no density, or perhaps, is refused")
+TEST_CASE("sand that separates at no density, or perhaps, is refused")
 {
   const auto problems = [](const std::string& assignment) {
     const TemporaryFolder folder;
     return problems_of(folder, TAMP_SOURCE_DIR "/inputs/punch/quick.json", {"/materials/sand/" + assignment});
   };
 
-  CHECK(problems("comes_apart=true") == "");
+  CHECK(problems("separation=true") == "");
   CHECK(problems("separation_density=1") == "");
-  CHECK(problems("comes_apart=perhaps") == "--set#/materials/sand/comes_apart: \"perhaps\"; expected true or false");
+  CHECK(problems("separation=perhaps") == "--set#/materials/sand/separation: \"perhaps\"; expected true or false");
   CHECK(problems("separation_density=0") ==
         "--set#/materials/sand/separation_density: 0; expected a number above 0 and up to 1");
 }
@@ -557,15 +557,15 @@ TEST_CASE("sand that has to forget its gradients is not updated before it has th
     const TemporaryFolder folder;
     return problems_of(folder, TAMP_SOURCE_DIR "/inputs/punch/quick.json", assignments);
   };
-  const std::string affine = "/transfer=affine", usf = "/stress_timing=usf", apart = "/materials/sand/comes_apart=true";
+  const std::string tflip = "/transfer=tflip", usf = "/stress_timing=usf", apart = "/materials/sand/separation=true";
 
-  CHECK(problems({affine, usf, apart}) ==
-        "--set#/stress_timing: \"usf\" with the transfer affine and sand that comes apart, \"sand\"; expected usl or "
+  CHECK(problems({tflip, usf, apart}) ==
+        "--set#/stress_timing: \"usf\" with the transfer tflip and sand that separates, \"sand\"; expected usl or "
         "musl, as sand that is apart has to forget the gradient of its velocity, which with usf it only gets after its "
         "stress; or another transfer");
-  CHECK(problems({affine, usf}) == "");
+  CHECK(problems({tflip, usf}) == "");
   CHECK(problems({usf, apart}) == "");
-  CHECK(problems({affine, "/stress_timing=musl", apart}) == "");
+  CHECK(problems({tflip, "/stress_timing=musl", apart}) == "");
 }
 
 TEST_CASE("a name that is none of the choices is told with the choices")
@@ -580,7 +580,7 @@ TEST_CASE("a name that is none of the choices is told with the choices")
         "--set#/interpolator: \"linear\" with the time step's rule \"viscous\"; expected the rule \"published\", as a "
         "particle that hardly reaches a node would have no stable step; or another interpolator");
   CHECK(problems_with({"/transfer=mpm"}) ==
-        "--set#/transfer: \"mpm\"; expected one of flip, pic, blend, affine, apic, tpic, xpic, fmpm, did you mean "
+        "--set#/transfer: \"mpm\"; expected one of flip, pic, blend, tflip, apic, tpic, xpic, fmpm, did you mean "
         "\"fmpm\"?");
   CHECK(problems_with({"/boundaries/x-=wall"}) ==
         "--set#/boundaries/x-: \"wall\"; expected one of symmetry, open, no_slip, periodic, {\"friction\": MU}");

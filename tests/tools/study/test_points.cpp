@@ -16,7 +16,7 @@ Study two_methods()
 {
   Study study;
   study.settings = {{"/time/end", 1}};
-  const std::vector<Axis> sweep{{"/grid/cell_size", {4, 2}}, {"/transfer", {"flip", "affine"}}};
+  const std::vector<Axis> sweep{{"/grid/cell_size", {4, 2}}, {"/transfer", {"flip", "tflip"}}};
   study.methods = {{"a", "contact", false, {}, sweep, {}},
                    {"b", "contact", false, {{"/time/end", 2}}, {}, {{{"/grid/cell_size", 1}}}}};
   return study;
@@ -30,9 +30,9 @@ TEST_CASE("a method has all combinations of its sweep, and the points that are l
 
   REQUIRE(points.size() == 5);
   CHECK(points[0].settings == Settings{{"/time/end", 1}, {"/grid/cell_size", 4}, {"/transfer", "flip"}});
-  CHECK(points[1].settings == Settings{{"/time/end", 1}, {"/grid/cell_size", 4}, {"/transfer", "affine"}});
-  CHECK(points[3].settings == Settings{{"/time/end", 1}, {"/grid/cell_size", 2}, {"/transfer", "affine"}});
-  CHECK(points[3].label == "cell size 2, transfer affine");
+  CHECK(points[1].settings == Settings{{"/time/end", 1}, {"/grid/cell_size", 4}, {"/transfer", "tflip"}});
+  CHECK(points[3].settings == Settings{{"/time/end", 1}, {"/grid/cell_size", 2}, {"/transfer", "tflip"}});
+  CHECK(points[3].label == "cell size 2, transfer tflip");
   CHECK(points[4].method == "b");
   CHECK(points[4].settings == Settings{{"/time/end", 2}, {"/grid/cell_size", 1}});
   CHECK(points[4].id == 5);
@@ -50,7 +50,7 @@ TEST_CASE("references and error budgets add their own points")
 {
   Study study = two_methods();
   study.methods.resize(1);
-  study.reference = ReferenceRuns{{{"/transfer", "affine"}}, {"/grid/cell_size", {4, 2, 1}}};
+  study.reference = ReferenceRuns{{{"/transfer", "tflip"}}, {"/grid/cell_size", {4, 2, 1}}};
   study.budget = Budget{{"depth"}, {{"base", {{"/grid/cell_size", 2}}}}, {{"grid", true, {}}, {"step", false, {}}}};
   study.budget->parts[1].variations = {{{"/time/multiplier", 0.5}}, {{"/time/multiplier", 0.25}}};
 

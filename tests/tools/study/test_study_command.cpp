@@ -198,6 +198,25 @@ TEST_CASE("what was expected is judged, told and written, and a study that misse
   CHECK_THAT(read_text(study.out() / "index.html"), Contains("1 of 2 do not hold"));
 }
 
+TEST_CASE("points of a study with an old word are those with the new one, and the word is noted once")
+{
+  const FlightStudy study;
+  const auto with = [](const std::string& transfer) {
+    return R"({"methods": [{"name": "flight", "set": {"/transfer": ")" + transfer + R"("}}]})";
+  };
+  REQUIRE(study.run(with("tflip")).err == "");
+  const auto since = std::filesystem::file_time_type::clock::now();
+
+  const Outcome outcome = study.run(with("affine"));
+
+  CHECK(outcome.exit_code == 0);
+  CHECK(outcome.err ==
+        "tamp: note: " + (study.path() / "study.json").string() + "#/transfer: \"affine\" is now \"tflip\"\n");
+  for (const auto& entry : std::filesystem::directory_iterator(study.out() / "points")) {
+    CHECK(std::filesystem::last_write_time(entry.path()) < since);
+  }
+}
+
 TEST_CASE("a study that has all its results runs nothing, and writes the same again")
 {
   const FlightStudy study;

@@ -279,7 +279,7 @@ class Mutations:
         self.study_file.write_text(json.dumps({
             "measure": {"run": "small.json"}, "repeat": 1,
             "set": {"/time/end": 2e-4, "/output/history_interval": 2e-5, "/output/fields_interval": 1e-4},
-            "methods": [{"name": name, "set": {"/transfer": name}} for name in ["flip", "affine"]],
+            "methods": [{"name": name, "set": {"/transfer": name}} for name in ["flip", "tflip"]],
             "sweep": {"/grid/cell_size": [0.1, 0.05]},
             "quantities": [
                 {"name": "depth", "column": "punch.depth[m]", "take": "greatest", "exact": 1e-3},

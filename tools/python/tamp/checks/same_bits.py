@@ -14,7 +14,7 @@ from tamp.options import count
 PUNCH = program.INPUTS / "punch"
 SCENES = ["quick", "table", "svr", "mlp"]
 INTERPOLATORS = ["linear", "gimp", "cpgimp", "cpdi", "quadratic_spline", "cubic_spline"]
-TRANSFERS = ["flip", "pic", "blend", "affine", "apic", "tpic", "xpic", "fmpm"]
+TRANSFERS = ["flip", "pic", "blend", "tflip", "apic", "tpic", "xpic", "fmpm"]
 CREWS = [(r, t) for r in (1, 2, 3, 4) for t in (1, 2, 3)]
 RESTARTS = [((1, 1), (3, 1)), ((2, 2), (1, 3)), ((4, 1), (2, 2)), ((3, 2), (4, 1))]
 

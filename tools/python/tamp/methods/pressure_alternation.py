@@ -1,4 +1,4 @@
-"""How far pressure alternates from one row of compacted particles to the next, by relief, interpolator and other keys.
+"""How far pressure alternates from one row of compacted particles to the next, by anti-locking and other keys.
 
 Runs the scene to the time with each pair. Of the particles that are compacted by at least that part of their volume and
 under at least a tenth of the largest pressure of these, it takes those whose neighbours along an axis in the lattice
@@ -67,15 +67,15 @@ def add_arguments(parser):
     parser.add_argument("--sand", default="sand", help="the name of the material")
     parser.add_argument("--time", type=positive, default=1e-3)
     parser.add_argument("--compacted", type=positive, default=0.1)
-    parser.add_argument("--reliefs", default="none,cell_average,f_bar")
+    parser.add_argument("--anti-locking", default="none,cell_average,f_bar")
     parser.add_argument("--interpolators", default="gimp,quadratic_spline")
     add_settings(parser)
 
 
 def main(options):
     fields = [f"{name} along {axis}" for axis in "xy" for name in ("particles", *FIELDS)]
-    print_head(["interpolator", "relief", *fields, "depth", "steps", "user time", "energy error"])
+    print_head(["interpolator", "anti-locking", *fields, "depth", "steps", "user time", "energy error"])
     for interpolator in options.interpolators.split(","):
-        for relief in options.reliefs.split(","):
-            chosen = [("/interpolator", interpolator), ("/relief", relief)]
-            print_row([interpolator, relief, *run(options, [*chosen, *options.set])])
+        for anti_locking in options.anti_locking.split(","):
+            chosen = [("/interpolator", interpolator), ("/anti_locking", anti_locking)]
+            print_row([interpolator, anti_locking, *run(options, [*chosen, *options.set])])

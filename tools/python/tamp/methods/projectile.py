@@ -1,7 +1,7 @@
 """What the depth and the angle of the projectile depend on, one thing at a time, beside the report's.
 
 Runs inputs/uxo/quick.json with a base of settings that is given in full below, and once more for each case, which
-changes one thing. The box is a part of the scene's; sand that is torn comes apart, which takes a third of the steps.
+changes one thing. The box is a part of the scene's; sand that is torn separates, which takes a third of the steps.
 Runs that are finished are kept in --out and not repeated; --print-only prints those and runs nothing. Tables are
 Markdown: depths of nose and tail below the first surface and the angle of the axis below the horizontal at five times;
 what each case is worth; stresses and plastic strain near the nose; and an estimate from the momentum and from the exact
@@ -36,11 +36,11 @@ def base(millimetres, end):
     return {
         "/grid/lower": LOWER, "/grid/upper": UPPER, "/grid/patches": [1, 1, 1], "/grid/cell_size": millimetres / 1000,
         "/bodies/sand/geometry/lower": LOWER, "/bodies/sand/geometry/upper": [*UPPER[:2], SURFACE],
-        "/interpolator": "gimp", "/transfer": "affine", "/particles_per_cell": [2, 2, 2],
+        "/interpolator": "gimp", "/transfer": "tflip", "/particles_per_cell": [2, 2, 2],
         "/time/rule": "viscous", "/time/multiplier": 1.0, "/time/end": end,
         "/artificial_viscosity/linear": 0.2, "/artificial_viscosity/quadratic": 2,
         "/materials/sand": {"file": str(SAND / "table.json"), "density": 1624, "elastic_update": "rate",
-                            "comes_apart": True},
+                            "separation": True},
         "/materials/projectile/density": DENSITY,
         # Particles of the projectile stay fine beside its fins, which are 1 mm thick.
         "/materials/projectile/particles_per_axis": 6 if millimetres >= 5 else 5,
@@ -71,7 +71,7 @@ def viscosity(linear, quadratic):
 
 # Name: (what it is, what it changes, what it is compared with).
 CASES = {
-    "base": ("base: q, regression, `affine`, rigid, 41 mm, 9.7 g, viscosity 0.2 / 2", {}, None),
+    "base": ("base: q, regression, `tflip`, rigid, 41 mm, 9.7 g, viscosity 0.2 / 2", {}, None),
     "sqrtJ2": ("strength as sqrt(J2)", SQRT_J2, "base"),
     "vis14": ("viscosity 1 / 4", viscosity(1, 4), "base"),
     "vis10": ("viscosity 0.2 / 10", viscosity(0.2, 10), "base"),
@@ -88,10 +88,10 @@ CASES = {
     "svr": ("SVR", {"/materials/sand/modulus/type": "svr"}, "base"),
     "mlp": ("MLP", {"/materials/sand/modulus/type": "mlp"}, "base"),
     "mult05": ("multiplier 0.5 instead of 1", {"/time/multiplier": 0.5}, "base"),
-    "together": ("sand that stays together", {"/materials/sand/comes_apart": False}, "base"),
+    "together": ("sand that stays together", {"/materials/sand/separation": False}, "base"),
     "flatter": ("normal `flatter`", {"/contact/0/normal": "flatter"}, "base"),
     "own": ("the projectile's normal, `flip`", OWN, "base"),
-    "own_aff": ("and `affine`", {**OWN, "/transfer": "affine"}, "own"),
+    "own_aff": ("and `tflip`", {**OWN, "/transfer": "tflip"}, "own"),
     "own_sqrtJ2": ("and strength as sqrt(J2)", {**OWN, **SQRT_J2}, "own"),
     "own_50": ("and 15.9 g in 50 mm", {**OWN, **longer(MESH)}, "own"),
     "own_vis14": ("and viscosity 1 / 4", {**OWN, **viscosity(1, 4)}, "own"),

@@ -1,6 +1,6 @@
-"""What it does to a run that its sand comes apart.
+"""What it does to a run that its sand separates.
 
-Runs the scene with `comes_apart` false and true in turns, in the rate and in the state form. Prints for each the
+Runs the scene with `separation` false and true in turns, in the rate and in the state form. Prints for each the
 greatest depth, how far depth is from that of sand that stays whole (the greatest difference at any time, over the
 greatest depth), steps and their mean size, which updates of the sand were of particles that are apart and which ended
 outside of the modulus' range, the least plastic volumetric strain, the error of energy, and the median of the user
@@ -22,7 +22,7 @@ def cells(form, answer, whole, result, seconds, sand):
     summary = result.summary
     monitors, steps = summary["monitors"], summary["steps"]
     n_updates = steps * summary["particles"][sand]
-    return [form, "comes apart" if answer == "true" else "as published", f"{max(result.depth):.5f} m",
+    return [form, "separates" if answer == "true" else "as published", f"{max(result.depth):.5f} m",
             f"{depth_difference(whole, result):.1e}", f"{steps:,}",
             f"{summary['simulated_time_s'] / steps * 1e6:.2f} us", f"{monitors['updates_apart'] / n_updates:.1%}",
             f"{monitors['modulus_extrapolations'] / n_updates:.1%}",
@@ -38,7 +38,7 @@ def add_arguments(parser):
 def main(options):
     print_head(COLUMNS)
     for form in FORMS:
-        turns = [{answer: run(options, elastic_update=form, comes_apart=answer) for answer in ANSWERS}
+        turns = [{answer: run(options, elastic_update=form, separation=answer) for answer in ANSWERS}
                  for _ in range(options.turns)]
         for answer in ANSWERS:
             seconds = [turn[answer].seconds for turn in turns]

@@ -12,7 +12,7 @@ PUNCH_END = 4e-3
 # allows steps of the sand's own size.
 RIGID = {"/bodies/projectile/rigid": "true", "/materials/projectile/particles_per_axis": 6, "/time/rule": "viscous",
          "/time/multiplier": 1, "/time/end": 8.5e-4}
-FINE = {"/grid/cell_size": 0.0025, "/materials/projectile/particles_per_axis": 5, "/transfer": "affine",
+FINE = {"/grid/cell_size": 0.0025, "/materials/projectile/particles_per_axis": 5, "/transfer": "tflip",
         "/contact/0/normal": "regression"}
 PROJECTILES = {
     "rigid": (RIGID, "The report's projectile as a rigid one, cells of 5 mm"),

@@ -70,32 +70,32 @@ double relative_frequency(const Scene& scene)
 
 }  // namespace
 
-TEST_CASE("a nearly incompressible swirl locks on coarse cells without relief and swings as it should with it")
+TEST_CASE("a nearly incompressible swirl locks on coarse cells without anti-locking and swings as it should with it")
 {
-  // Without relief 2.3 and 1.47 times the exact frequency; a swirl of a compressible solid on these cells is as far off
-  // as with relief.
-  const Relief relief = GENERATE(Relief::cell_average, Relief::f_bar);
+  // Without anti-locking 2.3 and 1.47 times the exact frequency; a swirl of a compressible solid on these cells is as
+  // far off as with anti-locking.
+  const AntiLocking anti_locking = GENERATE(AntiLocking::cell_average, AntiLocking::f_bar);
   std::vector<double> errors;
   for (const int n : {8, 16}) {
     Scene scene = swirl(2, n, 1000, 1e-4);
     const double locked = relative_frequency(scene);
-    scene.relief = relief;
+    scene.anti_locking = anti_locking;
     errors.push_back(1 - relative_frequency(scene));
-    INFO("on " << n << " cells " << locked << " times the exact frequency, with relief " << 1 - errors.back());
+    INFO("on " << n << " cells " << locked << " times the exact frequency, with anti-locking " << 1 - errors.back());
     CHECK(locked > (n == 8 ? 2.2 : 1.4));
     CHECK(std::abs(errors.back()) < (n == 8 ? 0.05 : 0.0126));
   }
   CHECK(std::log2(errors[0] / errors[1]) == Approx(2).margin(0.05));
 }
 
-TEST_CASE("in space a nearly incompressible swirl locks without relief and swings as it should with it")
+TEST_CASE("in space a nearly incompressible swirl locks without anti-locking and swings as it should with it")
 {
   Scene scene = swirl(3, 8, 1000, 1e-4);
-  scene.relief = GENERATE(Relief::none, Relief::cell_average, Relief::f_bar);
+  scene.anti_locking = GENERATE(AntiLocking::none, AntiLocking::cell_average, AntiLocking::f_bar);
 
   const double frequency = relative_frequency(scene);
 
-  if (scene.relief == Relief::none) {
+  if (scene.anti_locking == AntiLocking::none) {
     CHECK(frequency > 2.2);
   } else {
     CHECK(frequency == Approx(1).margin(0.05));
@@ -144,14 +144,14 @@ std::map<std::array<long, 3>, std::vector<double>> by_cell(const std::vector<Par
 
 }  // namespace
 
-TEST_CASE("relief leaves particles alone whose neighbours deform as they do")
+TEST_CASE("anti-locking leaves particles alone whose neighbours deform as they do")
 {
   const int dimension = GENERATE(2, 3);
   Scene scene = stretching_block(dimension, 0);
   const auto plain = Simulation::make(scene, 1);
   plain->advance(1e-4);
   const std::vector<Particle> expected = particles_of(*plain);
-  scene.relief = GENERATE(Relief::cell_average, Relief::f_bar);
+  scene.anti_locking = GENERATE(AntiLocking::cell_average, AntiLocking::f_bar);
 
   const auto simulation = Simulation::make(scene, 1);
   simulation->advance(1e-4);
@@ -166,11 +166,11 @@ TEST_CASE("relief leaves particles alone whose neighbours deform as they do")
   }
 }
 
-TEST_CASE("with relief all particles of a cell share its change of volume, and momentum stays what it is")
+TEST_CASE("with anti-locking all particles of a cell share its change of volume, and momentum stays what it is")
 {
   const int dimension = GENERATE(2, 3);
   Scene scene = stretching_block(dimension, 0.1);
-  scene.relief = GENERATE(Relief::none, Relief::cell_average, Relief::f_bar);
+  scene.anti_locking = GENERATE(AntiLocking::none, AntiLocking::cell_average, AntiLocking::f_bar);
   const auto simulation = Simulation::make(scene, 1);
   const std::vector<Particle> start = particles_of(*simulation);
 
@@ -181,7 +181,7 @@ TEST_CASE("with relief all particles of a cell share its change of volume, and m
     const auto [least, greatest] = std::minmax_element(ratios.begin(), ratios.end());
     spread = std::max(spread, *greatest - *least);
   }
-  if (scene.relief == Relief::none) {
+  if (scene.anti_locking == AntiLocking::none) {
     CHECK(spread > 1e-6);
   } else {
     CHECK(spread < 1e-15);
@@ -199,8 +199,8 @@ TEST_CASE("sharing the stress of a cell with its change of volume keeps energy, 
   const int dimension = GENERATE(2, 3);
   Scene scene = stretching_block(dimension, 0.5);
   scene.limits.energy_error = std::numeric_limits<double>::infinity();
-  const auto greatest_error = [&](Relief relief, double multiplier) {
-    scene.relief = relief;
+  const auto greatest_error = [&](AntiLocking anti_locking, double multiplier) {
+    scene.anti_locking = anti_locking;
     scene.time.multiplier = multiplier;
     const auto simulation = Simulation::make(scene, 1);
     const double given = simulation->report().kinetic;
@@ -212,8 +212,8 @@ TEST_CASE("sharing the stress of a cell with its change of volume keeps energy, 
     }
     return error / given;
   };
-  const double plain = greatest_error(Relief::none, 0.2), shared = greatest_error(Relief::cell_average, 0.2),
-               finer = greatest_error(Relief::cell_average, 0.1), f_bar = greatest_error(Relief::f_bar, 0.2);
+  const double plain = greatest_error(AntiLocking::none, 0.2), shared = greatest_error(AntiLocking::cell_average, 0.2),
+               finer = greatest_error(AntiLocking::cell_average, 0.1), f_bar = greatest_error(AntiLocking::f_bar, 0.2);
   CAPTURE(dimension, plain, shared, finer, f_bar);
   CHECK(shared < 1.2 * plain);
   CHECK(finer < 0.55 * shared);
@@ -227,11 +227,11 @@ TEST_CASE("a colliding rubber ends with the same bits on any ranks and threads, 
   add_walls(scene, 0);
   scene.materials.push_back({"rubber", 1000, components::NeoHookean{1e6, 1e4}});
   add_disk(scene, 0, 0.5, 0.55, 0.4, {-4, 1, 0});
-  const auto [relief, update, n_threads] =
-      GENERATE(std::tuple{Relief::cell_average, DeformationUpdate("exact"), 1},
-               std::tuple{Relief::cell_average, DeformationUpdate("exponential"), 3},
-               std::tuple{Relief::f_bar, DeformationUpdate("first_order"), 2});
-  scene.relief = relief;
+  const auto [anti_locking, update, n_threads] =
+      GENERATE(std::tuple{AntiLocking::cell_average, DeformationUpdate("exact"), 1},
+               std::tuple{AntiLocking::cell_average, DeformationUpdate("exponential"), 3},
+               std::tuple{AntiLocking::f_bar, DeformationUpdate("first_order"), 2});
+  scene.anti_locking = anti_locking;
   scene.deformation_update = update;
   const auto alone = Simulation::make(scene, 1);
   advance_to(*alone, 0.1);

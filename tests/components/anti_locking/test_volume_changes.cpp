@@ -5,10 +5,10 @@
 #include <random>
 #include <vector>
 
+#include "components/anti_locking/cell_average.hpp"
+#include "components/anti_locking/f_bar.hpp"
+#include "components/anti_locking/volume_changes.hpp"
 #include "components/kinematics/strain_increment.hpp"
-#include "components/relief/cell_average.hpp"
-#include "components/relief/f_bar.hpp"
-#include "components/relief/volume_changes.hpp"
 
 namespace test_volume_changes
 {

@@ -9,14 +9,14 @@ namespace tamp::components
 
 /// Whose change of volume a particle takes in a step, against locking and pressures that alternate between particles:
 /// its own, the mean of its cell (cell_average.hpp), or that of its cell's centre (f_bar.hpp).
-enum class Relief { none, cell_average, f_bar };
+enum class AntiLocking { none, cell_average, f_bar };
 
 /// All there are, as changes of volume are shared.
-inline std::vector<Word<Relief>> words_of(Relief)
+inline std::vector<Word<AntiLocking>> words_of(AntiLocking)
 {
-  return {{"none", Relief::none, "each particle has its own"},
-          {"cell_average", Relief::cell_average, "all particles of a material in a cell take their mean"},
-          {"f_bar", Relief::f_bar, "all particles in a cell take that at its centre"}};
+  return {{"none", AntiLocking::none, "each particle has its own"},
+          {"cell_average", AntiLocking::cell_average, "all particles of a material in a cell take their mean"},
+          {"f_bar", AntiLocking::f_bar, "all particles in a cell take that at its centre"}};
 }
 
 }  // namespace tamp::components

@@ -1,4 +1,4 @@
-#include "components/relief/volume_changes.hpp"
+#include "components/anti_locking/volume_changes.hpp"
 
 #include <cstddef>
 
