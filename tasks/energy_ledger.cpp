@@ -30,7 +30,7 @@ void EnergyLedger::add_filtered(const StepTotals& step, const GridTotals& nodes,
   // At the start of a step forces take from the velocities that particles bring, which are not those of the end of the
   // step before. Body forces work on particles as stress does; loads work on nodes, where nothing is filtered out.
   filter += nodes.taken_by_forces + loads.work_at_start - half_step;
-  half_step = step.taken_at_end - body_forces.at_end;
+  half_step = step.stress_work_at_end - body_forces.at_end;
 }
 
 }  // namespace tamp::tasks

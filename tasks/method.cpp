@@ -32,7 +32,7 @@ template <int D>
 Method<D>::Method(const Scene& given)
     : scene(given),
       halo(components::n_layers_beyond(scene.interpolator)),
-      surroundings(surroundings_of(scene.transfer)),
+      carried_gradient(carried_gradient_of(scene.transfer)),
       passes(with_transfer([](const auto& transfer) { return transfer.passes; })),
       n_passes(with_transfer([](const auto& transfer) { return transfer.n_passes(); })),
       amplification(with_transfer([](const auto& transfer) -> double { return transfer.amplification(); })),

@@ -83,8 +83,8 @@ struct Method {
   }
 
   /// What particles bring to the grid beside their velocities.
-  bool brings_gradients() const { return surroundings == components::Surroundings::gradient; }
-  bool brings_moments() const { return surroundings == components::Surroundings::moment; }
+  bool brings_gradients() const { return carried_gradient == components::CarriedGradient::gradient; }
+  bool brings_moments() const { return carried_gradient == components::CarriedGradient::moment; }
 
   /// Materials that are a rigid body.
   std::vector<int> rigid_materials() const;
@@ -102,7 +102,7 @@ struct Method {
   std::vector<std::unique_ptr<const components::Interpolation<D>>> interpolations;
   /// Layers of nodes beyond a patch that its particles reach.
   int halo;
-  components::Surroundings surroundings;
+  components::CarriedGradient carried_gradient;
   /// Of nodes -> particles -> nodes: from which velocities, and how many.
   components::Passes passes;
   int n_passes;

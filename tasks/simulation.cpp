@@ -123,7 +123,7 @@ ParticleReport Simulation::report()
   return warehouse().result(particle_report);
 }
 
-NoseReport Simulation::near_noses() const
+NoseReport Simulation::nose_peaks() const
 {
   return scene_.has_nose() ? warehouse().result(nose_report) : NoseReport{};
 }

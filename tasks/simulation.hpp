@@ -79,7 +79,7 @@ class Simulation
   void advance(double end);
   ParticleReport report();
   /// Peaks near noses in the last report; those of no particle where the scene has no nose.
-  NoseReport near_noses() const;
+  NoseReport nose_peaks() const;
   /// Those since the last call, or the start; not collective, but to be called by all ranks alike.
   MeanForces take_mean_forces();
 

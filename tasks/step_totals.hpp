@@ -49,9 +49,9 @@ struct StepTotals {
   double contact = 0;
   /// Work of what drives bodies, in this step [J].
   double driving = 0;
-  /// What stress takes from the motion at the end of this step in its second half, as particles tell: half of the sum
-  /// of V sigma:strain, with viscous pressure [J].
-  double taken_at_end = 0;
+  /// Work of the stress at the end of this step in its second half, summed over particles: half of the sum of
+  /// V sigma:strain, with viscous pressure [J].
+  double stress_work_at_end = 0;
   /// Stress updates of all materials.
   components::UpdateCounts updates;
   /// The failed update with the lowest id in the first step that had any.
@@ -63,7 +63,7 @@ struct StepTotals {
                                             &StepTotals::viscous,
                                             &StepTotals::contact,
                                             &StepTotals::driving,
-                                            &StepTotals::taken_at_end,
+                                            &StepTotals::stress_work_at_end,
                                             &StepTotals::updates,
                                             runtime::Least{&StepTotals::failed}};
 };

@@ -56,10 +56,11 @@ struct RegressionSums {
     Vector<D + 1> z;
     z << x, 1;
     const double w = std::sqrt(shape);
-    const double doubt = 1 / (1 + portable::exp(plane.side * z.dot(plane.coefficients)));
+    // The fit's probability that the particle lies on the other side.
+    const double other_side = 1 / (1 + portable::exp(plane.side * z.dot(plane.coefficients)));
     weight += w;
-    gradient -= w * plane.side * doubt * z;
-    hessian += w * doubt * (1 - doubt) * z * z.transpose();
+    gradient -= w * plane.side * other_side * z;
+    hessian += w * other_side * (1 - other_side) * z * z.transpose();
   }
 
   RegressionSums& operator+=(const RegressionSums& other)

@@ -41,8 +41,8 @@ struct StressedBatch {
 template <std::size_t N>
 struct StressAccount {
   std::array<double, N> elastic, plastic, viscous;
-  /// What stress takes from the motion at the end of the step, in its second half.
-  std::array<double, N> taken_at_end;
+  /// Work of the stress at the end of the step in its second half, which it takes from the motion.
+  std::array<double, N> stress_work_at_end;
   std::array<double, N> stable_step;
 };
 
@@ -79,7 +79,8 @@ void account_for_stress(const AccountRules& rules, double dt, const StressedBatc
     set_lanes(account.elastic, k, double_dot(mid_stress, strain) * mid_volume - plastic);
     set_lanes(account.plastic, k, plastic);
     set_lanes(account.viscous, k, 0.5 * (lanes(batch.old_viscous_pressure) + q) * (old_volume - volume));
-    set_lanes(account.taken_at_end, k, 0.5 * (double_dot(stress, strain) * mid_volume + q * (old_volume - volume)));
+    set_lanes(account.stress_work_at_end, k,
+              0.5 * (double_dot(stress, strain) * mid_volume + q * (old_volume - volume)));
     const Lanes stable_step =
         rules.rule == StepRule::published
             ? published_time_step<D>(rules.cell_size, wave_speed(p.bulk_modulus, p.shear_modulus, p.density),

@@ -15,7 +15,7 @@ struct Apic : Pic {
   static constexpr std::string_view word = "apic";
   static constexpr std::string_view meaning = "`\"pic\"` with the gradients by which angular momentum is exact";
 
-  static constexpr Surroundings surroundings = Surroundings::moment;
+  static constexpr CarriedGradient carried_gradient = CarriedGradient::moment;
 };
 
 /// C_p [1/s].

@@ -15,7 +15,7 @@ struct Tflip : Flip {
   static constexpr std::string_view meaning =
       "`\"flip\"` whose particles bring gradients too, so that bodies only a few cells thick turn as fast as they spin";
 
-  static constexpr Surroundings surroundings = Surroundings::gradient;
+  static constexpr CarriedGradient carried_gradient = CarriedGradient::gradient;
 };
 
 }  // namespace tamp::components

@@ -13,7 +13,7 @@ struct Tpic : Pic {
   static constexpr std::string_view word = "tpic";
   static constexpr std::string_view meaning = "`\"pic\"` with gradients";
 
-  static constexpr Surroundings surroundings = Surroundings::gradient;
+  static constexpr CarriedGradient carried_gradient = CarriedGradient::gradient;
 };
 
 }  // namespace tamp::components

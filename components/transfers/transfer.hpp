@@ -10,10 +10,10 @@
 namespace tamp::components
 {
 
-/// What particles bring to the nodes of the velocities around them, beside their own: nothing; the gradient of velocity
-/// [1/s]; or its first moment sum S_ip v_i (x) (x_i - x_p) [m^2/s], which becomes a gradient by the second moments of
+/// The gradient that particles carry to the nodes beside their velocity: none; the gradient of velocity [1/s]; or its
+/// first moment sum S_ip v_i (x) (x_i - x_p) [m^2/s], which becomes a gradient by the second moments of
 /// the weights. Either comes from the grid, half a step behind the place, and is state.
-enum class Surroundings { none, gradient, moment };
+enum class CarriedGradient { none, gradient, moment };
 
 /// Where passes u_j = (1 - S+ S) u_{j-1} of nodes -> particles -> nodes begin, S+ being how velocities come to the
 /// nodes: nowhere, at the nodes' velocities of the start of the step, or at those that contact and walls have left.
@@ -47,7 +47,7 @@ constexpr std::array<Parameter<TransferNumbers>, 2> TransferNumbers::parameters(
 /// What every transfer has beside `word`, its name in scenes, and `meaning`, how velocities go, for people; where it
 /// has numbers it is made from a TransferNumbers. These are the values for most:
 ///
-///  - `surroundings`, what particles bring;
+///  - `carried_gradient`, that of its particles;
 ///  - `filters`, whether the nodes' part of their velocity is all that particles keep, in which walls and their images
 ///    then have a say;
 ///  - `passes` and `n_passes()`, of nodes -> particles -> nodes;
@@ -55,7 +55,7 @@ constexpr std::array<Parameter<TransferNumbers>, 2> TransferNumbers::parameters(
 ///  - `velocity(before, motion, restored)`, that of a particle at the middle of the step [m/s], from that at the middle
 ///    of the step before, what the nodes give, and the terms of passes from the start, sum S_ip (u_1 + ... ).
 struct PlainTransfer {
-  static constexpr Surroundings surroundings = Surroundings::none;
+  static constexpr CarriedGradient carried_gradient = CarriedGradient::none;
   static constexpr bool filters = true;
   static constexpr Passes passes = Passes::none;
   static constexpr int n_passes() { return 0; }

@@ -35,16 +35,16 @@ auto with_transfer(Transfer choice, const TransferNumbers& numbers, Visit&& visi
   });
 }
 
-inline Surroundings surroundings_of(Transfer choice)
+inline CarriedGradient carried_gradient_of(Transfer choice)
 {
-  return choice.visit([]<class T>(std::type_identity<T>) { return T::surroundings; });
+  return choice.visit([]<class T>(std::type_identity<T>) { return T::carried_gradient; });
 }
 
 /// Whether particles bring gradients beside velocities of their own, which no node slows.
 inline bool brings_own_gradients(Transfer choice)
 {
   return choice.visit(
-      []<class T>(std::type_identity<T>) { return T::surroundings == Surroundings::gradient && !T::filters; });
+      []<class T>(std::type_identity<T>) { return T::carried_gradient == CarriedGradient::gradient && !T::filters; });
 }
 
 }  // namespace tamp::components

@@ -128,7 +128,7 @@ bool LockHolder::is_silent() const
   return std::abs(untouched) >= stale_after;
 }
 
-std::string LockHolder::told() const
+std::string LockHolder::description() const
 {
   const std::string heard = untouched > -stale_after
                                 ? fmt::format("last heard of {:.0f} s ago", std::max(untouched, 0.0))
@@ -164,9 +164,9 @@ FolderLock::~FolderLock()
 void FolderLock::take()
 {
   // Who looks at a lock and takes it over does so alone, as far as the file system knows flock.
-  const Descriptor gate(::open(folder_.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
-  if (!gate.good()) throw FileError(folder_.string(), std::strerror(errno));
-  ::flock(gate.get(), LOCK_EX);
+  const Descriptor locked_folder(::open(folder_.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
+  if (!locked_folder.good()) throw FileError(folder_.string(), std::strerror(errno));
+  ::flock(locked_folder.get(), LOCK_EX);
 
   if (const Descriptor old = existing_lock(file_); old.good()) {
     former_ = holder_in(folder_, old);

@@ -23,12 +23,12 @@ struct LockHolder {
   /// Whether that is a minute at least, either way: who is alive touches it every ten seconds.
   bool is_silent() const;
   /// Such as "process 12 on HOST since TIME, last heard of 3 s ago".
-  std::string told() const;
+  std::string description() const;
 };
 
 /// The folder is another program's.
 struct FolderInUse : std::runtime_error {
-  explicit FolderInUse(const LockHolder& holder) : std::runtime_error("in use by " + holder.told()) {}
+  explicit FolderInUse(const LockHolder& holder) : std::runtime_error("in use by " + holder.description()) {}
 };
 
 /// Keeps a folder for one program, by the file `run.lock` in it, which is touched every ten seconds. The lock of a

@@ -63,7 +63,7 @@ void add_to(StepTotals& totals, const Account& account, std::size_t n)
     totals.elastic += account.elastic[k];
     totals.plastic += account.plastic[k];
     totals.viscous += account.viscous[k];
-    totals.taken_at_end += account.taken_at_end[k];
+    totals.stress_work_at_end += account.stress_work_at_end[k];
     // Written so that what is not a number does not pass for a bound.
     const double stable_step = account.stable_step[k];
     totals.stable_step = stable_step >= totals.stable_step ? totals.stable_step : stable_step;

@@ -16,7 +16,7 @@
 namespace tamp::tasks
 {
 
-using components::Surroundings;
+using components::CarriedGradient;
 
 namespace
 {
@@ -205,7 +205,7 @@ void BodyParticles<D>::store(const Particles& particles, int patch, int material
   warehouse.set_n_particles(patch, material, n);
   const auto state = [&](const auto& label) { return warehouse.state(label, patch, material); };
   const double density = scene_.materials[static_cast<std::size_t>(material)].density;
-  const Surroundings surroundings = surroundings_of(scene_.transfer);
+  const CarriedGradient carried = carried_gradient_of(scene_.transfer);
   for (std::size_t p = 0; p < n; ++p) {
     const auto number = static_cast<std::size_t>(particles.body[p]);
     const SceneBody& body = scene_.bodies[number];
@@ -215,7 +215,7 @@ void BodyParticles<D>::store(const Particles& particles, int patch, int material
     state(particle::position<D>)[p] = particles.position[p];
     state(particle::reference_position<D>)[p] = site.place;
     state(particle::velocity<D>)[p] = initial_velocity(particles, p);
-    if (surroundings == Surroundings::gradient)
+    if (carried == CarriedGradient::gradient)
       state(particle::velocity_gradient<D>)[p] = velocity_gradient<D>(scene_, body, site.place);
     state(particle::deformation_gradient<D>)[p] = particle_axes<D>(scene_, body, site.place);
     state(particle::volume)[p] = site.volume;
@@ -231,7 +231,7 @@ void BodyParticles<D>::store(const Particles& particles, int patch, int material
     state(particle::stress<D>)[p] = settled.stress;
     state(particle::state<components::TabularCap>)[p] = settled.state;
   }
-  if (surroundings == Surroundings::moment) store_velocity_moments(particles, patch, material, warehouse);
+  if (carried == CarriedGradient::moment) store_velocity_moments(particles, patch, material, warehouse);
 }
 
 template <int D>

@@ -12,7 +12,7 @@ void try_to_lock(const fs::path& folder)
 {
   try {
     const tamp::runtime::FolderLock taken(folder);
-    if (taken.former_holder()) taken.former_holder()->told();
+    if (taken.former_holder()) taken.former_holder()->description();
   } catch (const tamp::runtime::FolderInUse&) {
   }
 }

@@ -86,7 +86,7 @@ Eigen::Matrix3d stress_of(const Particle& p)
 /// A step of all particles by plain loops, from their state before it and the sizes of the step and that before it;
 /// `after` is their state after it, of which stress and volume are taken.
 struct PlainStep {
-  double filtered_at_nodes = 0, filtered_at_particles = 0, taken_at_start = 0, taken_at_end = 0;
+  double filtered_at_nodes = 0, filtered_at_particles = 0, stress_work_at_start = 0, stress_work_at_end = 0;
 
   PlainStep(const std::vector<Particle>& before, const std::vector<Particle>& after, int dimension, double size,
             double size_before)
@@ -110,7 +110,7 @@ struct PlainStep {
     for (const auto& [i, node] : nodes) {
       if (node.mass < 1e-20) continue;
       filtered_at_nodes += 0.5 * (kick * node.force).squaredNorm() / node.mass;
-      taken_at_start -= 0.5 * size_before * node.force.dot(node.start());
+      stress_work_at_start -= 0.5 * size_before * node.force.dot(node.start());
     }
     for (std::size_t n = 0; n < before.size(); ++n) {
       const Particle& p = before[n];
@@ -125,7 +125,7 @@ struct PlainStep {
       }
       filtered_at_particles += 0.5 * p.density * p.volume_ratio * full * change.squaredNorm();
       const Eigen::Matrix3d strain = Eigen::Matrix3d::Identity() - f.inverse();
-      taken_at_end += 0.5 * after[n].volume_ratio * full * (stress_of(after[n]).transpose() * strain).trace();
+      stress_work_at_end += 0.5 * after[n].volume_ratio * full * (stress_of(after[n]).transpose() * strain).trace();
     }
   }
 };
@@ -149,13 +149,13 @@ TEST_CASE("what particles filter out of a FLIP step is the energy of the nodes' 
   const GridTotals& nodes = simulation->grid_totals();
   const double nodes_gain = nodes.gained_by_nodes - nodes_before.gained_by_nodes,
                particles_gain = nodes.gained_by_particles - nodes_before.gained_by_particles,
-               taken_at_start = nodes.taken_by_forces - nodes_before.taken_by_forces,
-               taken_at_end = simulation->energies().half_step;
+               stress_work_at_start = nodes.taken_by_forces - nodes_before.taken_by_forces,
+               stress_work_at_end = simulation->energies().half_step;
   CHECK(plain.filtered_at_nodes > 1.2 * plain.filtered_at_particles);
   CHECK(nodes_gain - particles_gain == Approx(plain.filtered_at_nodes - plain.filtered_at_particles).epsilon(1e-8));
-  CHECK(taken_at_start == Approx(plain.taken_at_start).epsilon(1e-8));
+  CHECK(stress_work_at_start == Approx(plain.stress_work_at_start).epsilon(1e-8));
   // The strain increment is that of the gradient but for its square: the step is short.
-  CHECK(taken_at_end == Approx(plain.taken_at_end).epsilon(1e-3));
+  CHECK(stress_work_at_end == Approx(plain.stress_work_at_end).epsilon(1e-3));
 }
 
 namespace

@@ -126,7 +126,7 @@ RunFolder::RunFolder(const fs::path& folder, Use use, std::span<const fs::path> 
   }
   if (lock_->former_holder()) {
     notice_ = fmt::format("{}: the lock of a run that has ended was taken over: {}", folder.string(),
-                          lock_->former_holder()->told());
+                          lock_->former_holder()->description());
   }
 }
 

@@ -237,7 +237,7 @@ std::vector<std::string> RunHistory::column_names() const
 void RunHistory::measure()
 {
   report_ = simulation_.report();
-  nose_report_ = simulation_.near_noses();
+  nose_report_ = simulation_.nose_peaks();
   lost_ = simulation_.lost();
   const tasks::EnergyLedger& since_start = simulation_.energies();
   EnergyBalance& e = energies_;

@@ -19,7 +19,7 @@ void check_method(const JsonReader& reader, const tasks::Scene& scene)
                        "expected the rule \"published\", as a particle that hardly reaches a node would have no stable "
                        "step; or another interpolator");
   }
-  const bool divides_by_moments = surroundings_of(scene.transfer) == components::Surroundings::moment;
+  const bool divides_by_moments = carried_gradient_of(scene.transfer) == components::CarriedGradient::moment;
   if (divides_by_moments && !components::has_second_moments(scene.interpolator)) {
     reader.add_problem("transfer",
                        fmt::format("{} with an interpolator whose weights have no spread where a particle is on a node",

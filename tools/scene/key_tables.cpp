@@ -56,8 +56,8 @@ std::string table_of(const std::vector<Key>& keys)
   return "| key | unit | default | meaning |\n| --- | --- | --- | --- |\n" + rows_of(keys);
 }
 
-/// A key as it is told in passing.
-std::string told(const Key& key)
+/// A key with its meaning, unit and default, for a list within a line.
+std::string key_summary(const Key& key)
 {
   std::string text = "`" + key.name + "`";
   if (!key.meaning.empty()) text += ": " + key.meaning;
@@ -74,7 +74,7 @@ std::string table_of_types(const ObjectKeys& object, const std::string& meaning,
   for (const TypeKeys& type : object.types) {
     if (type.only_in != dimension) continue;
     std::string keys;
-    for (const Key& key : type.keys) keys += (keys.empty() ? "" : ", ") + told(key);
+    for (const Key& key : type.keys) keys += (keys.empty() ? "" : ", ") + key_summary(key);
     text += table_row({"`\"" + type.word + "\"`", keys, type.meaning});
   }
   return text;

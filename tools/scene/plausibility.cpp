@@ -21,26 +21,26 @@ namespace
 
 using Warnings = std::vector<std::string>;
 
-/// What a column's numbers look like instead of what its name says.
-std::string doubt(const std::string& name, double greatest)
+/// How a column's numbers look in another unit than its name says; empty where they do not.
+std::string likely_mistake(const std::string& name, double greatest)
 {
   if (name.ends_with("[Pa]") && greatest < 1e4) return "look like MPa, or like nothing that stops a projectile";
   if (name.ends_with("[-]") && greatest > 1.5) return "look like percent";
   return "";
 }
 
-void doubt_table(const InputFile& input, Warnings& warnings)
+void check_table(const InputFile& input, Warnings& warnings)
 {
   if (input.pointer.empty() || input.hash.empty() || file_kind(input.file) != FileKind::text) return;
   for (const auto& [name, greatest] : greatest_of_columns(input.file)) {
-    const std::string why = doubt(name, greatest);
+    const std::string why = likely_mistake(name, greatest);
     if (why.empty()) continue;
     warnings.push_back(
         fmt::format("{}: {} reaches {:.4g} at most: its numbers {}", input.file.string(), name, greatest, why));
   }
 }
 
-void doubt_material(const CheckedScene& checked, std::size_t m, Warnings& warnings)
+void check_material(const CheckedScene& checked, std::size_t m, Warnings& warnings)
 {
   const tasks::SceneMaterial& material = checked.scene.materials[m];
   const std::string place = fmt::format("/materials/{}", material.name);
@@ -54,7 +54,7 @@ void doubt_material(const CheckedScene& checked, std::size_t m, Warnings& warnin
   }
 }
 
-void doubt_speed(const tasks::SceneBody& body, double fastest_wave, Warnings& warnings)
+void check_speed(const tasks::SceneBody& body, double fastest_wave, Warnings& warnings)
 {
   const double speed = Eigen::Vector3d(body.velocity.data()).norm();
   if (speed <= fastest_wave) return;
@@ -64,7 +64,7 @@ void doubt_speed(const tasks::SceneBody& body, double fastest_wave, Warnings& wa
 }
 
 /// The strongest centrifuges that soil is tested in reach some hundred times the acceleration on earth.
-void doubt_gravity(const tasks::Scene& scene, Warnings& warnings)
+void check_gravity(const tasks::Scene& scene, Warnings& warnings)
 {
   constexpr double doubtful = 1e4;
   const double gravity = Eigen::Vector3d(scene.gravity.data()).norm();
@@ -73,7 +73,7 @@ void doubt_gravity(const tasks::Scene& scene, Warnings& warnings)
 
 /// Splines reach further beyond the ground than other particles do, with a gradient shorter than that of the side of a
 /// block beside them, which then pushes the ground ahead of it.
-void doubt_contact(const tasks::Scene& scene, Warnings& warnings)
+void check_contact(const tasks::Scene& scene, Warnings& warnings)
 {
   const bool are_splines =
       components::with_shape<1>(scene.interpolator, 1, [](const auto& shape) { return shape.is_spline; });
@@ -86,7 +86,7 @@ void doubt_contact(const tasks::Scene& scene, Warnings& warnings)
   }
 }
 
-void doubt_mass(const tasks::Scene& scene, const tasks::SceneBody& body, Warnings& warnings)
+void check_mass(const tasks::Scene& scene, const tasks::SceneBody& body, Warnings& warnings)
 {
   // The volume of many solids that overlap takes too long to find.
   constexpr std::size_t few = 10;
@@ -100,7 +100,7 @@ void doubt_mass(const tasks::Scene& scene, const tasks::SceneBody& body, Warning
                   body.name, 100 * error));
 }
 
-void compare_density(const std::string& place, const Json& material, Warnings& warnings)
+void check_density(const std::string& place, const Json& material, Warnings& warnings)
 {
   constexpr double close = 0.05;
   if (!material.contains("tested_density")) return;
@@ -113,7 +113,7 @@ void compare_density(const std::string& place, const Json& material, Warnings& w
       place, density, 100 * difference, tested));
 }
 
-void compare_strain(const std::string& place, const Json& material, Warnings& warnings)
+void check_strain(const std::string& place, const Json& material, Warnings& warnings)
 {
   if (!material.contains("tested_strain") || material["tested_strain"] == material["strain_measure"]) return;
   const std::string tested = material["tested_strain"], read = material["strain_measure"];
@@ -131,8 +131,8 @@ std::vector<std::string> material_warnings(const CheckedScene& checked)
   Warnings warnings;
   for (const auto& [name, material] : checked.resolved.at("materials").items()) {
     const std::string place = "/materials/" + name;
-    compare_density(place, material, warnings);
-    compare_strain(place, material, warnings);
+    check_density(place, material, warnings);
+    check_strain(place, material, warnings);
   }
   return warnings;
 }
@@ -141,17 +141,17 @@ std::vector<std::string> plausibility_warnings(const CheckedScene& checked)
 {
   const tasks::Scene& scene = checked.scene;
   Warnings warnings;
-  for (const InputFile& input : checked.inputs) doubt_table(input, warnings);
+  for (const InputFile& input : checked.inputs) check_table(input, warnings);
   double fastest_wave = 0;
   for (std::size_t m = 0; m < scene.materials.size(); ++m) {
-    doubt_material(checked, m, warnings);
+    check_material(checked, m, warnings);
     fastest_wave = std::max(fastest_wave, tasks::initial_wave_speed(scene.materials[m]));
   }
-  doubt_gravity(scene, warnings);
-  doubt_contact(scene, warnings);
+  check_gravity(scene, warnings);
+  check_contact(scene, warnings);
   for (const tasks::SceneBody& body : scene.bodies) {
-    doubt_speed(body, fastest_wave, warnings);
-    doubt_mass(scene, body, warnings);
+    check_speed(body, fastest_wave, warnings);
+    check_mass(scene, body, warnings);
   }
   return warnings;
 }

@@ -91,13 +91,13 @@ FoundCheckpoint looked_at(const fs::path& file, const Communicator& communicator
 template <class Table>
 void expect_tables(const fs::path& file, const std::vector<CheckpointTable>& found, const std::vector<Table>& expected)
 {
-  const auto told = [](const auto& tables, std::size_t i) {
+  const auto text_of = [](const auto& tables, std::size_t i) {
     return i < tables.size() ? fmt::format("{} of {} bytes", tables[i].path, tables[i].value_bytes) : "nothing more";
   };
   for (std::size_t i = 0; i < std::max(found.size(), expected.size()); ++i) {
-    if (told(found, i) == told(expected, i)) continue;
+    if (text_of(found, i) == text_of(expected, i)) continue;
     throw FileError(file.string(),
-                    fmt::format("is of another scene: {}, expected {}", told(found, i), told(expected, i)));
+                    fmt::format("is of another scene: {}, expected {}", text_of(found, i), text_of(expected, i)));
   }
 }
 

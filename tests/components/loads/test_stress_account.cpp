@@ -86,7 +86,7 @@ TEST_CASE("each particle's account has the same bits in a batch as alone")
     CHECK(alone.elastic[0] == together.elastic[p]);
     CHECK(alone.plastic[0] == together.plastic[p]);
     CHECK(alone.viscous[0] == together.viscous[p]);
-    CHECK(alone.taken_at_end[0] == together.taken_at_end[p]);
+    CHECK(alone.stress_work_at_end[0] == together.stress_work_at_end[p]);
     CHECK(alone.stable_step[0] == together.stable_step[p]);
   }
 }
@@ -109,7 +109,7 @@ TEST_CASE("the work of stress over a step is stored, lost to plasticity and lost
     CHECK(account.plastic[p] == Approx(particles.plastic_work[p] * particles.volume[p]));
     CHECK(account.viscous[p] == Approx(0.5 * (particles.old_viscous_pressure[p] + q[p]) * shrunk));
     const double last = 0.5 * (double_dot(particles.stress[p], particles.strain[p]) * middle + q[p] * shrunk);
-    CHECK(account.taken_at_end[p] == Approx(last));
+    CHECK(account.stress_work_at_end[p] == Approx(last));
     if (particles.bulk_modulus[p] == 0) CHECK(q[p] == 0);
   }
 }

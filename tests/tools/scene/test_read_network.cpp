@@ -229,13 +229,13 @@ TEST_CASE("a file whose texts of variable length would be looked through for eve
     const auto file = folder.write("d.h5", damaged.replace(at, bytes.size(), bytes));
     return problems_of_reading(folder, [&] { read_network_file(file); });
   };
-  const std::string told = "d.h5: an HDF5 file whose texts are damaged; expected an HDF5 file";
+  const std::string damaged_texts = "d.h5: an HDF5 file whose texts are damaged; expected an HDF5 file";
 
   CHECK(problems_with(0, "") == "");
-  CHECK(problems_with(first_object, std::string(16, '\0')) == told);
-  CHECK(problems_with(size, "\xf0" + std::string(7, '\xff')) == told);
-  CHECK(problems_with(size, std::string(8, '\xff')) == told);
-  CHECK(problems_with(size, std::string(2, '\xff')) == told);
+  CHECK(problems_with(first_object, std::string(16, '\0')) == damaged_texts);
+  CHECK(problems_with(size, "\xf0" + std::string(7, '\xff')) == damaged_texts);
+  CHECK(problems_with(size, std::string(8, '\xff')) == damaged_texts);
+  CHECK(problems_with(size, std::string(2, '\xff')) == damaged_texts);
 }
 
 TEST_CASE("a configuration that is none is told with its place")

@@ -118,9 +118,9 @@ class Sheet:
         axis.set_axisbelow(True)
         return axis
 
-    def text(self, x, y, words, **how):
+    def text(self, x, y, text, **how):
         how = {"size": self.layout.font, "color": LIGHT["ink"], **how}
-        return self.under.text(x, y, words, **how)
+        return self.under.text(x, y, text, **how)
 
     def draw_legend(self, rows, y):
         for row in rows:
@@ -142,8 +142,8 @@ class Sheet:
                 self.under.plot([x + LABEL_GAP - 2], [y], **marker_style(style, 6))
             self.text(x + LABEL_GAP + 6, y - 4, fitted(text, 190, self.layout.font))
 
-    def say_empty(self, words):
-        self.axis.annotate(words, (0.5, 0.5), xycoords="axes fraction", ha="center", color=LIGHT["faint"],
+    def say_empty(self, text):
+        self.axis.annotate(text, (0.5, 0.5), xycoords="axes fraction", ha="center", color=LIGHT["faint"],
                            size=self.layout.font)
 
     def in_points(self, x, y):

@@ -60,8 +60,8 @@ def draw(bars, quantity, title, layout):
 
 def entry_of(name, colour, bars):
     unknown = [amount_of(part) is None for bar in bars for part in bar["parts"] if part["name"] == name]
-    words = f"{name} (no bound)" if all(unknown) else f"{name} (hatched: no bound)" if any(unknown) else name
-    return Entry(words, Style(colour), filled=True, hatch="////" if all(unknown) else "")
+    label = f"{name} (no bound)" if all(unknown) else f"{name} (hatched: no bound)" if any(unknown) else name
+    return Entry(label, Style(colour), filled=True, hatch="////" if all(unknown) else "")
 
 
 def label_of(bar, quantity):

@@ -32,8 +32,8 @@ def lines_with_orders(study, quantity):
         if not points:
             continue
         order = fit.get("order")
-        words = "no order" if order is None else f"order {number_text(order)}"
-        lines.append((fit["method"], f"{fit.get('label') or fit['method']}: {words}", points))
+        found = "no order" if order is None else f"order {number_text(order)}"
+        lines.append((fit["method"], f"{fit.get('label') or fit['method']}: {found}", points))
         if order is not None:
             guides += guide(fit["method"], order, points, quantity)
     said = {fit["method"] for fit in quantity.orders}

@@ -74,7 +74,7 @@ def draw_failed(spec, sheet, groups, rows):
     strip.set(xscale="log", xlim=limits, ylim=(0, sheet.failed_height), xticks=[], yticks=[])
     strip.xaxis.set_minor_locator(NullLocator())
     strip.spines["bottom"].set_visible(False)
-    strip.patch.set(visible=True, facecolor=LIGHT["edge"])
+    strip.patch.set(visible=True, facecolor=LIGHT["failed"])
     places = []
     for group, row in zip(groups, rows):
         heights = [sheet.failed_height - 4 - ROW * (r + 0.5) for r in row]

@@ -55,9 +55,9 @@ def with_texts(svg, name, title, description):
     root.set("role", "img")
     root.set("aria-labelledby", f"{name}-title")
     root.set("aria-describedby", f"{name}-description")
-    for place, (tag, kind, words) in enumerate([("title", "title", title), ("desc", "description", description)]):
+    for place, (tag, kind, text) in enumerate([("title", "title", title), ("desc", "description", description)]):
         element = ElementTree.Element(f"{{{SVG}}}{tag}", {"id": f"{name}-{kind}"})
-        element.text = words
+        element.text = text
         element.tail = "\n"
         root.insert(place, element)
     return ElementTree.tostring(root, encoding="unicode") + "\n"

@@ -12,8 +12,8 @@ MOST_TICKS_AT_VALUES = 6
 
 
 def make(spec, name, title, about):
-    words = describe(spec), caption(spec, about), table(spec)
-    return make_chart(name, title, *words, lambda layout: draw(spec, title, layout))
+    description = describe(spec), caption(spec, about), table(spec)
+    return make_chart(name, title, *description, lambda layout: draw(spec, title, layout))
 
 
 def draw(spec, title, layout):
@@ -68,10 +68,10 @@ def draw_uncertainty(spec, drawn, sheet):
         return
     sheet.axis.axhspan(drawn.limits[0], uncertainty, color=LIGHT["band"], zorder=0, lw=0, gid="band")
     sheet.axis.axhline(uncertainty, color=LIGHT["faint"], lw=0.8, ls=(0, (2, 2)), zorder=0.5)
-    words = f"the reference itself is uncertain by {spec.quantity.error_text(uncertainty, 2)}: "
-    words += "points in the band cannot be told from it"
+    text = f"the reference itself is uncertain by {spec.quantity.error_text(uncertainty, 2)}: "
+    text += "points in the band cannot be told from it"
     font = sheet.layout.font - 1
-    for k, line in enumerate(reversed(wrapped(words, 0.96 * sheet.axis.bbox.width, font))):
+    for k, line in enumerate(reversed(wrapped(text, 0.96 * sheet.axis.bbox.width, font))):
         sheet.axis.annotate(line, (0, 0), (6, 5 + 13 * k), xycoords="axes fraction", textcoords="offset points",
                             size=font, color=LIGHT["faint"], zorder=0.6)
 

@@ -110,7 +110,7 @@ class Study:
         self.styles = styles_of_methods(self.lines)
         self.quantities = [quantity_of(q) for q in document.get("quantities", [])]
         self.budgets = document.get("budgets") or []
-        self.gates = document.get("gates") or []
+        self.expected = document.get("gates") or []
 
     def failed(self):
         return [point for point in self.points if point.failed]

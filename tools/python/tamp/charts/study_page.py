@@ -97,23 +97,23 @@ def overview(study):
     return f'{said}<nav aria-label="Quantities">\n{links}</nav>\n'
 
 
-def verdict(gate):
+def verdict(expectation):
     """Whether what was expected holds, and whether that is known."""
-    if gate["holds"]:
-        return "holds, though known to be missed" if gate.get("missed") else "holds"
-    return "missed, as known" if gate.get("missed") else "DOES NOT HOLD"
+    if expectation["holds"]:
+        return "holds, though known to be missed" if expectation.get("missed") else "holds"
+    return "missed, as known" if expectation.get("missed") else "DOES NOT HOLD"
 
 
 def expectations(study):
     """What was said before the runs, and whether it holds."""
-    if not study.gates:
+    if not study.expected:
         return ""
-    missed = sum(not gate["holds"] for gate in study.gates)
-    known = sum(not gate["holds"] and bool(gate.get("missed")) for gate in study.gates)
-    said = f"{missed} of {len(study.gates)} do not hold" if missed else f"All {len(study.gates)} hold"
+    missed = sum(not expectation["holds"] for expectation in study.expected)
+    known = sum(not expectation["holds"] and bool(expectation.get("missed")) for expectation in study.expected)
+    said = f"{missed} of {len(study.expected)} do not hold" if missed else f"All {len(study.expected)} hold"
     said += f", {known} of them as is known" if known else ""
     rows = [[verdict(g), g["quantity"], g["label"], g["note"], g["expected"], g.get("missed") or g["why"]]
-            for g in study.gates]
+            for g in study.expected]
     table = page.as_html(Table(["", "quantity", "method", "found", "expected", "why"], rows))
     return f'<section id="expected">\n<h2>What was expected</h2>\n<p>{said}.</p>\n{table}</section>\n'
 

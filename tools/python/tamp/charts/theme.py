@@ -20,7 +20,7 @@ SURFACES = {
     "rule": ("#e2e5ea", "#2c3037"),
     "front": ("#c3c8d1", "#4c535f"),  # the Pareto front, wide and behind the points
     "band": ("#edf1f6", "#20252c"),  # the reference's own uncertainty
-    "edge": ("#faeee9", "#2d211e"),  # where failed runs stand
+    "failed": ("#faeee9", "#2d211e"),  # where failed runs stand
 }
 # The colour-blind can tell them apart: 10 or more of OKLab's hundredths between any two for those who see no red or no
 # green, and three times as bright or dark as the page at least.
