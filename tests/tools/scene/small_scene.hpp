@@ -53,4 +53,19 @@ inline std::string problems_with(const std::vector<std::string>& assignments)
   return problems_of(folder, folder.write("scene.json", small_scene), assignments);
 }
 
+/// The small scene with the small sand among its materials: in the folder "scenes" beside the sand and its tables.
+inline std::filesystem::path write_scene_with_sand(const TemporaryFolder& folder)
+{
+  write_sand(folder);
+  std::string scene = small_scene;
+  scene.replace(scene.find("\"steel\": {"), 0, R"("sand": { "file": "../sand.json", "density": 1500 }, )");
+  return folder.write("scenes/scene.json", scene);
+}
+
+inline std::string problems_with_sand(const std::vector<std::string>& assignments)
+{
+  const TemporaryFolder folder;
+  return problems_of(folder, write_scene_with_sand(folder), assignments);
+}
+
 }  // namespace tamp::test
