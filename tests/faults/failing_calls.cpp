@@ -68,7 +68,7 @@ Function* next(Function*, const char* name)
 
 extern "C" {
 
-void* __libc_malloc(std::size_t);
+void* __libc_malloc(std::size_t);  // NOLINT(bugprone-reserved-identifier): glibc's own
 
 void* malloc(std::size_t n)
 {

@@ -57,7 +57,7 @@ Json largest_force(const RunHistory& history, const std::string& body, int dimen
   double most = 0;
   for (int k = 0; k < dimension; ++k) {
     const std::string axis(1, "xyz"[k]);
-    const auto found = history.extremes().find(body + ".contact_force_" + axis + "[N]");
+    const auto found = history.extremes().find(fmt::format("{}.contact_force_{}[N]", body, axis));
     if (found == history.extremes().end()) continue;
     const Extremes& e = found->second;
     const bool upwards = std::abs(e.greatest) >= std::abs(e.least);

@@ -24,7 +24,7 @@ Key length_key(std::string name, Range range)
   return {std::move(name), Number{range}, "m", compulsory, ""};
 }
 
-Key rows_key(std::string name, std::string row)
+Key rows_key(std::string name, const std::string& row)
 {
   return {std::move(name), Rows{just(2)}, "m", compulsory, "`[" + row + ", ...]`"};
 }

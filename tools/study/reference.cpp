@@ -140,6 +140,7 @@ Reference reference_of(const Study& study, const Quantity& quantity, const std::
   reference.note = runs.empty() ? "no reference was asked for" : problem_of(runs);
   if (!reference.note.empty()) return reference;
   std::vector<Answer> answers;
+  answers.reserve(runs.size());
   for (const MeasuredPoint* run : runs) answers.push_back(answer_of(study, quantity, run->result));
   reference = answers.size() > 1 ? limit_reference(quantity, spacings_of(study.reference->refinement.values), answers)
                                  : run_reference(quantity, answers.front());
@@ -151,6 +152,7 @@ Reference reference_of(const Study& study, const Quantity& quantity, const std::
 std::vector<double> spacings_of(const std::vector<Json>& values)
 {
   std::vector<double> spacings;
+  spacings.reserve(values.size());
   for (const Json& value : values) spacings.push_back(value.get<double>());
   if (spacings.size() > 1 && spacings.front() < spacings.back()) {
     for (double& spacing : spacings) spacing = 1 / spacing;

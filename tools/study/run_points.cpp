@@ -260,6 +260,7 @@ std::vector<PointResult> run_points(const Study& study, const std::vector<Point>
   }
   runner.run();
   std::vector<PointResult> results;
+  results.reserve(measurements.size());
   for (const Measurement& measurement : measurements) {
     results.push_back(measurement.refusal.empty() ? runner.result(measurement.key)
                                                   : PointResult{End::refused, measurement.refusal, {}, 0, {}});

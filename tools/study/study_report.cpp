@@ -327,6 +327,7 @@ std::string expectations_to_csv(const StudyResults& results)
   std::string text = fmt::format("{}\n", fmt::join(names, ","));
   for (const Json& result : expectations_json(results)) {
     std::vector<std::string> cells;
+    cells.reserve(names.size());
     for (const std::string& name : names) cells.push_back(csv_cell(result[name]));
     text += fmt::format("{}\n", fmt::join(cells, ","));
   }

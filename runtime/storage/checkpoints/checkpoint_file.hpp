@@ -62,7 +62,8 @@ class CheckpointReader
 
  private:
   std::vector<CheckpointTable> read_contents() const;
-  /// Throws unless the table has the rows that its patches are said to have, which are then read without a further look.
+  /// Throws unless the table has the rows that its patches are said to have, which are then read without a further
+  /// look.
   void expect_rows(const CheckpointTable& table) const;
   std::vector<PatchEntry> read_entries(const std::string& path) const;
 

@@ -49,6 +49,7 @@ struct Value {
 std::vector<Value<2>> numbered()
 {
   std::vector<Value<2>> field;
+  field.reserve(static_cast<std::size_t>(n_x * n_y));
   for (int n = 0; n < n_x * n_y; ++n) field.push_back({0.5 * (n + 1), {n + 1, 100 * (n + 1)}});
   return field;
 }

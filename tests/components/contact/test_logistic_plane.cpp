@@ -192,11 +192,11 @@ TEST_CASE("as two materials move through the grid together their normal by regre
   const Vector<3> normal = random_turn<3>(random).col(0), along = random_turn<3>(random).col(0);
   const Around<3> start = half_spaces<3>(random, normal, 0, 0);
   double by_gradient = 0, by_regression = 0;
-  constexpr int n_steps = 50;
+  constexpr int n_steps = 50, halfway = n_steps / 2;
   for (int i = 0; i < n_steps; ++i) {
     Around<3> around = start;
     for (auto* material : {&around.first, &around.second}) {
-      for (Vector<3>& x : *material) x += (i - n_steps / 2) * 0.01 * along;
+      for (Vector<3>& x : *material) x += (i - halfway) * 0.01 * along;
     }
     by_gradient = std::max(by_gradient, degrees_between<3>(around.gradient_normal(), normal));
     by_regression = std::max(by_regression, degrees_between<3>(around.plane(2).normal(), normal));

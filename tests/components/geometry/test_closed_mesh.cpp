@@ -176,18 +176,18 @@ TEST_CASE("text that is no STL, or is cut short, is refused")
   if (!ClosedMesh::is_available) return;
   const std::string whole = stl(cube({0, 0, 0}));
 
-  CHECK(fault("") != "");
-  CHECK(fault("nothing of the kind") != "");
-  CHECK(fault("solid empty\nendsolid empty\n") != "");
-  CHECK(fault(whole.substr(0, whole.size() / 2)) != "");
-  CHECK(fault(whole) == "");
+  CHECK(!fault("").empty());
+  CHECK(!fault("nothing of the kind").empty());
+  CHECK(!fault("solid empty\nendsolid empty\n").empty());
+  CHECK(!fault(whole.substr(0, whole.size() / 2)).empty());
+  CHECK(fault(whole).empty());
 }
 
 TEST_CASE("a corner of a binary mesh that is NaN or infinite is refused, though all but that is another corner's")
 {
   if (!ClosedMesh::is_available) return;
   std::vector<Triangle> triangles = cube({0, 0, 0});
-  CHECK(fault(binary_stl(triangles)) == "");
+  CHECK(fault(binary_stl(triangles)).empty());
 
   for (const double odd : {std::nan(""), std::numeric_limits<double>::infinity()}) {
     triangles.back()[2].x() = odd;
@@ -202,7 +202,7 @@ TEST_CASE("a triangle of a mesh with two equal corners is no part of its surface
 
   triangles.push_back({triangles[0][0], triangles[0][1], triangles[0][1]});
 
-  CHECK(fault(stl(triangles)) == "");
+  CHECK(fault(stl(triangles)).empty());
   CHECK(mesh(stl(triangles)).volume().value == Approx(1));
   CHECK(fault(stl({triangles.back()})) == "triangles that do not make a surface");
 }

@@ -59,7 +59,8 @@ TEST_CASE("filling finds every site that the solid contains and no other")
   for (int j = 0; j < 8; ++j) {
     for (int i = 0; i < 8; ++i) {
       for (int site = 0; site < 9; ++site) {
-        const Vector<2> x(-1 + 0.25 * (i + (site % 3 + 0.5) / 3), -1 + 0.25 * (j + (site / 3 + 0.5) / 3));
+        const int column = site % 3, row = site / 3;
+        const Vector<2> x(-1 + 0.25 * (i + (column + 0.5) / 3), -1 + 0.25 * (j + (row + 0.5) / 3));
         if (block.contains(x)) expected.push_back(x);
       }
     }

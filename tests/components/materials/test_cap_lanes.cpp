@@ -129,6 +129,7 @@ TEST_CASE("in whatever order particles of sand come, each gets the same bits")
   std::iota(order.begin(), order.end(), 0);
   std::shuffle(order.begin(), order.end(), std::mt19937_64(3));
   std::vector<Strained> shuffled;
+  shuffled.reserve(order.size());
   for (std::size_t i : order) shuffled.push_back(states[i]);
   const std::vector<Numbers> out_of_order = update_all(sand, shuffled);
   for (std::size_t k = 0; k < order.size(); ++k) REQUIRE(out_of_order[k] == in_order[order[k]]);

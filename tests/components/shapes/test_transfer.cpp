@@ -236,8 +236,10 @@ TEMPLATE_TEST_CASE_SIG("particles take from the grid what plain loops over all n
   const auto block = block_of_nodes<D>(5, cell_size);
   std::mt19937 random(7);
   const auto nodes = random_motion<D>(n_nodes_of(block), random);
+  constexpr int n_samples = 50;
   std::vector<Vector<D>> position;
-  for (int sample = 0; sample < 50; ++sample) position.push_back(random_place(block, random));
+  position.reserve(n_samples);
+  for (int sample = 0; sample < n_samples; ++sample) position.push_back(random_place(block, random));
   std::vector<ParticleMotion<D>> motions(position.size());
 
   grid_to_particles<Gimp<D>, D>(Gimp<D>(n_per_axis), block, {position}, nodes.data(), motions);

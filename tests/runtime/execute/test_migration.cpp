@@ -100,7 +100,7 @@ TEST_CASE("particles that leave the grid are gone, and no others", "[migration]"
 
   CHECK(drift.warehouse.n_particles(0) == 56);
   for (const Patch& patch : drift.layout) {
-    for (const std::int64_t number : drift.numbers(patch.id)) CHECK(number % 8 != 7);
+    for (const std::int64_t id : drift.numbers(patch.id)) CHECK(id % 8 != 7);
   }
 }
 

@@ -12,6 +12,7 @@ TEST_CASE("values of patches come to the first rank in the order of the patches"
   const Communicator world = Communicator::world();
   PatchLayout layout({2, {0, 0, 0}, 1, {6, 2, 1}}, {3, 2, 1});
   std::vector<int> ranks;
+  ranks.reserve(static_cast<std::size_t>(layout.size()));
   for (int p = 0; p < layout.size(); ++p) ranks.push_back((5 * p + 1) % world.size());
   layout.give_to_ranks(ranks, world.size());
   // Patch p has p values, of which the first has none.

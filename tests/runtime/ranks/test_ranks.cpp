@@ -40,123 +40,169 @@ IndexBox seen_cells(const Grid& grid)
   return cells;
 }
 
+TaskDeclaration warm()
+{
+  return task("warm")
+      .over_patches_and_groups()
+      .reads(place.previous(), warmth.previous())
+      .accumulates(heat.halo(1))
+      .body([](const TaskContext&, auto data) {
+        const auto x = data[place.previous()];
+        const auto w = data[warmth.previous()];
+        const auto h = data[heat];
+        for (std::size_t p = 0; p < x.size(); ++p) {
+          const Index cell{static_cast<int>(x[p][0]), static_cast<int>(x[p][1]), 0};
+          for_each(IndexBox{{cell[0] - 1, cell[1] - 1, 0}, {cell[0] + 2, cell[1] + 2, 1}},
+                   [&](const Index& i) { h[i] += w[p] / (1 + std::hypot(x[p][0] - i[0], x[p][1] - i[1])); });
+        }
+      });
+}
+
+TaskDeclaration chill()
+{
+  return task("chill")
+      .over_patches_and_groups()
+      .reads(smooth.previous())
+      .accumulates(heat.halo(1))
+      .body([](const TaskContext& at, auto data) {
+        const auto old = data[smooth.previous()];
+        const auto h = data[heat];
+        for_each(at.patch.cells, [&](const Index& i) { h[i] -= 0.01 * old[i] * (1 + h[i]); });
+      });
+}
+
+TaskDeclaration average()
+{
+  return task("average")
+      .over_patches_and_groups()
+      .reads(heat.halo(1), smooth.previous().halo(1))
+      .computes(smooth)
+      .body([](const TaskContext& at, auto data) {
+        const auto h = data[heat];
+        const auto old = data[smooth.previous()];
+        const auto now = data[smooth];
+        const IndexBox all = seen_cells(at.layout.grid());
+        for_each(at.patch.cells, [&](const Index& i) {
+          double sum = h[i] + h[{i[0] + 1, i[1] + 1, 0}];
+          for_each(intersection(grown(IndexBox{i, {i[0] + 1, i[1] + 1, 1}}, 1, 2), all),
+                   [&](const Index& j) { sum += 0.1 * old[j]; });
+          now[i] = sum / 3;
+        });
+      });
+}
+
+/// What has been sent is changed where it came from, in the same step.
+TaskDeclaration sharpen()
+{
+  return task("sharpen")
+      .over_patches_and_groups()
+      .reads(edges, smoother)
+      .updates(smooth)
+      .body([](const TaskContext& at, auto data) {
+        const auto e = data[edges];
+        const auto t = data[smoother];
+        const auto s = data[smooth];
+        for_each(at.patch.cells, [&](const Index& i) { s[i] += 0.25 * e[i] - 0.5 * t[i]; });
+      });
+}
+
+TaskDeclaration find_edges()
+{
+  return task("find edges")
+      .over_patches_and_groups()
+      .reads(smooth.halo(1))
+      .computes(edges)
+      .body([](const TaskContext& at, auto data) {
+        const auto s = data[smooth];
+        const auto e = data[edges];
+        const IndexBox all = seen_cells(at.layout.grid());
+        for_each(at.patch.cells, [&](const Index& i) {
+          e[i] = 0;
+          for_each(intersection(grown(IndexBox{i, {i[0] + 1, i[1] + 1, 1}}, 1, 2), all),
+                   [&](const Index& j) { e[i] += s[i] - s[j]; });
+        });
+      });
+}
+
+TaskDeclaration average_again()
+{
+  return task("average again")
+      .over_patches_and_groups()
+      .reads(smooth.halo(1))
+      .computes(smoother)
+      .reduces(total)
+      .body([](const TaskContext& at, auto data) {
+        const auto s = data[smooth];
+        const auto now = data[smoother];
+        double& sum = data[total];
+        const IndexBox all = seen_cells(at.layout.grid());
+        for_each(at.patch.cells, [&](const Index& i) {
+          now[i] = 0;
+          for_each(intersection(grown(IndexBox{i, {i[0] + 1, i[1] + 1, 1}}, 1, 2), all),
+                   [&](const Index& j) { now[i] += s[j] / 9; });
+          sum += now[i];
+        });
+      });
+}
+
+TaskDeclaration wander()
+{
+  return task("wander")
+      .over_patches_and_groups()
+      .reads(smooth, total, trace, old_trace, place.previous(), warmth.previous())
+      .computes(place, warmth)
+      .body([](const TaskContext& at, auto data) {
+        const auto s = data[smooth];
+        const double sum = data[total];
+        const auto old = data[place.previous()];
+        const auto was = data[warmth.previous()];
+        const auto now = data[place];
+        const auto is = data[warmth];
+        const Grid& grid = at.layout.grid();
+        for (std::size_t p = 0; p < old.size(); ++p) {
+          const double w = s[{static_cast<int>(old[p][0]), static_cast<int>(old[p][1]), 0}];
+          is[p] = 0.5 * was[p] + w / (1 + std::abs(sum)) + data[trace] - data[old_trace];
+          now[p] = {old[p][0] + 0.9 * std::sin(37 * w), old[p][1] + 0.9 * std::cos(91 * w)};
+          for (std::size_t k = 0; k < 2; ++k) {
+            if (!grid.periodic[k]) now[p][k] = std::clamp(now[p][k], 0.01, grid.n_cells[k] - 0.01);
+          }
+        }
+      });
+}
+
+TaskDeclaration recall()
+{
+  return task("recall")
+      .over_ranks()
+      .reads(trace.previous())
+      .computes(old_trace)
+      .body([](const TaskContext&, auto data) { data[old_trace] = data[trace.previous()]; });
+}
+
+TaskDeclaration keep_trace()
+{
+  return task("keep trace")
+      .over_ranks()
+      .reads(old_trace, total)
+      .computes(trace)
+      .body([](const TaskContext&, auto data) { data[trace] = data[old_trace] / 3 + 1 / (3 + std::abs(data[total])); });
+}
+
 /// Particles that wander, warm the nodes and are warmed by their neighbourhood: every kind of message there is. The
 /// numbers are such that another order of sums shows.
 std::vector<TaskDeclaration> wandering()
 {
-  auto warm =
-      task("warm")
-          .over_patches_and_groups()
-          .reads(place.previous(), warmth.previous())
-          .accumulates(heat.halo(1))
-          .body([](const TaskContext&, auto data) {
-            const auto x = data[place.previous()];
-            const auto w = data[warmth.previous()];
-            const auto h = data[heat];
-            for (std::size_t p = 0; p < x.size(); ++p) {
-              const Index cell{static_cast<int>(x[p][0]), static_cast<int>(x[p][1]), 0};
-              for_each(IndexBox{{cell[0] - 1, cell[1] - 1, 0}, {cell[0] + 2, cell[1] + 2, 1}},
-                       [&](const Index& i) { h[i] += w[p] / (1 + std::hypot(x[p][0] - i[0], x[p][1] - i[1])); });
-            }
-          });
-  auto chill = task("chill")
-                   .over_patches_and_groups()
-                   .reads(smooth.previous())
-                   .accumulates(heat.halo(1))
-                   .body([](const TaskContext& at, auto data) {
-                     const auto old = data[smooth.previous()];
-                     const auto h = data[heat];
-                     for_each(at.patch.cells, [&](const Index& i) { h[i] -= 0.01 * old[i] * (1 + h[i]); });
-                   });
-  auto average = task("average")
-                     .over_patches_and_groups()
-                     .reads(heat.halo(1), smooth.previous().halo(1))
-                     .computes(smooth)
-                     .body([](const TaskContext& at, auto data) {
-                       const auto h = data[heat];
-                       const auto old = data[smooth.previous()];
-                       const auto now = data[smooth];
-                       const IndexBox all = seen_cells(at.layout.grid());
-                       for_each(at.patch.cells, [&](const Index& i) {
-                         double sum = h[i] + h[{i[0] + 1, i[1] + 1, 0}];
-                         for_each(intersection(grown(IndexBox{i, {i[0] + 1, i[1] + 1, 1}}, 1, 2), all),
-                                  [&](const Index& j) { sum += 0.1 * old[j]; });
-                         now[i] = sum / 3;
-                       });
-                     });
-  // What has been sent is changed where it came from, in the same step.
-  auto sharpen = task("sharpen")
-                     .over_patches_and_groups()
-                     .reads(edges, smoother)
-                     .updates(smooth)
-                     .body([](const TaskContext& at, auto data) {
-                       const auto e = data[edges];
-                       const auto t = data[smoother];
-                       const auto s = data[smooth];
-                       for_each(at.patch.cells, [&](const Index& i) { s[i] += 0.25 * e[i] - 0.5 * t[i]; });
-                     });
-  auto find_edges = task("find edges")
-                        .over_patches_and_groups()
-                        .reads(smooth.halo(1))
-                        .computes(edges)
-                        .body([](const TaskContext& at, auto data) {
-                          const auto s = data[smooth];
-                          const auto e = data[edges];
-                          const IndexBox all = seen_cells(at.layout.grid());
-                          for_each(at.patch.cells, [&](const Index& i) {
-                            e[i] = 0;
-                            for_each(intersection(grown(IndexBox{i, {i[0] + 1, i[1] + 1, 1}}, 1, 2), all),
-                                     [&](const Index& j) { e[i] += s[i] - s[j]; });
-                          });
-                        });
-  auto average_again = task("average again")
-                           .over_patches_and_groups()
-                           .reads(smooth.halo(1))
-                           .computes(smoother)
-                           .reduces(total)
-                           .body([](const TaskContext& at, auto data) {
-                             const auto s = data[smooth];
-                             const auto now = data[smoother];
-                             double& sum = data[total];
-                             const IndexBox all = seen_cells(at.layout.grid());
-                             for_each(at.patch.cells, [&](const Index& i) {
-                               now[i] = 0;
-                               for_each(intersection(grown(IndexBox{i, {i[0] + 1, i[1] + 1, 1}}, 1, 2), all),
-                                        [&](const Index& j) { now[i] += s[j] / 9; });
-                               sum += now[i];
-                             });
-                           });
-  auto wander = task("wander")
-                    .over_patches_and_groups()
-                    .reads(smooth, total, trace, old_trace, place.previous(), warmth.previous())
-                    .computes(place, warmth)
-                    .body([](const TaskContext& at, auto data) {
-                      const auto s = data[smooth];
-                      const double sum = data[total];
-                      const auto old = data[place.previous()];
-                      const auto was = data[warmth.previous()];
-                      const auto now = data[place];
-                      const auto is = data[warmth];
-                      const Grid& grid = at.layout.grid();
-                      for (std::size_t p = 0; p < old.size(); ++p) {
-                        const double w = s[{static_cast<int>(old[p][0]), static_cast<int>(old[p][1]), 0}];
-                        is[p] = 0.5 * was[p] + w / (1 + std::abs(sum)) + data[trace] - data[old_trace];
-                        now[p] = {old[p][0] + 0.9 * std::sin(37 * w), old[p][1] + 0.9 * std::cos(91 * w)};
-                        for (std::size_t k = 0; k < 2; ++k) {
-                          if (!grid.periodic[k]) now[p][k] = std::clamp(now[p][k], 0.01, grid.n_cells[k] - 0.01);
-                        }
-                      }
-                    });
-  auto recall =
-      task("recall").over_ranks().reads(trace.previous()).computes(old_trace).body([](const TaskContext&, auto data) {
-        data[old_trace] = data[trace.previous()];
-      });
-  auto keep_trace =
-      task("keep trace").over_ranks().reads(old_trace, total).computes(trace).body([](const TaskContext&, auto data) {
-        data[trace] = data[old_trace] / 3 + 1 / (3 + std::abs(data[total]));
-      });
-  return {warm,   chill,      average, find_edges, average_again,
-          recall, keep_trace, sharpen, wander,     migration(place, total)};
+  return {warm(),   chill(),      average(), find_edges(), average_again(),
+          recall(), keep_trace(), sharpen(), wander(),     migration(place, total)};
+}
+
+/// Patches dealt out to ranks in turn, in strides.
+std::vector<int> dealt_out(int n_patches, int stride, int n_ranks)
+{
+  std::vector<int> ranks;
+  ranks.reserve(static_cast<std::size_t>(n_patches));
+  for (int p = 0; p < n_patches; ++p) ranks.push_back((p * stride) % n_ranks);
+  return ranks;
 }
 
 struct World {
@@ -282,8 +328,7 @@ TEST_CASE("a world without ends has the same bits on any ranks and threads", "[r
 TEST_CASE("patches dealt in turn, with neighbours on every rank, give the same bits", "[ranks]")
 {
   const Communicator all = Communicator::world();
-  std::vector<int> ranks;
-  for (int p = 0; p < 12; ++p) ranks.push_back(p % all.size());
+  const std::vector<int> ranks = dealt_out(12, 1, all.size());
   World world(all, ranks, 2);
   world.fill();
 
@@ -309,8 +354,7 @@ TEST_CASE("patches that move to other ranks between steps change nothing", "[ran
   World before(all, along_curve(all.size()), 2);
   before.fill();
   before.run(15);
-  std::vector<int> ranks;
-  for (int p = 0; p < 12; ++p) ranks.push_back((p * 5) % all.size());
+  const std::vector<int> ranks = dealt_out(12, 5, all.size());
   World after(all, ranks, 2);
 
   move_patches(before.warehouse, after.warehouse, all);

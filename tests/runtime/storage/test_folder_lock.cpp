@@ -97,7 +97,8 @@ TEST_CASE("a lock that is dated far ahead, by whatever clock, is taken over and 
   let_it_be_old(file, std::chrono::hours(-24));
   const FolderLock lock(folder.path());
 
-  CHECK_THAT(lock.former_holder()->description(), Catch::Contains("its lock dated 86") && Catch::Contains("s ahead of now"));
+  CHECK_THAT(lock.former_holder()->description(),
+             Catch::Contains("its lock dated 86") && Catch::Contains("s ahead of now"));
 }
 
 TEST_CASE("a pipe, a folder or a link under a lock's name is refused and left alone")

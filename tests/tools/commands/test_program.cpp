@@ -1,3 +1,5 @@
+#include <fmt/format.h>
+
 #include <array>
 #include <catch2/catch.hpp>
 #include <string>
@@ -88,7 +90,7 @@ TEST_CASE("ranks with different arguments are told, and do not wait for each oth
 
   for (const std::string& other : {run + there, run + here + " --steps 2", program + "check " + file.string()}) {
     INFO(other);
-    const Outcome outcome = outcome_of("timeout 60 " TAMP_MPIEXEC + run + here + " :" + other);
+    const Outcome outcome = outcome_of(fmt::format("timeout 60 {}{}{} :{}", TAMP_MPIEXEC, run, here, other));
     CHECK(outcome.exit_code == 2);
     CHECK_THAT(outcome.err, Catch::Contains("rank 1: other arguments than those of rank 0"));
     CHECK_FALSE(std::filesystem::exists(here));

@@ -20,6 +20,7 @@ const std::string scene = TAMP_SOURCE_DIR "/inputs/punch/quick.json --set /outpu
 std::vector<double> column_of(const std::vector<HistoryRow>& rows, const std::string& name)
 {
   std::vector<double> column;
+  column.reserve(rows.size());
   for (const HistoryRow& row : rows) column.push_back(row.at(name));
   return column;
 }

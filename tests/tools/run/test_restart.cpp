@@ -1,4 +1,3 @@
-#include <signal.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -153,8 +152,8 @@ TEST_CASE("soil on walls goes on, on other ranks too, with the bits of a straigh
   const std::string transfer = GENERATE("tflip", "apic --set /stress_timing=musl", "tpic --set /stress_timing=usf",
                                         "fmpm --set /filter_order=3 --set /boundaries/y-=no_slip");
   const TemporaryFolder folder;
-  const fs::path scene = folder.path() / "column.json";
-  std::ofstream(scene) << R"({
+  const fs::path file = folder.path() / "column.json";
+  std::ofstream(file) << R"({
     "dimension": 2,
     "grid": {"upper": [3.2, 1.6], "cell_size": 0.1, "patches": [4, 2]},
     "boundaries": {"x-": "no_slip", "y-": {"friction": 0.5}, "y+": "open"},
@@ -166,7 +165,7 @@ TEST_CASE("soil on walls goes on, on other ranks too, with the bits of a straigh
     "bodies": {"column": {"material": "soil", "geometry": {"type": "box", "lower": [0, 0], "upper": [1, 1]}}}
   })";
 
-  check_parted_run(scene.string() + " --set /transfer=" + transfer, 3);
+  check_parted_run(file.string() + " --set /transfer=" + transfer, 3);
 }
 
 TEST_CASE("with any interpolator a run goes on, on other ranks too, with the bits of a straight run", "[mpiexec]")
@@ -181,7 +180,7 @@ TEST_CASE("with any interpolator a run goes on, on other ranks too, with the bit
 TEST_CASE("sand that has separated goes on with the bits of a straight run, on other ranks too", "[mpiexec]")
 {
   const TemporaryFolder folder;
-  const fs::path scene = folder.write("block.json", R"({
+  const fs::path file = folder.write("block.json", R"({
     "dimension": 2, "grid": {"upper": [0.8, 0.8], "cell_size": 0.05, "patches": [4, 2]}, "time": {"end": 1},
     "transfer": "tflip", "artificial_viscosity": {},
     "materials": {"sand": {"file": ")" TAMP_SOURCE_DIR R"(/inputs/materials/concrete-sand/table.json",
@@ -190,10 +189,10 @@ TEST_CASE("sand that has separated goes on with the bits of a straight run, on o
                          "geometry": {"type": "box", "lower": [0.05, 0.3], "upper": [0.35, 0.5]}}}
   })");
 
-  check_parted_run(scene.string(), 3);
+  check_parted_run(file.string(), 3);
 
   REQUIRE(
-      tamp_with("run " + scene.string() + " --quiet --steps 60 --out " + (folder.path() / "run").string()).exit_code ==
+      tamp_with("run " + file.string() + " --quiet --steps 60 --out " + (folder.path() / "run").string()).exit_code ==
       0);
   CHECK(summary_of(folder.path() / "run")["monitors"]["separations"] > 50);
 }

@@ -28,6 +28,7 @@ void write_texts(hid_t object, const char* name, const std::vector<std::string>&
   H5Tset_size(type, variable ? H5T_VARIABLE : width);
   if (variable) {
     std::vector<const char*> fields;
+    fields.reserve(texts.size());
     for (const std::string& text : texts) fields.push_back(text.c_str());
     write_attribute(object, name, type, fields.size(), fields.data());
   } else {

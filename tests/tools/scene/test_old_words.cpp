@@ -2,6 +2,7 @@
 
 #include "tests/tools/program.hpp"
 #include "tests/tools/scene/small_scene.hpp"
+#include "tools/scene/print_json.hpp"
 #include "tools/scene/read_material.hpp"
 #include "tools/scene/schema.hpp"
 

@@ -2,6 +2,8 @@
 
 #include <catch2/catch.hpp>
 #include <filesystem>
+#include <string>
+#include <utility>
 
 #include "runtime/file_error.hpp"
 #include "tests/tools/program.hpp"
@@ -33,14 +35,16 @@ TEST_CASE("an output that is one of the inputs, under any of its names, is refus
   fs::create_symlink("path.csv", folder.path() / "soft.csv");
   const auto in = [&](const char* name) { return (folder.path() / name).string(); };
   const std::string modulus = "modulus " + material + " --states " + own_states.string();
+  const std::string drive = "drive " + material + " " + own_path.string();
 
-  for (const std::string& command :
-       {modulus + " --out " + own_states.string(), modulus + " --out " + in("sand/../states.csv"),
-        modulus + " --out " + in("hard.csv"), modulus + " --out " + material, modulus + " --summary " + material,
-        "drive " + material + " " + own_path.string() + " --out " + in("soft.csv"),
-        "drive " + material + " " + own_path.string() + " --summary " + own_path.string()}) {
-    INFO(command);
-    const Outcome outcome = tamp_with(command);
+  using Output = std::pair<std::string, std::string>;
+  for (const auto& [command, file] :
+       {Output{modulus + " --out ", own_states.string()}, Output{modulus + " --out ", in("sand/../states.csv")},
+        Output{modulus + " --out ", in("hard.csv")}, Output{modulus + " --out ", material},
+        Output{modulus + " --summary ", material}, Output{drive + " --out ", in("soft.csv")},
+        Output{drive + " --summary ", own_path.string()}}) {
+    INFO(command << file);
+    const Outcome outcome = tamp_with(command + file);
     CHECK(outcome.exit_code == 2);
     CHECK_THAT(outcome.err, Catch::Contains("one of the files that are read; expected another file"));
   }

@@ -157,7 +157,7 @@ TEST_CASE("a network of published layout and no range is asked over two deviatio
 
 TEST_CASE("the files of the types that are not chosen need not be there")
 {
-  CHECK(problems_of_sand({"/modulus/svr=no.json", "/modulus/mlp=no.h5"}) == "");
+  CHECK(problems_of_sand({"/modulus/svr=no.json", "/modulus/mlp=no.h5"}).empty());
   CHECK(problems_of_sand({"/modulus/type=svr", "/modulus/svr=no.json"}) ==
         "--set#/modulus/svr: there is no file no.json; expected the path of a file");
 }

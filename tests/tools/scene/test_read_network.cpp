@@ -231,7 +231,7 @@ TEST_CASE("a file whose texts of variable length would be looked through for eve
   };
   const std::string damaged_texts = "d.h5: an HDF5 file whose texts are damaged; expected an HDF5 file";
 
-  CHECK(problems_with(0, "") == "");
+  CHECK(problems_with(0, "").empty());
   CHECK(problems_with(first_object, std::string(16, '\0')) == damaged_texts);
   CHECK(problems_with(size, "\xf0" + std::string(7, '\xff')) == damaged_texts);
   CHECK(problems_with(size, std::string(8, '\xff')) == damaged_texts);

@@ -71,10 +71,10 @@ TEST_CASE("what is no file is refused as an input")
   const std::string fifo = folder.path().string() + "/fifo";
   REQUIRE(mkfifo(fifo.c_str(), 0600) == 0);
   for (const std::string& file : {fifo, std::string("/dev/zero")}) {
-    for (const std::string& command :
-         std::vector<std::string>{"check ", "modulus --at 0.1,0.1 ", "drive " + file + " "}) {
-      const Outcome outcome = outcome_of("timeout 120 " TAMP_PROGRAM " " + command + file);
-      INFO(command << file << ": " << outcome.err);
+    for (std::string command : {std::string("check "), std::string("modulus --at 0.1,0.1 "), "drive " + file + " "}) {
+      command += file;
+      const Outcome outcome = outcome_of("timeout 120 " TAMP_PROGRAM " " + command);
+      INFO(command << ": " << outcome.err);
       CHECK(outcome.exit_code == 2);
     }
   }

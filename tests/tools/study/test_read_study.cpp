@@ -77,7 +77,7 @@ TEST_CASE("what is misspelt or of the wrong kind is told with its place")
 
 TEST_CASE("more points than a study can have are counted, not made")
 {
-  const auto with_axes = [](int n_axes, int n_values, const std::string& more = "") {
+  const auto with_axes = [](int n_axes, std::size_t n_values, const std::string& more = "") {
     Json patch{{"sweep", Json::object()}};
     for (int i = 0; i < n_axes; ++i) patch["sweep"]["/axis_" + std::to_string(i)] = std::vector<int>(n_values, i);
     patch.merge_patch(Json::parse(more.empty() ? "{}" : more));

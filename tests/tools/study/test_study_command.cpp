@@ -204,7 +204,7 @@ TEST_CASE("points of a study with an old word are those with the new one, and th
   const auto with = [](const std::string& transfer) {
     return R"({"methods": [{"name": "flight", "set": {"/transfer": ")" + transfer + R"("}}]})";
   };
-  REQUIRE(study.run(with("tflip")).err == "");
+  REQUIRE(study.run(with("tflip")).err.empty());
   const auto since = std::filesystem::file_time_type::clock::now();
 
   const Outcome outcome = study.run(with("affine"));
@@ -514,7 +514,7 @@ TEST_CASE("results that cannot be written are refused before anything runs")
 {
   const FlightStudy study;
   std::filesystem::create_directories(study.out());
-  std::ofstream(study.out() / ".tamp-study");
+  const std::ofstream mark(study.out() / ".tamp-study");
   const auto name = GENERATE("points.csv", "study.json", "gates.csv");
   std::filesystem::create_directory(study.out() / name);
 

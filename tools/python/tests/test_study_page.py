@@ -359,7 +359,6 @@ class OddStudies(unittest.TestCase):
 
         self.assertEqual([p.id for p in front], [1, 3])
 
-
     def test_the_fit_over_a_setting_whose_larger_values_are_finer_falls_with_it(self):
         document = only(study(), 1, 2, 3)
         for p, (value, error) in zip(document["points"], [(1, 0.16), (2, 0.04), (4, 0.01)]):

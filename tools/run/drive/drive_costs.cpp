@@ -91,6 +91,7 @@ DriveCosts drive_costs(const tasks::MaterialModel& material, std::span<const Mat
       [&](const auto& model) {
         RecordedUpdates updates(model, points);
         std::vector<double> seconds;
+        seconds.reserve(static_cast<std::size_t>(n_rounds));
         for (int round = 0; round < n_rounds; ++round) seconds.push_back(seconds_of([&] { updates.update(); }));
         const double ns_per_update = median(seconds) / static_cast<double>(updates.size()) * 1e9;
         return DriveCosts{updates.size(), updates.update(), ns_per_update};

@@ -160,6 +160,7 @@ ModulusCosts modulus_costs(const Modulus& modulus, ElasticUpdate form, const Mod
   }
   compare::ModulusTiming timing(modulus, form, pressures, states.elastic, states.plastic);
   std::vector<double> seconds;
+  seconds.reserve(static_cast<std::size_t>(n_rounds));
   for (int round = 0; round < n_rounds; ++round) seconds.push_back(seconds_of([&] { timing.evaluate(); }));
   return {timing.n_states(), median(seconds) / static_cast<double>(timing.n_states()) * 1e9, bytes_of(modulus)};
 }

@@ -46,6 +46,7 @@ std::vector<fs::path> chosen_studies(const std::vector<std::string>& names)
   const std::vector<fs::path> all = shipped_studies();
   if (names.empty()) return all;
   std::vector<std::string> known;
+  known.reserve(all.size());
   for (const fs::path& file : all) known.push_back(file.stem());
   std::vector<fs::path> chosen;
   for (const std::string& name : names) {
@@ -97,6 +98,7 @@ std::vector<std::string> run_studies(const VerifyOptions& options, const std::ve
 {
   make_folder(options.folder);
   std::vector<Child> children;
+  children.reserve(files.size());
   for (const fs::path& file : files) children.push_back(study_command(options, file));
   std::vector<std::string> failures;
   const int n_at_once = options.n_jobs > 0 ? options.n_jobs : usable_cores().of_rank;

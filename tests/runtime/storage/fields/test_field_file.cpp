@@ -128,7 +128,7 @@ TEST_CASE(
   };
   FieldFile file(folder.path());
 
-  for (const std::size_t n : {3, 2, 4}) file.write_step(static_cast<std::int64_t>(10 - n), 0.1, block(n));
+  for (const std::size_t n : {3U, 2U, 4U}) file.write_step(static_cast<std::int64_t>(10 - n), 0.1, block(n));
 
   const std::string text = read_text(folder.path() / "fields.xdmf");
   CHECK(count(text,

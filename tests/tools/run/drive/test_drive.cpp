@@ -47,6 +47,7 @@ const tasks::SceneMaterial& state_sand()
 DeformationPath path_through(const std::vector<Matrix<3>>& deformations)
 {
   std::vector<PathRow> rows;
+  rows.reserve(deformations.size());
   for (const Matrix<3>& f : deformations) rows.push_back({static_cast<double>(rows.size()), f});
   return DeformationPath(rows);
 }

@@ -98,4 +98,4 @@ def draw_group(spec, sheet, group, heights, limits):
 def write(sheet, text, at, to_right, room):
     font = sheet.layout.font - 1
     sheet.failed.annotate(fitted(text, room, font), at, (8 if to_right else -8, -4), textcoords="offset points",
-                        ha="left" if to_right else "right", size=font, color=LIGHT["ink"])
+                          ha="left" if to_right else "right", size=font, color=LIGHT["ink"])

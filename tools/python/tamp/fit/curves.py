@@ -54,7 +54,7 @@ def read_curves(path):
         pressure = crossing((curve.plastic, curve.points()), (next_curve.plastic, next_curve.points()))
         if pressure is not None:
             raise Refusal(path, f"the curves of plastic strain {curve.plastic:g} and {next_curve.plastic:g} "
-                                 f"meet or cross at {pressure:g} Pa", "curves apart")
+                                f"meet or cross at {pressure:g} Pa", "curves apart")
     return curves
 
 

@@ -60,7 +60,7 @@ def check_names(path, headings, first, strain_unit, pressure_unit):
     named = [(line, cells) for line, cells in headings if len(cells) > 1]
     if named and len(first[1]) not in [len(cells) for _, cells in named]:
         raise Refusal(f"{path}:{first[0]}", f"{len(first[1])} values (decimal commas?)",
-                             f"{len(named[-1][1])}, as line {named[-1][0]} has names")
+                      f"{len(named[-1][1])}, as line {named[-1][0]} has names")
     for line, (strain, pressure, *_) in named:
         unit = PRESSURE_UNIT.search(pressure)
         if PRESSURE_UNIT.search(strain) or "strain" in pressure.lower() or "%" in pressure:
