@@ -19,7 +19,7 @@ constexpr void for_each_alternative(Visit&& visit)
   (std::make_index_sequence<std::variant_size_v<Variant>>());
 }
 
-/// What `visit(std::type_identity<T>())` gives for the alternative T of a variant that stands at place `i`.
+/// Calls `visit(std::type_identity<T>())` for the alternative T of a variant that stands at place `i`.
 template <class Variant, std::size_t from = 0, class Visit>
 auto with_alternative(std::size_t i, Visit&& visit)
 {

@@ -15,7 +15,7 @@ struct Word {
   std::string_view word;
   Value value;
   std::string_view meaning{};
-  /// What it was in earlier versions, where that is still read.
+  /// The word of earlier versions, where that is still read.
   std::string_view old_word{};
 };
 

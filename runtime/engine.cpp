@@ -17,7 +17,7 @@ namespace
 
 const GlobalLabel<Progress, "progress"> progress_label;
 
-/// What the hosts of the ranks ask of each other.
+/// Requests that the hosts of the ranks share.
 struct Requests {
   unsigned bits = 0;
 
@@ -93,7 +93,7 @@ void Engine::run_step(const Step& step)
     executor_.run(schedule(), step);
     return;
   } catch (const TaskError& error) {
-    // What is wrong with the state is told by itself; what else goes wrong, by its task.
+    // An error of the state is thrown as it is; any other with the name of its task.
     own = is_step_error(error.cause) ? error.cause : std::current_exception();
     if (communicator_.size() == 1) std::rethrow_exception(own);
   } catch (const OtherRankFailed&) {

@@ -49,7 +49,7 @@ class Engine
   /// Bits that this rank's host tells all ranks with the next step; not collective. A rank without patches is not
   /// heard.
   void ask(unsigned requests) { requests_ |= requests; }
-  /// What any rank asked for with the last step; not collective.
+  /// Requests of any rank with the last step; not collective.
   unsigned asked() const { return asked_; }
 
   /// How many steps there are between two looks at the load of the ranks, each of which may deal the patches anew; 0:
@@ -57,9 +57,9 @@ class Engine
   void balance_every(long n_steps) { balance_.look_every(n_steps); }
   const std::vector<Rebalance>& rebalances() const { return balance_.rebalances(); }
 
-  /// Of the steps so far on all ranks.
+  /// The profile of the steps so far on all ranks.
   Profile profile() const { return profiler_.profile(communicator_); }
-  /// Of the first steps, as many as `trace_steps` asked for before them: none if it was not called.
+  /// The trace of the first steps, as many as `trace_steps` asked for before them: none if it was not called.
   Trace trace() const { return profiler_.trace(communicator_); }
   void trace_steps(long n_steps) { profiler_.trace_steps(n_steps); }
   /// Off only to measure what recording costs.
@@ -69,7 +69,7 @@ class Engine
   /// runtime::write_checkpoint. Throws FileError.
   void write_checkpoint(const std::filesystem::path& folder, const std::string& fingerprint,
                         std::span<const std::byte> host, int keep);
-  /// The same in two parts: a copy, on the first rank, which that rank may write when and in which thread it likes.
+  /// A checkpoint in two parts: a copy, on the first rank, which that rank may write when and in which thread it likes.
   CheckpointCopy copy_checkpoint(const std::string& fingerprint, std::span<const std::byte> host);
   /// Goes on where a checkpoint of the same graphs was written, on any ranks; returns the host's bytes.
   std::vector<std::byte> restart(const FoundCheckpoint& found);

@@ -8,30 +8,31 @@ namespace tamp::tasks
 /// Where the energy of a simulation has gone since its start, and what has come from outside [J]. Particles that leave
 /// the domain stay in it. The sum of all stays the same, but for the error of the steps: see `sum`.
 struct EnergyLedger {
-  /// What is in motion more than at the start.
+  /// Kinetic energy gained since the start.
   double gained = 0;
   double elastic = 0;
   double plastic = 0;
   double viscous = 0;  ///< by artificial viscosity and local damping
   double contact = 0;  ///< by friction and impact between bodies and at walls
-  /// What particles have filtered out of the motion of the nodes: what nodes gain and their particles do not, and what
-  /// forces take at velocities other than those at which their work is counted.
+  /// Energy that particles have filtered out of the motion of the nodes: what nodes gain and their particles do not,
+  /// and what forces take at velocities other than those at which their work is counted.
   double filter = 0;
   /// Work of driven bodies, body forces and pressure loads.
   double driving = 0;
-  /// What of `driving` is by driven bodies and pressure loads in the last step.
+  /// The part of `driving` by driven bodies and pressure loads in the last step.
   double last_driving = 0;
   /// Work of gravity and of a steady centrifuge.
   double gravity = 0;
-  /// What stress took from the motion in the second half of the last step; body forces count against it. Velocities are
-  /// half a step behind all else, so that kinetic energy still has it. 0 where particles deform by other velocities.
+  /// Work of stress in the second half of the last step, taken from the motion, less that of body forces. Velocities
+  /// are half a step behind all else, so that kinetic energy still has it. 0 where particles deform by other
+  /// velocities.
   double half_step = 0;
-  /// The same of gravity, which gave it.
+  /// Work of gravity in the second half of the last step.
   double gravity_at_end = 0;
 
   /// Work from outside.
   double external() const { return gravity + driving; }
-  /// What is left and where it went, but what came from outside; at the start it is `elastic`.
+  /// Energy gained, stored and dissipated, less what came from outside; at the start it is `elastic`.
   double sum() const
   {
     return gained + elastic + plastic + viscous + contact + filter - (half_step - gravity_at_end) - external();

@@ -63,7 +63,8 @@ inline const runtime::ParticleLabel<SymmetricTensor<D>, "strain increment"> stra
 /// cells do.
 template <int D>
 inline const runtime::ParticleLabel<Matrix<D>, "step gradient"> step_gradient;
-/// What nodes feel of its stress [Pa]: the mean is that of its cell. Only where particles deform as their cells do.
+/// Stress of a particle for the forces at nodes [Pa]: its mean is that of its cell. Only where particles deform as
+/// their cells do.
 template <int D>
 inline const runtime::ParticleLabel<SymmetricTensor<D>, "shared stress"> shared_stress;
 
@@ -85,8 +86,8 @@ template <int D>
 inline const runtime::NodeLabel<components::NodeSums<D>, "node sums"> sums;
 template <int D>
 inline const runtime::NodeLabel<components::NodeMotion<D>, "node motion"> motion;
-/// What particles bring of their velocities for the gradients that deform them, and the velocities that these make.
-/// Only where particles do not deform by the velocities that move them.
+/// Sums of particles' velocities for the gradients that deform them, and the nodes' velocities by these. Only where
+/// particles do not deform by the velocities that move them.
 template <int D>
 inline const runtime::NodeLabel<components::NodeSums<D>, "carried sums"> carried_sums;
 template <int D>

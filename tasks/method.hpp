@@ -53,7 +53,7 @@ components::ParticleLattice<D> lattice_of(const Scene& scene, int material)
   return {vector_of<D>(scene.grid.lower), scene.grid.cell_size, scene.particles_per_axis_of(material)};
 }
 
-/// What the phases of a step need to know of a scene.
+/// The parts of a scene that the phases of a step need.
 template <int D>
 struct Method {
   /// `scene` must outlive the method.
@@ -82,7 +82,7 @@ struct Method {
     return stress_timing != StressTiming::usl || (passes == components::Passes::from_end && n_passes > 0);
   }
 
-  /// What particles bring to the grid beside their velocities.
+  /// Whether particles carry gradients, or moments, to the grid beside their velocities.
   bool brings_gradients() const { return carried_gradient == components::CarriedGradient::gradient; }
   bool brings_moments() const { return carried_gradient == components::CarriedGradient::moment; }
 
@@ -92,8 +92,8 @@ struct Method {
   /// Whether the particles of a cell share the changes of its volume and the stress that works against them.
   bool deforms_as_cells() const { return anti_locking == AntiLocking::cell_average && !deformable_materials.empty(); }
 
-  /// What gravity and a steady centrifuge have done to matter that is at x, less what they have at the origin, per mass
-  /// [J/kg]. A centrifuge that speeds up has no such function, and is left out.
+  /// Work of gravity and a steady centrifuge on matter from the origin to x, per mass [J/kg]. A centrifuge that speeds
+  /// up has no such function, and is left out.
   double work_function(const Vector<D>& x) const;
   /// Whether that is 0 everywhere.
   bool is_weightless() const { return gravity.isZero(0) && !(centrifuge && centrifuge->is_steady()); }
@@ -103,10 +103,10 @@ struct Method {
   /// Layers of nodes beyond a patch that its particles reach.
   int halo;
   components::CarriedGradient carried_gradient;
-  /// Of nodes -> particles -> nodes: from which velocities, and how many.
+  /// Passes of nodes -> particles -> nodes: from which velocities, and how many.
   components::Passes passes;
   int n_passes;
-  /// Of the motion of nodes by the transfer, for the bound on the step.
+  /// The transfer's amplification of the motion of nodes, for the bound on the step.
   double amplification;
   DeformationUpdate deformation_update;
   AntiLocking anti_locking;

@@ -45,7 +45,7 @@ struct RigidStates {
   components::RigidState& of(const RigidBody& body) { return by_material[static_cast<std::size_t>(body.material)]; }
 };
 
-/// What contact gives to each material in one step.
+/// Impulses of contact on each material in one step.
 struct ContactImpulses {
   struct Impulse {
     Eigen::Vector3d linear = Eigen::Vector3d::Zero();   ///< N s
@@ -58,7 +58,7 @@ struct ContactImpulses {
   static constexpr auto fields = std::tuple{&ContactImpulses::by_material};
 };
 
-/// What each rigid body's contact asks of its motion; materials that are none have nothing here.
+/// Contact of each rigid body, for its motion; unused for other materials.
 struct RigidCouplings {
   std::array<components::RigidCoupling, runtime::PerGroup<int>::max_groups> by_material;
 

@@ -32,7 +32,7 @@ namespace tamp::tasks
 
 using Triple = std::array<double, 3>;
 
-/// What the faces of the grid are. `friction`, a wall that may be left, with Coulomb's friction, has a coefficient in
+/// The kinds of the grid's faces. `friction`, a wall that may be left, with Coulomb's friction, has a coefficient in
 /// place of a word.
 enum class Face { symmetry, open, friction, no_slip, periodic };
 

@@ -19,15 +19,15 @@ namespace tamp::tasks
 
 /// Bytes that a particle takes.
 struct ParticleBytes {
-  /// What a step leaves to the next.
+  /// Data that a step leaves to the next.
   std::size_t state = 0;
-  /// The same as it is kept: twice where a step makes it anew.
+  /// These as they are kept: twice where a step makes them anew.
   std::size_t kept_state = 0;
   /// All arrays, with those that live within a step.
   std::size_t all = 0;
 };
 
-/// What contact does to a material: the force [N], and of a rigid body the torque about its centre of mass [N m].
+/// Contact on a material: the force [N], and of a rigid body the torque about its centre of mass [N m].
 struct ContactForce {
   Eigen::Vector3d force = Eigen::Vector3d::Zero();
   Eigen::Vector3d torque = Eigen::Vector3d::Zero();
@@ -97,7 +97,7 @@ class Simulation
   std::size_t forecast_bytes() const { return forecast_bytes_; }
   /// Bytes of the particle arrays that a step must at least read and write, per particle of a material.
   std::size_t least_bytes_per_particle(int material) const;
-  /// What a particle of a material takes in memory.
+  /// Memory of a particle of a material.
   ParticleBytes particle_bytes(int material) const;
 
  protected:

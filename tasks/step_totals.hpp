@@ -79,8 +79,8 @@ struct BodyForceWork {
 
 /// Sums over the nodes of one step, and over what their particles take from them.
 struct GridTotals {
-  /// What all particles take from the nodes [N s]: gravity, loads and the walls; forces within and between bodies
-  /// cancel. What transfers that filter velocities add is here too: 0 but where images behind walls have a part.
+  /// Momentum that all particles take from the nodes [N s]: gravity, loads and the walls; forces within and between
+  /// bodies cancel. What transfers that filter velocities add is here too: 0 but where images behind walls have a part.
   std::array<double, 3> impulse{0, 0, 0};
   /// The energy that walls take by friction and by stopping what runs into them [J].
   double taken_by_walls = 0;
@@ -90,10 +90,10 @@ struct GridTotals {
   double gained_by_nodes = 0, gained_by_particles = 0;
   /// That which rigid bodies gain [J].
   double gained_by_rigid_bodies = 0;
-  /// What gravity and a steady centrifuge do to all particles, and to those of the end of the step in its second half,
+  /// Work of gravity and a steady centrifuge on all particles, and on those of the end of the step in its second half,
   /// which velocities, of half a step before, do not have yet [J].
   double gravity_work = 0, gravity_work_at_end = 0;
-  /// What forces take from these nodes [J]: at their velocities at the start of the step in the half of the step
+  /// Work that forces take from these nodes [J]: at their velocities at the start of the step in the half of the step
   /// before, minus the sum of f.v dt/2; where particles deform by other velocities in the whole kick.
   double taken_by_forces = 0;
 
@@ -114,7 +114,7 @@ struct LostParticles {
       std::tuple{&LostParticles::count, &LostParticles::mass, &LostParticles::kinetic, &LostParticles::momentum};
 };
 
-/// What pressure loads do in one step.
+/// Work and impulse of pressure loads in one step.
 struct LoadTotals {
   /// To each material [N s].
   std::array<std::array<double, 3>, runtime::PerGroup<int>::max_groups> impulse{};

@@ -11,7 +11,7 @@ namespace tamp::tasks
 template <int D>
 runtime::TaskList time_step(const Method<D>& method);
 
-/// What lasts from step to step, and the results that the host takes.
+/// Data that last from step to step, and results that the host takes.
 template <int D>
 runtime::HostData host_data(const Method<D>& method);
 

@@ -19,8 +19,8 @@ struct CellMean {
   double mean() const { return sum / volume; }
 };
 
-/// What the change of a particle's volume works against [Pa], tension positive: the mean of the normal stresses along
-/// the axes of the grid, less the viscous pressure.
+/// The stress that does work on changes of a particle's volume [Pa], tension positive: the mean of the normal stresses
+/// along the axes of the grid, less the viscous pressure.
 template <int D>
 double mean_stress(const SymmetricTensor<D>& stress, double viscous_pressure)
 {

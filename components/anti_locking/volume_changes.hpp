@@ -8,7 +8,7 @@
 namespace tamp::components
 {
 
-/// Of each particle the change of volume det f - 1 that g, dt times its velocity gradient, makes of it.
+/// The change of volume det f - 1 of each particle by g, dt times its velocity gradient.
 template <int D>
 void volume_changes(DeformationUpdate update, std::span<const Matrix<D>> g, std::span<double> change);
 

@@ -5,9 +5,9 @@
 namespace tamp::components
 {
 
-/// What a wall with Coulomb's friction leaves of the velocity of a node on it [m/s]. The wall is normal to `axis`, and
-/// lies on the side `outside`, -1 or +1. What runs into it is stopped, and along it loses at most friction times as
-/// much; what leaves it is free.
+/// The velocity of a node on a wall with Coulomb's friction [m/s]. The wall is normal to `axis`, and lies on the side
+/// `outside`, -1 or +1. Motion into it is stopped, and motion along it loses at most friction times as much; a node
+/// that leaves the wall is free.
 template <int D>
 Vector<D> velocity_on_rough_wall(const Vector<D>& velocity, int axis, int outside, double friction)
 {

@@ -33,7 +33,7 @@ class SymmetryWall
     add_image(field);
     constrain(field);
   }
-  /// The same, but the normal components on the wall stay those that the inside gave.
+  /// Adds the image, but leaves the normal components on the wall as the inside gave them.
   template <class Value>
   void add_image(Value* field) const
   {

@@ -18,7 +18,7 @@ struct ContactThresholds {
   /// kg
   double mass = 0;
   /// Length of the vector that the normal comes from, see `facing` [m^(D-1)]; a small part, such as 1e-9, of (cell
-  /// size)^(D-1) tells it from round-off.
+  /// size)^(D-1) distinguishes it from round-off.
   double surface_gradient = 0;
 };
 

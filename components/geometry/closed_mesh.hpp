@@ -10,7 +10,7 @@ namespace tamp::components
 {
 
 /// The inside of a surface of triangles that is closed and does not cross itself; several such surfaces, also one
-/// in another, are one mesh. Points are told exactly to be inside or not; those of the surface are not.
+/// in another, are one mesh. Whether a point is inside is found exactly; points of the surface are not.
 /// A build without meshes (TAMP_MESHES) refuses every mesh.
 class ClosedMesh
 {

@@ -18,10 +18,10 @@ struct DeformedParticles {
   std::span<const Matrix<D>> old_gradient;
   std::span<const double> old_volume;
   std::span<const SymmetricTensor<D>> old_stress;
-  /// What follows from them, see StrainIncrement.
+  /// Results of these, see StrainIncrement.
   std::span<Matrix<D>> deformation_gradient;
   std::span<double> volume;
-  /// Of the start of the step, turned with the particle.
+  /// The stress at the start of the step, turned with the particle.
   std::span<SymmetricTensor<D>> stress;
   std::span<SymmetricTensor<D>> strain_increment;
 };

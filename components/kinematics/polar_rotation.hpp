@@ -31,11 +31,11 @@ std::array<Matrix<D, Number>, 2> polar_rotations(const Matrix<D, Number>& f, con
   return {polar_rotation(f), polar_rotation(g)};
 }
 
-/// The same without a branch: R = ((i2 + I_C) F - F C + i1 cof F) / (i1 i2 - i3), C = F^T F, by the theorem of Cayley
-/// and Hamilton from the invariants i of U. These leave R a stretch close to 1, which R (3 I - R^T R) / 2 squares away:
-/// R is orthogonal to round-off up to stretches a thousand times apart. Beyond, round-off in det F gains on it, and the
-/// caller has to see whether R is still orthogonal, or even a number. Two at a time take little longer than one: roots
-/// and quotients that wait for each other make up most of it.
+/// The rotations of two deformation gradients without a branch: R = ((i2 + I_C) F - F C + i1 cof F) / (i1 i2 - i3), C =
+/// F^T F, by the theorem of Cayley and Hamilton from the invariants i of U. These leave R a stretch close to 1, which R
+/// (3 I - R^T R) / 2 squares away: R is orthogonal to round-off up to stretches a thousand times apart. Beyond,
+/// round-off in det F gains on it, and the caller has to see whether R is still orthogonal, or even a number. Two at a
+/// time take little longer than one: roots and quotients that wait for each other make up most of it.
 std::array<Matrix<3, Lanes>, 2> polar_rotations(const Matrix<3, Lanes>& f, const Matrix<3, Lanes>& g);
 
 }  // namespace tamp::components

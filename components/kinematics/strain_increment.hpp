@@ -7,7 +7,7 @@
 namespace tamp::components
 {
 
-/// What one step does to a particle's deformation. Strains are logarithmic-like: rates of deformation integrated in
+/// The change of a particle's deformation in one step. Strains are logarithmic-like: rates of deformation integrated in
 /// the particle's own rotating frame, then turned to the axes of space; tension positive. Where Number is Lanes it is
 /// that of as many particles.
 template <int D, class Number = double>

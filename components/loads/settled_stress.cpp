@@ -18,7 +18,7 @@ Eigen::VectorXd continuum_stress(const LayerColumn& column, double density, cons
 namespace
 {
 
-/// Of each node and layer the weight, and its slope [1/m].
+/// Weights of layers at nodes, and their slopes [1/m].
 struct LayerWeights {
   Eigen::MatrixXd weight, slope;
 };

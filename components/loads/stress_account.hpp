@@ -14,12 +14,12 @@
 namespace tamp::components
 {
 
-/// What the account of a batch needs of the method.
+/// Settings of the method for the account of a batch.
 struct AccountRules {
   double cell_size;  ///< m
   StepRule rule;
   std::optional<ArtificialViscosity> viscosity;
-  /// Of the motion of nodes by the transfer.
+  /// The transfer's amplification of the motion of nodes.
   double amplification;
 };
 
@@ -37,7 +37,7 @@ struct StressedBatch {
   std::span<const double> bulk_modulus, shear_modulus, plastic_work;
 };
 
-/// What each particle of a batch of at most N adds to the energies of the step [J], and its bound on the next [s].
+/// Shares of each particle of a batch of at most N in the energies of the step [J], and its bound on the next [s].
 template <std::size_t N>
 struct StressAccount {
   std::array<double, N> elastic, plastic, viscous;
@@ -46,8 +46,8 @@ struct StressAccount {
   std::array<double, N> stable_step;
 };
 
-/// Artificial viscosity, energies, and the bound on the next step of `dt` [s], in lanes: each particle gets the bits
-/// that scalar code gives it. Where no modulus is, matter has separated.
+/// Artificial viscosity, energies, and the bound on the next step of `dt` [s], in lanes: vectorised code gives
+/// each particle the same bits as scalar code. Where no modulus is, matter has separated.
 template <int D, std::size_t N>
 void account_for_stress(const AccountRules& rules, double dt, const StressedBatch<D>& batch,
                         std::span<double> viscous_pressure, StressAccount<N>& account)

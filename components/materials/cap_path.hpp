@@ -12,7 +12,7 @@ namespace tamp::components
 {
 
 /// A step of the sand in scalars. Every substep maps the stress deviator s to a s + b e, where e is the strain
-/// deviator of the whole step: what the two start with is told by three products, and how they end by a and b, in the
+/// deviator of the whole step: three products describe the two at the start, and a and b at the end, in the
 /// plane and in space alike. A number is that of one particle (double) or of several side by side (Lanes), which get
 /// the same bits. Pressures and volumetric strains compression positive.
 

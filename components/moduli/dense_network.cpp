@@ -32,7 +32,7 @@ using PackBits [[gnu::vector_size(register_bytes)]] = std::int64_t;
 
 constexpr std::size_t pack_size = register_bytes / sizeof(double);
 
-// What follows decides in which order numbers are added, and so is the same for every processor.
+// These sizes decide in which order numbers are added, and so are the same for every processor.
 constexpr std::size_t block_size = 64;
 constexpr std::size_t none = block_size;  // the place of the first of no set bits
 constexpr std::size_t most_blocks = DenseNetwork::most_neurons / block_size;

@@ -10,7 +10,7 @@
 namespace tamp::components
 {
 
-/// What an elastic model says of one state. Pascal; compression positive.
+/// An elastic model's answer for one state. Pascal; compression positive.
 template <class Number>
 struct ElasticPointOf {
   Number pressure;
@@ -20,7 +20,7 @@ struct ElasticPointOf {
 using ElasticPoint = ElasticPointOf<double>;
 
 /// The elastic volumetric strains (logarithmic, compression positive) that a model was made for, and the plastic ones.
-/// What a model answers outside is its own stated extrapolation: continuous, with K positive and bounded.
+/// Outside, a model extrapolates as it states: continuously, with K positive and bounded.
 struct StrainRange {
   double least_elastic, most_elastic;
   double least_plastic, most_plastic;
@@ -35,7 +35,7 @@ struct StrainRange {
 ///  - state form, `at`: pressure as a function of elastic and plastic volumetric strain;
 ///  - rate form, `rate_modulus`: the K of dp = K d(elastic), which the published Table takes at the pressure, and the
 ///    published SVR and MLP at the strains.
-/// Both also answer as many states at once as there are lanes, each with the bits that it gets alone.
+/// Both also answer as many states at once as there are lanes, each with the same bits as by itself.
 /// `modulus_by_plastic` is dK/d(plastic) at the same elastic strain, in state form. `in_range` and
 /// `rate_in_range` are false where the answer is an extrapolation; `range` is a rectangle on which that of the state
 /// form is none.

@@ -13,7 +13,7 @@ struct SurfaceNodeOf {
   Number coupling;
   Number modulus_by_plastic;
 
-  /// The same in other units of strain: each derivative is multiplied with the units it is taken by.
+  /// This node in other units of strain: each derivative is multiplied with the units it is taken by.
   SurfaceNodeOf per(const Number& elastic, const Number& plastic) const
   {
     return {pressure, bulk_modulus * elastic, coupling * plastic, modulus_by_plastic * elastic * plastic};
@@ -46,7 +46,7 @@ struct HermitePatchOf {
   }
 
  private:
-  /// What the values and slopes at the ends of the unit interval weigh in the cubic between them, or in its slope.
+  /// Weights of the values and slopes at the ends of the unit interval in the cubic between them, or in its slope.
   struct Weights {
     Number low, high, low_slope, high_slope;
 

@@ -181,7 +181,7 @@ DenseNetwork::Gradient PiecewiseNetwork::with_gradient(double first, double seco
   const auto [piece, x, y, squares_per_uncut] = locate(first, second);
   if (std::isnan(piece.plane.constant)) return network_.with_gradient(first, second);
 
-  // What follows the neurons that are above zero follows the place as they do.
+  // Sums over the neurons that are above zero are linear in the place, as these neurons are.
   const auto rectified = [&at_x = x, &at_y = y](const Plane& sum) {
     return sum.at(at_x, at_y) > 0 ? sum : Plane{0, 0, 0};
   };

@@ -33,7 +33,7 @@ void particles_to_grid(const Interpolator& interpolator, const GridBlock<D>& blo
   });
 }
 
-/// Where particles are is told by their nodes, as weights reproduce linear functions.
+/// The place of a particle from those of its nodes, as weights reproduce linear functions.
 template <int D, int Support>
 Vector<D> mean_place(const GridBlock<D>& block, const DenseStencil<D, Support>& stencil)
 {

@@ -13,7 +13,7 @@
 namespace tamp::components
 {
 
-/// What particles of one material and the grid give each other, whatever the interpolator: each call takes a batch of
+/// Transfers between the particles of one material and the grid, by any interpolator: each call takes a batch of
 /// particles, so that only its one definition knows how weights are made. In all of them `block` is where the nodes
 /// stand, and pointers are to its first node.
 template <int D>

@@ -41,7 +41,7 @@ struct alignas(4 * sizeof(double)) NodeValues {
   void mirror(int axis) { ((values[first_of_vectors + axis] *= -1), ...); }
 };
 
-/// What particles give to a node: mass and momentum with the weights of particles, and from the second four on what
+/// Sums over the particles at a node: mass and momentum with the weights of particles, and from the second four on what
 /// goes with the derivatives of weights.
 template <int D>
 struct NodeSums : NodeValues<D, D == 2 ? 8 : 12, 1, 4, 4 + D> {

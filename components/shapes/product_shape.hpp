@@ -31,7 +31,7 @@ class ProductShape
   static constexpr int support = Support;
   static constexpr bool is_spline = false;
 
-  /// Of a particle anywhere in a cell, in cells; see interpolator.hpp.
+  /// The reach of a particle anywhere in a cell, in cells; see interpolator.hpp.
   double reach() const { return 0.5 * Support; }
 
   /// That of a particle at `x` that is not deformed.

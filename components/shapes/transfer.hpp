@@ -16,7 +16,7 @@
 namespace tamp::components
 {
 
-/// What particles bring to the grid; all spans of one length.
+/// Particles' data for the grid; all spans of one length.
 template <int D>
 struct ParticleSources {
   ParticlePlaces<D> places;
@@ -28,9 +28,9 @@ struct ParticleSources {
   std::span<const double> viscous_pressure;
 };
 
-/// What a particle gives to nodes: the first four of NodeSums times the weight, the second times its derivatives. In
-/// space the second has room for the x component of the surface gradient only. `surface` is the particle's volume where
-/// that gradient is wanted, and 0 elsewhere.
+/// A particle's part of the sums at nodes: the first four of NodeSums times the weight, the second times its
+/// derivatives. In space the second has room for the x component of the surface gradient only. `surface` is the
+/// particle's volume where that gradient is wanted, and 0 elsewhere.
 template <int D>
 struct ParticleShare {
   Quad with_weight;
@@ -77,7 +77,7 @@ void particles_to_grid(const Interpolator& interpolator, const GridBlock<D>& blo
     // Kept in registers, which what is stored at the nodes might otherwise seem to change.
     const auto weight = in_fours(stencil.weight[0]), slope = in_fours(stencil.slope[0]);
     for_each_row<D>(block, stencil, [&, sums](const StencilRow<D>& row) {
-      // What the nodes of the row have in common: what goes with their weights along x, and with the slopes of those.
+      // Common to the nodes of the row: what goes with their weights along x, and with the slopes of those.
       const Quad first = row.across * share.with_weight, by_slope = row.across * share.with_derivative[0];
       Quad second = row.slope_across[0] * share.with_derivative[1], third = 0;
       if constexpr (D == 3) {
@@ -94,7 +94,7 @@ void particles_to_grid(const Interpolator& interpolator, const GridBlock<D>& blo
   });
 }
 
-/// Adds to the momenta of nodes what the particles' velocity gradients tell of the velocities there,
+/// Adds to the momenta of nodes the velocities there by the particles' velocity gradients,
 /// m_p S_ip grad v_p (x_i - x_p), row of grad v: component of velocity (Wallstedt & Guilkey, CMES 19, 2007). A rigid
 /// motion then comes to the grid as it is, where without it nodes at a surface get the velocity of the matter that they
 /// reach, which lies to one side of them. The sums over the nodes are zero: momentum stays what it is.
@@ -147,7 +147,7 @@ void add_forces(const Interpolator& interpolator, const GridBlock<D>& block, con
   });
 }
 
-/// What the grid gives back to one particle.
+/// Velocities and gradients of the grid at one particle.
 template <int D>
 struct ParticleMotion {
   /// At the middle of the step [m/s].

@@ -44,7 +44,7 @@ constexpr std::array<Parameter<TransferNumbers>, 2> TransferNumbers::parameters(
             true}}};
 }
 
-/// What every transfer has beside `word`, its name in scenes, and `meaning`, how velocities go, for people; where it
+/// Members of every transfer beside `word`, its name in scenes, and `meaning`, how velocities go, for people; where it
 /// has numbers it is made from a TransferNumbers. These are the values for most:
 ///
 ///  - `carried_gradient`, that of its particles;

@@ -25,7 +25,7 @@ struct BoundArgument {
 /// One declared label of a task, as its type: what a body asks for, and how the view that it gets is made.
 template <class L, bool Previous, bool EveryGroup, bool ReadOnly>
 struct Argument {
-  /// What a body asks for this by.
+  /// The key by which a body asks for this.
   using Asked = Reference<L, Previous>;
   using Value = std::conditional_t<ReadOnly, const typename L::Value, typename L::Value>;
 

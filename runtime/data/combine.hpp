@@ -71,7 +71,7 @@ AnyBit(Member Struct::*) -> AnyBit<Struct, Member>;
 template <class T>
 void combine(T& into, const T& part);
 
-/// What a bare member pointer means.
+/// The rule of a bare member pointer: members are combined by their own rules.
 template <class Struct, class Member>
 struct Sum {
   Member Struct::*member;

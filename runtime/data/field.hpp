@@ -30,7 +30,7 @@ struct Field {
 
   Buffer previous_buffer;
   Buffer current_buffer;
-  /// What this patch alone has summed, before its neighbours' parts are added.
+  /// Sums of this patch alone, before its neighbours' parts are added.
   Buffer part_buffer;
 
   const Buffer& buffer(FieldBuffer which) const

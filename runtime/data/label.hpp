@@ -26,7 +26,7 @@ constexpr bool has_one_value(Centring centring)
   return centring == Centring::reduction || centring == Centring::global;
 }
 
-/// What a reduction does with the bytes of its values.
+/// The operations of a reduction on the bytes of its values.
 struct ReductionOperations {
   void (*reset)(void* value);
   void (*combine)(void* into, const void* part);

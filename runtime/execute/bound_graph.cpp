@@ -189,8 +189,8 @@ void BoundGraph::run(int i, const Step& step)
   }
 }
 
-/// What a body may count on: parts start at zero, reductions at their neutral value. In the checked build what is to
-/// be computed starts as not-a-number, so that a value left out shows.
+/// Prepares what a body may count on: parts start at zero, reductions at their neutral value. In the checked build what
+/// is to be computed starts as not-a-number, so that a value left out shows.
 void BoundGraph::prepare(const Instance& instance, const Bound& bound)
 {
   const auto& accesses = graph_.declaration(instance).accesses;

@@ -26,7 +26,7 @@ class BoundGraph final : public Work
   Migration* migration() { return migration_.get(); }
   /// Whether this rank runs an instance.
   bool is_local(int instance) const { return at(instance).rank == rank_; }
-  /// What came from other ranks so far.
+  /// Messages from other ranks so far.
   Traffic traffic() const { return exchange_ == nullptr ? Traffic{} : exchange_->traffic(); }
 
   int n_instances() const override { return static_cast<int>(bound_.size()); }

@@ -21,7 +21,8 @@ struct OtherRankFailed : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// What messages this rank has got, and how long they took. Times in ticks; the clocks of ranks on one machine agree.
+/// Messages that this rank has received, and how long they took. Times in ticks; the clocks of ranks on one machine
+/// agree.
 struct Traffic {
   std::uint64_t n_messages = 0;
   std::uint64_t n_bytes = 0;

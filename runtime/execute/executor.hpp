@@ -44,7 +44,7 @@ class Schedule
   std::unique_ptr<ScheduleState> state_;
 };
 
-/// What went wrong in which task; `cause` is the exception that its body threw.
+/// An error in a task, with its name; `cause` is the exception that its body threw.
 struct TaskError : std::runtime_error {
   TaskError(const std::string& where, const std::string& what, std::exception_ptr cause_)
       : std::runtime_error(where + ": " + what), cause(std::move(cause_))
@@ -60,7 +60,7 @@ struct ExecutorOptions {
   /// How many instances a worker looks at when the first is blocked. With 1, and one thread, instances run in program
   /// order even if that means to wait for a message.
   std::size_t window = 64;
-  /// What is done about a run in which nothing completes.
+  /// How a run in which nothing completes is ended.
   StallOptions stall = {};
 };
 

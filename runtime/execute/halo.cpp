@@ -45,7 +45,7 @@ void for_each_row(const Field& to, const BoundHalo::Part& part, const Row& row)
   });
 }
 
-/// What of `a` lies outside of `b`, in boxes that do not overlap.
+/// The part of `a` outside of `b`, in boxes that do not overlap.
 std::vector<IndexBox> difference(IndexBox a, const IndexBox& b)
 {
   std::vector<IndexBox> pieces;

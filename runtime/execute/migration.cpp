@@ -113,7 +113,7 @@ double Migration::put_back(std::size_t axis, std::byte* coordinate, Index& laps)
   int lap = x < grid.lower[axis] ? -1 : 1;
   x -= lap * grid.length(axis);
   double place = cell_along(grid, axis, x);
-  // What is outside by round-off alone is on an end, and has both: the lower one is in a cell.
+  // A particle that is outside by round-off alone is on both ends: the lower one is in a cell.
   if (lap > 0 ? place < 0 : place == grid.n_cells[axis]) {
     x = grid.lower[axis];
     place = 0;

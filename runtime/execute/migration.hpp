@@ -32,7 +32,7 @@ class Migration
   /// Takes in what the neighbours packed for this patch.
   void receive(int patch, int group);
 
-  /// What has been packed on one patch for another, as bytes at the end of a message; and back from there into this
+  /// Particles that one patch has packed for another, as bytes at the end of a message; and back from there into this
   /// rank's copy of the other patch's outbox. `read_parcel` returns where the next parcel begins.
   void write_parcel(const MessagePart& part, std::vector<std::byte>& message) const;
   const std::byte* read_parcel(const MessagePart& part, const std::byte* from);
@@ -58,7 +58,7 @@ class Migration
   const Label& position_;
   const Label* laps_;
   std::vector<Outbox> outboxes_;
-  /// What comes to each patch and group from each of its neighbours, together in memory: most often there is nothing.
+  /// Arrivals at each patch and group from each of its neighbours, together in memory: most often there are none.
   std::vector<std::vector<ParticleParcel>> arrivals_;
 };
 

@@ -21,10 +21,10 @@ void end_stalled_process();
 struct StallOptions {
   /// How long nothing completes [s]; infinity: never.
   double limit = 300;
-  /// What each line of a report begins with: "rank 1: ".
+  /// The start of each line of a report: "rank 1: ".
   std::string prefix;
   std::function<void(const std::string& report)> print = print_report;
-  /// What follows the report of a stall, which is made once.
+  /// Called after the report of a stall, which is made once.
   std::function<void()> give_up = end_stalled_process;
 };
 

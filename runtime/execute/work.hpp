@@ -10,7 +10,7 @@
 namespace tamp::runtime
 {
 
-/// What an executor can run: instances, numbered in a legal serial order, each after those it depends on.
+/// Work for an executor: instances, numbered in a legal serial order, each after those it depends on.
 class Work
 {
  public:

@@ -15,7 +15,7 @@
 namespace tamp::runtime
 {
 
-/// What a task does with a label. See design: these five are all there are.
+/// How a task uses a label. See design: these five are all there are.
 enum class Mode { read, compute, update, accumulate, reduce };
 
 const char* to_string(Mode mode);
@@ -44,7 +44,7 @@ struct Step {
   unsigned host_requests = 0;
 };
 
-/// What every task body gets before its data.
+/// The first argument of every task body.
 struct TaskContext {
   const PatchLayout& layout;
   /// In a task over ranks, one without cells whose id is -1.
@@ -83,7 +83,7 @@ using TaskList = std::vector<TaskDeclaration>;
 ///           ...
 ///         });
 ///
-/// What only some methods need is declared `label.when(condition)`, and empty in the body where they do not.
+/// Data that only some methods need are declared `label.when(condition)`, and empty in the body where they do not.
 template <class... Arguments>
 class TaskBuilder
 {
@@ -101,11 +101,11 @@ class TaskBuilder
     return std::move(*this).over(Domain::patches_and_groups, std::move(groups));
   }
 
-  /// Once on every rank, with globals and whole reductions: what all ranks then know alike, none has to be told.
+  /// Once on every rank, with globals and whole reductions: what all ranks then know alike, none has to send.
   TaskBuilder over_ranks() && { return std::move(*this).over(Domain::ranks, {}); }
 
-  /// Promises that of nothing the body makes nothing: where there is no particle and the node and cell fields of this
-  /// step that it reads or updates are zero, it makes zeros and neutral parts. There it is skipped.
+  /// Promises that with no particles, and only zeros in the node and cell fields of this step that it reads or updates,
+  /// the body produces only zeros and neutral parts. Such patches are skipped.
   TaskBuilder sparse() &&
   {
     declaration_.sparse = true;
@@ -229,7 +229,7 @@ TaskDeclaration migration(const TypedLabel<Point, Centring::particle>& position,
   return declaration;
 }
 
-/// The same, but it waits for a reduction or a global: where a task before that throws, no particle has moved, and the
+/// A migration that waits for a reduction or a global: where a task before that throws, no particle has moved, and the
 /// state before the step is still whole.
 template <class Point, class T, Centring C>
 TaskDeclaration migration(const TypedLabel<Point, Centring::particle>& position, const TypedLabel<T, C>& last_check,

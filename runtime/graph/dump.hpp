@@ -11,7 +11,7 @@ namespace tamp::runtime
 /// Every task instance and every edge: see the interface in README for the keys.
 nlohmann::json to_json(const TaskGraph& graph, std::size_t forecast_bytes);
 
-/// The same for graphviz, a cluster for each patch; of one patch and what it touches when `patch` is not -1.
+/// The graph for graphviz, a cluster for each patch; of one patch and what it touches when `patch` is not -1.
 std::string to_dot(const TaskGraph& graph, int patch = -1);
 
 }  // namespace tamp::runtime

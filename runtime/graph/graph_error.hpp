@@ -14,7 +14,7 @@ struct GraphProblem {
   Kind kind;
   std::string task;
   std::string label;
-  /// What is wrong and, where it can be guessed, what was meant.
+  /// The error and, where it can be guessed, what was meant.
   std::string explanation;
 };
 

@@ -152,7 +152,7 @@ class Inspector
   {
     const Label& label = *use.access.label;
     const Domain domain = declarations_[static_cast<std::size_t>(use.declaration)].domain;
-    if (domain == Domain::ranks && !has_one_value(label.centring())) return;  // has been told
+    if (domain == Domain::ranks && !has_one_value(label.centring())) return;  // reported before
     const bool migrated = domain == Domain::migration;
     if (use.access.of_previous_step || (migrated && contains(host_.state, &label))) {
       if (!contains(host_.state, &label)) {

@@ -10,8 +10,8 @@
 namespace tamp::runtime
 {
 
-/// What the declarations of a step come to, not yet in any order. Edges within a rank join instances directly; data
-/// for another rank go by a message, whose sender and receiver are instances too.
+/// The compiled declarations of a step, not yet in any order. Edges within a rank join instances directly; data for
+/// another rank go by a message, whose sender and receiver are instances too.
 struct CompiledStep {
   std::vector<Instance> instances;
   std::vector<Edge> edges;
@@ -26,7 +26,7 @@ struct Transfer {
   MessagePart part;
   int halo;
   std::size_t bytes;
-  /// The declaration that makes this version of the data, by which messages are told apart; -1 for the step before.
+  /// The declaration that makes this version of the data, which distinguishes messages; -1 for the step before.
   int maker;
 };
 

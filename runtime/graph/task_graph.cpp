@@ -178,7 +178,7 @@ TaskGraph::TaskGraph(std::vector<TaskDeclaration> declarations, const PatchLayou
   }
 }
 
-/// What a message is for: the name of the work that waits for it.
+/// The name of the work that waits for a message.
 std::string TaskGraph::name_of_use(const Instance& instance) const
 {
   const Message& message = messages_[static_cast<std::size_t>(instance.message)];

@@ -12,7 +12,7 @@
 namespace tamp::runtime
 {
 
-/// What a node of the compiled graph does: a declared body, or work of the runtime's own that the declarations imply.
+/// The kind of a node of the compiled graph: a declared body, or work of the runtime's own that the declarations imply.
 enum class InstanceKind {
   body,
   sum_halo,
@@ -66,7 +66,7 @@ struct MessagePart {
   int to_patch = 0;
   int group = 0;
   FieldBuffer buffer = FieldBuffer::current;
-  /// What of a node or cell field goes along.
+  /// The part of a node or cell field that is sent.
   IndexBox box;
   /// Where `to_patch` sees an image of `from_patch`: by how much it is shifted.
   Index shift{0, 0, 0};
@@ -99,7 +99,7 @@ struct LabelUse {
   bool accumulated = false;
 };
 
-/// What the host, outside of the graph, gives and takes.
+/// Data that the host, outside of the graph, gives and takes.
 struct HostData {
   /// State that the host sets before the first step; reductions here are accumulated.
   std::vector<const Label*> state;

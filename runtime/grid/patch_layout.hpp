@@ -35,7 +35,7 @@ struct Grid {
 /// A patch as another one sees it, along a periodic axis perhaps beyond an end of the grid.
 struct PatchImage {
   int patch = 0;
-  /// What its own indices become there.
+  /// The shift from its own indices to those there.
   Index shift{0, 0, 0};
 };
 
@@ -48,7 +48,7 @@ struct Patch {
   IndexBox nodes;
   /// Patches that touch this one by a face, an edge or a corner, ascending, without itself.
   std::vector<int> neighbours;
-  /// The same with where they are, and the patch itself; along a periodic axis of one or two patches some come more
+  /// Neighbours with their places, and the patch itself; along a periodic axis of one or two patches some come more
   /// than once. All that see a node see it in the same order: by patch, then by the node's index there.
   std::vector<PatchImage> images;
 };
@@ -79,7 +79,7 @@ class PatchLayout
   /// Nodes that `patch` alone answers for: each node of the grid is in exactly one such box, those at the two ends of a
   /// periodic axis being the same.
   IndexBox owned_nodes(const Patch& patch) const;
-  /// The same with the upper end of a periodic axis: each index of a node is in exactly one such box.
+  /// Owned nodes with the upper end of a periodic axis: each index of a node is in exactly one such box.
   IndexBox shown_nodes(const Patch& patch) const;
 
  private:

@@ -70,7 +70,7 @@ struct TraceEvent {
   double end_s = 0;
 };
 
-/// What the first steps did, instance by instance.
+/// The first steps, instance by instance.
 struct Trace {
   std::vector<std::string> tasks;
   std::vector<TraceEvent> events;
@@ -102,8 +102,8 @@ class Profiler
 
   Profiler(const Schedule& schedule, BoundGraph& graph, int n_workers);
 
-  /// Keeps the first `n_steps` steps instance by instance; fewer where these would be more than `most_traced`, which
-  /// is told by the number of all instances of a step. To be called before the first step.
+  /// Keeps the first `n_steps` steps instance by instance; fewer where these would be more than `most_traced`, by
+  /// the number of all instances of a step. To be called before the first step.
   void trace_steps(long n_steps) { n_traced_steps_ = n_steps; }
   /// Goes on with the same tasks on patches dealt anew.
   void follow(const Schedule& schedule, BoundGraph& graph);

@@ -39,7 +39,7 @@ class Communicator
   Communicator() = default;
   /// All ranks of the program.
   static Communicator world();
-  /// The same ranks with messages of their own, that meet no others.
+  /// A communicator of the same ranks whose messages meet no others.
   Communicator duplicate() const;
 
   int rank() const { return rank_; }
@@ -49,7 +49,7 @@ class Communicator
   MPI_Comm handle() const { return handle_ == nullptr ? MPI_COMM_NULL : *handle_; }
 
   void barrier() const;
-  /// What each rank gives, by rank.
+  /// The bytes of each rank, by rank.
   std::vector<std::vector<std::byte>> gather(std::span<const std::byte> own) const;
   std::vector<std::string> gather(const std::string& own) const;
   /// Gives each rank what is meant for it, by rank; returns what each has given to this one.
@@ -69,7 +69,7 @@ class Communicator
   {
     return gather_value(own).front();
   }
-  // What the ranks give, combined on all of them where the order does not matter: so sums are of whole numbers.
+  // Values of the ranks, combined on all of them. The order must not matter, so sums are of whole numbers.
   std::uint64_t sum(std::uint64_t own) const;
   /// Element by element.
   std::vector<std::uint64_t> sum(std::vector<std::uint64_t> own) const;

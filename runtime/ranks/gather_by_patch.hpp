@@ -17,7 +17,7 @@ namespace tamp::runtime
 void gather_by_patch(std::span<const std::byte> own, std::span<std::byte> all, std::span<const std::uint64_t> n_bytes,
                      const PatchLayout& layout, const Communicator& communicator);
 
-/// The same for values, `n_values[p]` of patch p; gives those of all patches on the first rank, and nothing on others.
+/// Gathers values, `n_values[p]` of patch p: those of all patches on the first rank, and nothing on others.
 template <class T>
 std::vector<T> gather_by_patch(std::vector<T> own, std::span<const std::uint64_t> n_values, const PatchLayout& layout,
                                const Communicator& communicator)

@@ -11,7 +11,7 @@ namespace tamp::runtime
 namespace
 {
 
-/// An exception, as far as it can be told to another rank.
+/// An exception, as far as it can be sent to another rank.
 struct Failure {
   std::exception_ptr own;
   /// Empty unless it is a FileError.

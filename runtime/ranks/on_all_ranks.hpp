@@ -14,7 +14,7 @@ namespace tamp::runtime
 /// std::runtime_error where it has nothing.
 void on_all_ranks(const Communicator& communicator, const std::function<void()>& work);
 
-/// The same for work of the first rank alone.
+/// Does work on the first rank alone; if it throws, all ranks do.
 void on_first_rank(const Communicator& communicator, const std::function<void()>& work);
 
 }  // namespace tamp::runtime

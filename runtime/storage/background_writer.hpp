@@ -15,7 +15,7 @@ namespace tamp::runtime
 /// given. A job has all its data in itself and makes no calls of MPI; as HDF5 lets one thread in at a time, no other
 /// thread uses it meanwhile.
 ///
-/// What a job throws is thrown by the next call here; the jobs after it are dropped.
+/// An exception of a job is thrown by the next call here; the jobs after it are dropped.
 class BackgroundWriter
 {
  public:

@@ -32,7 +32,7 @@ class CsvWriter
   /// was is set aside as FILE.damaged, and `notice` says so. Throws FileError.
   static CsvWriter continued(const std::filesystem::path& file, const std::vector<std::string>& columns,
                              std::int64_t last_step, const CsvExtent& expected);
-  /// The same of a table whose extent nobody has kept: what can be read of it stays, and nothing is told.
+  /// Continues a table whose extent is not known: its readable rows stay, without a notice.
   static CsvWriter continued(const std::filesystem::path& file, const std::vector<std::string>& columns,
                              std::int64_t last_step);
 
@@ -40,9 +40,9 @@ class CsvWriter
   void write_row(std::span<const double> values);
 
   std::size_t n_columns() const { return n_columns_; }
-  /// What is in the file now.
+  /// The extent of the file now.
   const CsvExtent& extent() const { return extent_; }
-  /// What the user should know of the table that was to be continued; nothing if all was well.
+  /// A notice for the user on the table that was to be continued; empty if all was well.
   const std::string& notice() const { return notice_; }
 
  private:

@@ -93,7 +93,7 @@ Descriptor existing_lock(const std::filesystem::path& file)
   return lock;
 }
 
-/// What a lock says; what it does not say, because it was not written to its end, stays empty.
+/// The holder that a lock names. Lines that are missing, as it was not written to its end, stay empty.
 LockHolder holder_in(const std::filesystem::path& folder, const Descriptor& lock)
 {
   LockHolder holder;

@@ -16,7 +16,7 @@ namespace fs = std::filesystem;
 /// HDF5's error stack, seen from the call that was made towards what failed inside of it.
 struct Cause {
   std::string outermost;
-  /// What the system said, such as "No space left on device".
+  /// The system's message, such as "No space left on device".
   std::string of_system;
 };
 

@@ -38,7 +38,7 @@ class Handle
 
   operator hid_t() const { return id_; }
 
-  /// What closing says; negative where it failed. Closing a file is where its last parts are written.
+  /// The result of closing; negative where it failed. Closing a file is where its last parts are written.
   herr_t close() { return id_ < 0 ? 0 : Close(std::exchange(id_, -1)); }
 
  private:
@@ -104,7 +104,7 @@ struct Share {
   std::vector<Slab> slabs;
 };
 
-/// What a file says of a dataset without its values.
+/// A dataset without its values.
 struct DatasetInfo {
   std::vector<hsize_t> dimensions;
   bool whole_numbers = false;
@@ -114,7 +114,7 @@ struct DatasetInfo {
 
 enum class MemberOrder { by_name, as_made };
 
-/// What the locations of an open file share.
+/// Shared by the locations of an open file.
 struct FileState {
   Quiet quiet;
   std::filesystem::path path;
@@ -150,7 +150,7 @@ class Location
   /// Makes a dataset; this rank gives the values of its share, in the order of the file. What fails on one rank alone
   /// is kept until `OpenFile::agree`: the calls that follow are made all the same, as other ranks wait in them.
   void write(const std::string& path, const Share& share, ElementType type, const void* values) const;
-  /// The same where the first rank gives all values.
+  /// Writes a dataset whose values the first rank has.
   void write_from_first(const std::string& path, const std::vector<hsize_t>& dimensions, ElementType type,
                         const void* values) const;
   void write_from_first(const std::string& path, const std::string& text) const;

@@ -47,7 +47,7 @@ fs::path end_of_links(fs::path file)
   return file;
 }
 
-/// What takes text but is not replaced: a pipe, a device, an open file of this process.
+/// Whether a path takes text but is not replaced: a pipe, a device, an open file of this process.
 bool is_stream(const fs::path& file)
 {
   std::error_code error;

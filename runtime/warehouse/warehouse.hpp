@@ -33,7 +33,7 @@ class Warehouse
   const MemoryLedger& ledger() const { return ledger_; }
   /// Bytes that the fields need for the particles there are, before any growth by migration.
   std::size_t forecast_bytes() const;
-  /// The same of all patches, for so many particles of each group, before anything is stored.
+  /// Bytes of all patches, for so many particles of each group, before anything is stored.
   static double forecast_bytes(std::span<const TaskGraph* const> graphs, std::span<const std::size_t> n_particles);
 
   /// Particles on this rank's patches; 0 for others.
@@ -61,7 +61,7 @@ class Warehouse
   {
     return *reinterpret_cast<T*>(field(label, -1, -1).previous_buffer.data());
   }
-  /// What the last step left in a node or cell field that is no state.
+  /// A node or cell field that is no state, as the last step left it.
   template <class T, Centring C>
   GridView<const T> grid_result(const TypedLabel<T, C>& label, int patch, int group)
   {
@@ -74,13 +74,13 @@ class Warehouse
     return *reinterpret_cast<const T*>(field(label, -1, -1).current_buffer.data());
   }
 
-  /// What an accumulated reduction has come to since the start, or since it was last taken.
+  /// An accumulated reduction since the start, or since it was last taken.
   template <class T>
   T& total(const TypedLabel<T, Centring::reduction>& label)
   {
     return *reinterpret_cast<T*>(field(label, -1, -1).previous_buffer.data());
   }
-  /// The same, which begins anew. To be called by all ranks alike.
+  /// Returns an accumulated reduction and begins it anew. To be called by all ranks alike.
   template <class T>
   T take(const TypedLabel<T, Centring::reduction>& label)
   {

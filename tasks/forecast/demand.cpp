@@ -35,7 +35,7 @@ std::size_t n_output_numbers(const Scene& scene, const SceneMaterial& material)
   return n;
 }
 
-/// The same of a node.
+/// Numbers of a node in an output.
 std::size_t n_output_numbers(const FieldChoice& choice)
 {
   std::size_t n = 0;
@@ -45,7 +45,7 @@ std::size_t n_output_numbers(const FieldChoice& choice)
   return n;
 }
 
-/// Of a copy of the particles' state, of which there is more than of any other.
+/// Bytes of a copy of the particles' state, which is larger than any other.
 double state_bytes(std::span<const runtime::TaskGraph* const> graphs, const std::vector<std::size_t>& n_particles)
 {
   std::set<std::pair<const runtime::Label*, int>> state;

@@ -7,15 +7,15 @@
 namespace tamp::tasks
 {
 
-/// What a scene takes, known before anything is stored for it [bytes].
+/// Memory and disk space for a scene, known before anything is stored for it [bytes].
 struct Demand {
   std::size_t n_particles = 0;
   /// Fields and particles of all ranks.
   double fields = 0;
-  /// What is gathered to write one output, and what that takes on the disk.
+  /// Memory gathered to write one output, and its room on the disk.
   double output_room = 0;
   double output_file = 0;
-  /// What a copy of the state takes, in memory as on the disk.
+  /// A copy of the state, in memory as on the disk.
   double checkpoint_file = 0;
 };
 

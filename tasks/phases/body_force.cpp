@@ -59,7 +59,7 @@ runtime::TaskList body_force(const Method<D>& method)
                 const auto forces = body_forces_on<D>(method.scene, at.step.time, data[particle::body.previous()],
                                                       data[particle::mass.previous()],
                                                       data[particle::reference_position<D>.previous()]);
-                // What other phases have given to the nodes has its images already.
+                // Sums of other phases at the nodes have their images already.
                 std::vector<NodeSums<D>> own(static_cast<std::size_t>(sums.box().size()));
                 method.interpolation(at.group).add_forces(block_of<D>(at.layout, sums), places_at_start<D>(data),
                                                           std::span(forces), own.data());

@@ -43,7 +43,7 @@ void bring_gradients(const components::Interpolation<D>& interpolation, const co
   }
 }
 
-/// What is scattered behind a wall comes to the grid as the image of the particles gives it.
+/// Adds to the grid the image of what is scattered behind a wall.
 template <int D>
 void fold(const Wall<D>& wall, const runtime::TaskContext& at, const runtime::GridView<components::NodeSums<D>>& sums)
 {

@@ -54,8 +54,8 @@ runtime::TaskDeclaration carry(const Method<D>& method)
       });
 }
 
-/// Nothing crosses a wall, and what sticks to it stands still. Friction has worked on the velocities that particles
-/// bring.
+/// Nothing crosses a wall, and at a no-slip wall material does not move. Friction has worked on the velocities that
+/// particles bring.
 template <int D>
 void hold_carried(const Wall<D>& wall, const TaskContext& at, const GridView<NodeMotion<D>>& motion)
 {
@@ -69,7 +69,7 @@ void hold_carried(const Wall<D>& wall, const TaskContext& at, const GridView<Nod
   });
 }
 
-/// What these velocities are on the nodes.
+/// Turns the sums into velocities on the nodes.
 template <int D>
 runtime::TaskDeclaration take_carried(const Method<D>& method)
 {

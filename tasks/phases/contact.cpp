@@ -21,7 +21,7 @@ using runtime::TaskContext;
 namespace
 {
 
-/// What the impulses did at one node.
+/// Effects of the impulses at one node.
 template <int D>
 struct NodeImpulses {
   /// By material [N s]; all together they are zero.

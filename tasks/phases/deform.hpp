@@ -22,7 +22,7 @@ namespace tamp::tasks
 /// cache.
 inline constexpr std::size_t motion_batch = 32;
 
-/// What deforms particles is the gradient of the velocity at the middle of the step, over the shape at its start (eqs
+/// Deforms particles by the gradient of the velocity at the middle of the step, over the shape at its start (eqs
 /// 54-58), as `g` times dt; the old stress turns with them, and what the material answers is added by the next phase.
 template <int D, class Data>
 void deform(const Method<D>& method, const runtime::TaskContext& at, const Data& data, std::size_t first,
@@ -95,7 +95,7 @@ void take_gradients(const Method<D>& method, const runtime::TaskContext& at, con
   }
 }
 
-/// The same, and how stiff these particles make their nodes.
+/// Deforms particles, and finds how stiff they make their nodes.
 template <int D, class Data>
 void deform_by_nodes(const Method<D>& method, const runtime::TaskContext& at, const Data& data,
                      const components::GridBlock<D>& block, const components::NodeMotion<D>* nodes,

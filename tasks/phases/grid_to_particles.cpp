@@ -21,8 +21,8 @@ namespace
 template <int D>
 using Motions = std::span<const ParticleMotion<D>>;
 
-/// What the transfer makes of the velocities of particles. `restored` is what passes from the start of the step restore
-/// of them; without such passes 0.
+/// Updates the velocities of particles by the transfer. `restored` is what passes from the start of the step restore of
+/// them; without such passes 0.
 template <int D>
 void transfer_velocities(const Method<D>& method, std::span<const Vector<D>> before, Motions<D> motion,
                          std::span<const Vector<D>> restored, std::span<Vector<D>> after)
@@ -50,7 +50,7 @@ void move(const Method<D>& method, double dt, const Data& data, std::size_t firs
                          data[particle::velocity<D>].subspan(first, motion.size()));
 }
 
-/// What a transfer that filters velocities adds to the momentum of particles beside what these take from the nodes.
+/// Adds the momentum that a transfer that filters velocities gives to particles beside the nodes' part.
 template <int D, class Data>
 void add_filtered_momentum(const Data& data, std::size_t first, Motions<D> motion)
 {

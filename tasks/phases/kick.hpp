@@ -9,8 +9,8 @@
 namespace tamp::tasks
 {
 
-/// What a node on mirroring walls is left with when they take up what presses on them at rest: without it the Coriolis
-/// term would turn a push on the floor into one along it.
+/// Stops a node along the normals of mirroring walls, which take up what presses on them at rest: without it the
+/// Coriolis term would turn a push on the floor into one along it.
 inline void hold_at_walls(const std::array<std::array<bool, 2>, 3>& mirrors, const runtime::Grid& grid,
                           const runtime::Index& node, const Vector<3>& frame_acceleration, Vector<3>& velocity,
                           Vector<3>& acceleration)
@@ -23,7 +23,7 @@ inline void hold_at_walls(const std::array<std::array<bool, 2>, 3>& mirrors, con
   }
 }
 
-/// What a kick adds to the velocity of a node: the acceleration by its force, and those of the scene.
+/// The change of a node's velocity by a kick: the acceleration by its force, and those of the scene.
 template <int D>
 Vector<D> velocity_change(const Method<D>& method, const runtime::TaskContext& at, const runtime::Index& node,
                           const Vector<D>& velocity, const Vector<D>& by_force, double kick)
@@ -42,7 +42,7 @@ Vector<D> velocity_change(const Method<D>& method, const runtime::TaskContext& a
   return kick * acceleration;
 }
 
-/// What a kick adds to the velocity of a node, without local damping and with it.
+/// The change of a node's velocity by a kick, without local damping and with it.
 template <int D>
 struct Kicked {
   Vector<D> undamped, damped;

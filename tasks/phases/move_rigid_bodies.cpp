@@ -61,8 +61,8 @@ runtime::TaskList move_rigid_bodies(const Method<D>& method)
 namespace
 {
 
-/// What the body as a whole has been given in the step; one patch tells of it. The work of driving goes with the mean
-/// of the velocities before and after, as the energies of leapfrog are counted.
+/// Adds the momentum and work given to the body as a whole in the step, on one patch. The work of driving goes with the
+/// mean of the velocities before and after, as the energies of leapfrog are counted.
 void add_totals(const TaskContext& at, const RigidBody& body, const RigidStates& before, const RigidStates& after,
                 GridTotals& grid, StepTotals& totals)
 {

@@ -16,7 +16,7 @@ using runtime::TaskContext;
 namespace
 {
 
-/// What particles of some materials, of all if none are given, bring to the nodes: with the stress of one end of the
+/// Sums over particles at the nodes, of some materials, or of all if none are given: with the stress of one end of the
 /// step, or, where they share that, with what their cells have made of it.
 template <int D>
 runtime::TaskDeclaration gather(const Method<D>& method, const std::string& name, std::vector<int> materials,

@@ -24,7 +24,7 @@ runtime::TaskList press(const Method<D>& method);
 template <int D>
 runtime::TaskList body_force(const Method<D>& method);
 
-/// What they have done in the step, once particles have moved.
+/// Work of the body forces in the step, once particles have moved.
 template <int D>
 runtime::TaskList work_of_body_force(const Method<D>& method);
 
@@ -45,7 +45,7 @@ runtime::TaskList rigid_nodes_before_contact(const Method<D>& method);
 template <int D>
 runtime::TaskList contact_planes(const Method<D>& method);
 
-/// What the contact of rigid bodies asks of their motion.
+/// Contact of rigid bodies, for their motion.
 template <int D>
 runtime::TaskList gather_rigid_contact(const Method<D>& method);
 
@@ -61,7 +61,7 @@ runtime::TaskList contact(const Method<D>& method);
 template <int D>
 runtime::TaskList walls(const Method<D>& method);
 
-/// What pressure loads have given to the materials, and their work.
+/// Impulses of pressure loads on the materials, and their work.
 template <int D>
 runtime::TaskList account_for_pressure(const Method<D>& method);
 
@@ -73,7 +73,7 @@ runtime::TaskList move_rigid_bodies(const Method<D>& method);
 template <int D>
 runtime::TaskList move_rigid_particles(const Method<D>& method);
 
-/// What nodes tell particles goes back to the nodes, as often as the transfer asks for; empty for most.
+/// Passes of velocities from nodes to particles and back, as many as the transfer has; empty for most.
 template <int D>
 runtime::TaskList pass_velocities(const Method<D>& method);
 

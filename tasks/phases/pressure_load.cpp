@@ -55,7 +55,7 @@ class Pressures
   double depth_;
 };
 
-/// What nodes should be pressed with: their matter tells.
+/// Gathers the pressure on nodes, weighted by the mass of their particles.
 template <int D>
 runtime::TaskDeclaration gather_pressure(const Method<D>& method)
 {

@@ -22,7 +22,7 @@ using runtime::TaskContext;
 namespace
 {
 
-/// What the materials at a node ask of the rigid body there.
+/// Adds the contact of the materials at a node with the rigid body there.
 template <int D>
 void add_node(const Method<D>& method, const RigidBody& body, const RigidStates& states, const NodeOfMaterials<D>& node,
               const Vector<D>& x, RigidCouplings& couplings)

@@ -25,7 +25,7 @@ namespace
 /// what lives only within the update stays in the first cache.
 constexpr std::size_t batch_size = 256;
 
-/// What the material tells of a batch beside the stress and the state.
+/// The material's answer for a batch beside the stress and the state.
 struct BatchAnswer {
   std::array<double, batch_size> bulk_modulus;
   std::array<double, batch_size> shear_modulus;
@@ -110,7 +110,7 @@ void check_finite(const Method<D>& method, int material, const Data& data, std::
   }
 }
 
-/// What is known of the particle that a batch of a material failed with.
+/// The particle that a batch of a material failed with.
 template <int D, class Model, class Data>
 FailedUpdate failed_update(const Model& model, int material, std::size_t p, components::UpdateFault fault,
                            const Data& data)
@@ -136,7 +136,8 @@ FailedUpdate failed_update(const Model& model, int material, std::size_t p, comp
   return failed;
 }
 
-/// What bears no stress cannot stop the motion within it: it forgets that, and brings the grid its velocity alone.
+/// Sets the gradients of particles without stress to zero, as nothing stops the motion within them: they bring the grid
+/// their velocity alone.
 template <int D, class Data>
 void forget_gradients(const Data& data, std::size_t first, std::span<const double> bulk_modulus)
 {

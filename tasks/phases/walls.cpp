@@ -18,8 +18,8 @@ using runtime::TaskContext;
 namespace
 {
 
-/// What the particles of one material take from the nodes that this patch counts, and what these tell of the energy
-/// that particles filter out.
+/// Adds what the particles of one material take from the nodes that this patch counts, and the energy that particles
+/// filter out there.
 template <int D>
 void add_taken(const Method<D>& method, const TaskContext& at, const GridView<const NodeSums<D>>& sums,
                const GridView<NodeMotion<D>>& motion, GridTotals& totals)
@@ -53,7 +53,7 @@ void add_damping(const Method<D>& method, const TaskContext& at, const GridView<
   });
 }
 
-/// What a wall that is no mirror leaves of the motion of its nodes, and the energy that this takes: each impulse times
+/// Applies a wall that is no mirror to the motion of its nodes, and counts the energy that it takes: each impulse times
 /// the mean of the velocities before and after the step, as the energies of leapfrog are counted.
 template <int D>
 void hold(const Method<D>& method, const TaskContext& at, const Wall<D>& wall, const GridView<const NodeSums<D>>& sums,

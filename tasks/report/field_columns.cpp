@@ -104,7 +104,7 @@ struct NodeMatter {
   Vector<D> momentum = Vector<D>::Zero();
 };
 
-/// What the materials left on the nodes of a patch.
+/// All materials together at the nodes of a patch.
 template <int D>
 class MatterOfPatch
 {
@@ -220,7 +220,7 @@ class FieldCopier
   }
 
  private:
-  /// Of `n` items; `add` appends the values of a patch.
+  /// Adds a column of `n` items; `add` appends the values of a patch.
   template <class T, class Add>
   void add_column(std::vector<Column>& columns, const std::string& name, ColumnKind kind, std::size_t n, const Add& add)
   {

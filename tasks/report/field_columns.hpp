@@ -24,7 +24,7 @@ std::vector<FieldName> node_field_names();
 /// Chosen or not.
 bool is_always_written(const std::string& field);
 
-/// What a run's field file holds of the state now, of this rank's patches: for each material id, position, and those of
+/// A copy of the state now for a run's field file, of this rank's patches: for each material id, position, and those of
 /// the chosen fields that it has; and if asked for, the chosen fields of the last step at the nodes, all materials
 /// together. The workers of the executor make it. Collective.
 template <int D>

@@ -13,7 +13,7 @@ using runtime::TaskContext;
 namespace
 {
 
-/// A rigid body is known as a whole, and one patch tells of it; its particles as points would lack their own turning.
+/// A rigid body is known as a whole, and one patch reports it; its particles as points would lack their own turning.
 void report_rigid_motion(const TaskContext& at, const RigidBody& body, const components::RigidState& state,
                          ParticleReport& report)
 {

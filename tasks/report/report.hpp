@@ -73,7 +73,7 @@ struct ParticleReport {
   /// sum m (g . x + |w x r|^2 / 2) [J]: what it has gained since the start is the work of gravity and of a steady
   /// centrifuge. One that speeds up has no such function: its work is left out, and an energy balance does not close.
   double gravity_work = 0;
-  /// What these did in the second half of the last step [J], which velocities, of half a step before, do not have yet.
+  /// Work of these in the second half of the last step [J], which velocities, of half a step before, do not have yet.
   double gravity_work_at_end = 0;
   std::array<BodySums, max_entries> bodies;
   /// Only for bodies that have an exact solution.
@@ -88,7 +88,7 @@ struct ParticleReport {
   Eigen::Vector3d momentum() const;
 };
 
-/// The same peaks of the particles that are near the nose of a body.
+/// Peaks of the particles near the nose of a body.
 struct NoseReport {
   PeaksOfMaterials materials;
 

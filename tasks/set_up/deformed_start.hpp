@@ -9,7 +9,7 @@ namespace tamp::tasks
 /// Whether bodies of this material may start deformed: its stress follows from the deformation gradient alone.
 bool may_start_deformed(const MaterialModel& model);
 
-/// What a body is like at a point where it starts deformed.
+/// The state of a body that starts deformed, at a point.
 template <int D>
 struct DeformedStart {
   Matrix<D> deformation_gradient;

@@ -44,7 +44,7 @@ LayerColumn column_of(const Scene& scene, int particles_per_axis, const std::vec
   const double reach = 0.75 * column.spacing;
   const bool at_lower = layers.front() - grid.coordinate(axis, 0) < reach;
   const bool at_upper = grid.coordinate(axis, n_cells) - layers.back() < reach;
-  // What fills a periodic axis has its like beyond both ends, as between mirrors.
+  // Sand that fills a periodic axis goes on beyond both ends, as between mirrors.
   column.lower_wall = grid.periodic[k] ? at_lower && at_upper : at_lower && scene.faces[k][0] != Face::open;
   column.upper_wall = grid.periodic[k] ? at_lower && at_upper : at_upper && scene.faces[k][1] != Face::open;
   return column;

@@ -64,7 +64,7 @@ std::vector<double> arguments(const Function& f)
   return all;
 }
 
-/// What the `nm` of the build finds undefined in a library, a line each: OBJECT: U NAME.
+/// Undefined symbols of a library by the `nm` of the build, a line each: OBJECT: U NAME.
 std::vector<std::string> undefined_symbols(const std::string& library)
 {
   std::vector<std::string> lines;

@@ -1,7 +1,7 @@
 #include "tests/fuzz/input_file.hpp"
 #include "tests/fuzz/readers.hpp"
 
-/// What libFuzzer calls with each input, for the reader that this is compiled for.
+/// Called by libFuzzer with each input, for the reader that this is compiled for.
 extern "C" int LLVMFuzzerTestOneInput(const unsigned char* bytes, std::size_t n_bytes)
 {
   static const tamp::fuzz::InputFile input;

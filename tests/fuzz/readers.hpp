@@ -26,7 +26,7 @@ void csv_table(const std::filesystem::path& file);
 void yield_table(const std::filesystem::path& file);
 void unloading_curves(const std::filesystem::path& file);
 void published_table(const std::filesystem::path& file);
-/// What `tamp drive` and `tamp modulus --states` go along.
+/// Reads the paths of `tamp drive` and `tamp modulus --states`.
 void path(const std::filesystem::path& file);
 void modulus_states(const std::filesystem::path& file);
 

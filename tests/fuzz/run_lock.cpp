@@ -25,7 +25,7 @@ void tamp::fuzz::run_lock(const std::filesystem::path& file)
   fs::create_directories(folder);
   fs::copy_file(file, lock, fs::copy_options::overwrite_existing);
   try_to_lock(folder);
-  // The same lock, untouched for two minutes.
+  // A copy of the lock, untouched for two minutes.
   fs::copy_file(file, lock, fs::copy_options::overwrite_existing);
   fs::last_write_time(lock, fs::file_time_type::clock::now() - std::chrono::minutes(2));
   try_to_lock(folder);

@@ -76,7 +76,7 @@ struct Heat {
     for (long n = 0; n < n_steps; ++n) engine.advance(dt);
   }
 
-  /// Of all ranks.
+  /// Values of all ranks.
   std::vector<double> values()
   {
     std::vector<double> own, all;

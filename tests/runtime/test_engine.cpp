@@ -19,7 +19,7 @@ Heat plate(const Communicator& ranks, int n_threads = 2)
   return Heat(24, {4, 3, 1}, n_threads, ranks);
 }
 
-/// All that a run can be told by.
+/// All that runs are compared by.
 std::vector<double> all_of(Heat& heat)
 {
   std::vector<double> all = heat.values();

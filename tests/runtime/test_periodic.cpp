@@ -166,7 +166,7 @@ struct RingOfHeat {
     return std::cos(2 * pi * n_waves * (i[0] + 0.3) / n_cells()[0]) * std::cos(pi * (i[1] + 0.5) / n_cells()[1]);
   }
 
-  /// What a step leaves of the shape.
+  /// The part of the shape that a step leaves.
   static double decay(double dt)
   {
     constexpr double pi = std::numbers::pi;

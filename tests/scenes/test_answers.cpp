@@ -7,7 +7,7 @@
 #include "tools/run/run.hpp"
 #include "tools/scene/read_scene.hpp"
 
-/// What the shipped quick scenes come to, held to 2 % in depth and 10 % in peaks: a change that moves an answer fails
+/// Results of the shipped quick scenes, held to 2 % in depth and 10 % in peaks: a change that moves an answer fails
 /// here, and says so in docs/accuracy.md and docs/projectile.md.
 namespace tamp::tools::test_answers
 {

@@ -198,7 +198,7 @@ TEST_CASE("the short study of what methods cost has the sand stop the punch abou
   CHECK(lost > 10);
   for (const Json& point : study.results["points"]) {
     INFO(point["method"]);
-    // Of the 200 m/s at the start; a sand of no weight takes 0.8.
+    // Lost of the 200 m/s at the start; a sand of no weight takes 0.8.
     CHECK(200 + point["values"]["velocity"].get<double>() == Approx(lost).epsilon(0.5));
   }
 }

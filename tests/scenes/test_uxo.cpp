@@ -19,7 +19,8 @@ namespace tamp::tools::test_uxo
 namespace
 {
 
-/// What makes a shipped scene of the projectile small: cells twice as large, and fewer particles in the projectile.
+/// Settings that make a shipped scene of the projectile small: cells twice as large, and fewer particles in the
+/// projectile.
 const std::vector<std::string> small{"/grid/cell_size=0.01", "/grid/patches=[1,2,4]",
                                      "/materials/projectile/particles_per_axis=8", "/output/history_interval=1e-7"};
 

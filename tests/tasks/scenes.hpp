@@ -150,7 +150,7 @@ inline double total_mass(const ParticleReport& report)
   return mass;
 }
 
-/// What all work went to [J].
+/// Energy that all work went to [J].
 inline double worked(const EnergyLedger& energies)
 {
   return energies.elastic + energies.plastic + energies.viscous + energies.contact;

@@ -49,7 +49,7 @@ Rebound rebound(int n_cells, int normal_of)
     simulation->advance(3);
     const ParticleReport now = simulation->report();
     REQUIRE(now.momentum().norm() < 1e-12 * momentum);
-    // What one disk does the other does mirrored at the middle of the box.
+    // One disk moves as the mirror image of the other at the middle of the box.
     REQUIRE((now.bodies[0].position + now.bodies[1].position - now.bodies[0].mass * Eigen::Vector3d(1, 1, 0)).norm() <
             1e-10 * now.bodies[0].mass);
     seen.kinetic = now.kinetic / energy;

@@ -10,7 +10,7 @@
 namespace test_energy_filter
 {
 
-/// What particles filter out of the motion of the nodes, and that energy is all there once it is counted.
+/// Energy that particles filter out of the motion of the nodes: with it the balance closes.
 using namespace tamp;
 using namespace tamp::test;
 

@@ -92,7 +92,7 @@ TEST_CASE("a quarter of a disk between mirrors is pressed as the whole is, and n
   Scene scene = empty_scene(2, {8, 8, 1}, 0.1);
   scene.faces[0][0] = scene.faces[1][0] = Face::symmetry;
   scene.local_damping = 0.3;
-  // What of it is in the grid.
+  // The part of it in the grid.
   add_disk(scene, add_elastic(scene, density, E, nu), 0, 0, 0.5, {0, 0, 0}).pressure = everywhere(pressure);
   const auto simulation = Simulation::make(scene, 1);
 

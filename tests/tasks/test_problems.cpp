@@ -283,7 +283,7 @@ TEST_CASE("a constant body force is gravity, to round-off: in motion, work and m
   Scene scene = empty_scene(2, {24, between_walls ? 4 : 24, 1}, 0.1);
   scene.n_patches = {3, between_walls ? 1 : 2, 1};
   scene.interpolator = GENERATE(Interpolator("gimp"), Interpolator("quadratic_spline"));
-  // What gravity gives until the end goes by the last step too, and so by round-off in its bound.
+  // The work of gravity until the end depends on the last step too, and so on round-off in its bound.
   scene.time.maximum_step = 5e-4;
   add_elastic(scene, 1000, 1e5, 0.3);
   add_elastic(scene, 1500, 3e5, 0.2);

@@ -58,7 +58,7 @@ Eigen::Vector3d centre_of(const BodySums& body)
   return body.position / body.mass;
 }
 
-/// The same of particles, all of one mass.
+/// The centre of particles, all of one mass.
 Eigen::Vector3d centre_of(const std::vector<Particle>& particles)
 {
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();

@@ -17,7 +17,7 @@ using namespace tamp::test;
 namespace
 {
 
-/// What is free of everything and drifts through the grid, so that its particles come to lie anywhere between nodes.
+/// A free body that drifts through the grid, so that its particles come to lie anywhere between nodes.
 struct FreeBody {
   std::string name;
   int dimension;

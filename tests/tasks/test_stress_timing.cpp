@@ -43,7 +43,7 @@ std::vector<double> strains_after(Scene scene, StressTiming timing, int n_steps)
 
 TEST_CASE("from rest a force deforms particles by what the nodes tell them, by what they bring back of it, or not yet")
 {
-  // Of a wave particles bring back the part (5 + 3 cos kh) / 8, see docs/method.md.
+  // Particles bring back the part (5 + 3 cos kh) / 8 of a wave, see docs/method.md.
   const double k = GENERATE(1, 3, 6) * pi / 0.8;
   const Scene scene = pulled_block(GENERATE(2, 3), k);
   const double part = (5 + 3 * std::cos(k * 0.1)) / 8;
@@ -65,7 +65,7 @@ TEST_CASE("from rest a force deforms particles by what the nodes tell them, by w
 namespace
 {
 
-/// A disk that flies along a wall to which it sticks and meets one of another material, both under pressure and pulled
+/// A disk that flies along a no-slip wall and meets one of another material, both under pressure and pulled
 /// at; `is_rigid`: the other keeps its shape.
 Scene meeting_disks(bool is_rigid)
 {

@@ -48,7 +48,7 @@ const std::vector<Filter> filters{{"flip", Transfer("flip"), 0, 1},   {"tflip", 
 /// That forget what the nodes cannot tell, as PIC, but bring gradients.
 const std::vector<Filter> with_gradients{{"apic", Transfer("apic"), 0, 1}, {"tpic", Transfer("tpic"), 0, 1}};
 
-/// Of a node for a particle `x` cells away, of two an axis in a full cell.
+/// The weight of a node for a particle `x` cells away, of two an axis in a full cell.
 double weight(Interpolator interpolator, double x)
 {
   x = std::abs(x);
@@ -67,7 +67,7 @@ double wave_at(Interpolator interpolator, double angle, double x)
   return sum;
 }
 
-/// What particles bring of that wave to the node at 0.
+/// The part of that wave that particles bring to the node at 0.
 double lambda(Interpolator interpolator, double angle)
 {
   double sum = 0, weights = 0;

@@ -208,7 +208,7 @@ TEST_CASE("errors are of second order in cell and step, and of first where the f
   CHECK(std::log2(coarse / middle) == Approx(2).margin(0.1));
   CHECK(std::log2(middle / fine) == Approx(2).margin(0.1));
 
-  // What a whole first kick adds.
+  // The error that a whole first kick adds.
   const double coarse_kick = error(16, 0.5) - coarse, fine_kick = error(64, 0.5) - fine;
   CHECK(coarse_kick > 2 * std::abs(coarse));
   CHECK(0.5 * std::log2(coarse_kick / fine_kick) == Approx(1).margin(0.05));

@@ -123,7 +123,7 @@ TEST_CASE("with any transfer a wall with friction takes along it no more than Co
   const BodySums block = simulation->report().bodies[0];
   const double push = block.momentum.y() + block.mass, rub = 5 * block.mass - block.momentum.x();
   CHECK(push > 0.5 * block.mass);
-  // At the edges some of it sticks.
+  // At the edges some of it does not move.
   CHECK(rub < 0.3 * push);
   CHECK(rub > 0.99 * 0.3 * push);
 }

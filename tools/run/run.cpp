@@ -238,7 +238,7 @@ class Runner
     return {options_.folder, forecast_.in_background, options_.checkpoints.keep, [this] { folder_->expect_own(); }};
   }
 
-  /// To be told now and in the summary; nothing if empty.
+  /// Prints a warning and keeps it for the summary; nothing if empty.
   void warn(const std::string& warning)
   {
     if (warning.empty()) return;

@@ -18,7 +18,7 @@ class RunFolder
   enum class Use {
     /// Nothing may be in it, or it is not there.
     begin,
-    /// The same, or an earlier run, which is removed.
+    /// Nothing, or an earlier run, which is removed.
     replace,
     /// Existing files stay.
     go_on,

@@ -24,7 +24,7 @@ struct OutputTime {
   double waited = 0;
 };
 
-/// Writes the fields and checkpoints of a run, in the order in which it is told to.
+/// Writes the fields and checkpoints of a run, in the order of the calls.
 ///
 /// In the background they are copied, and the copies brought to the first rank, where a thread of its own writes them
 /// while the run goes on. There is at most one copy of the fields and one of the state: a run that wants to make the

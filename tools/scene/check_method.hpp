@@ -10,11 +10,11 @@ namespace tamp::tools
 /// on, which have been read.
 void check_method(const JsonReader& reader, const tasks::Scene& scene);
 
-/// The same of when stress follows the motion, once the materials have been read.
+/// Checks when stress follows the motion, once the materials have been read.
 void check_stress_timing(const JsonReader& reader, const tasks::Scene& scene);
 
-/// The same of a transfer that moves nodes by other velocities than contact and walls have left them, once the contacts
-/// have been read.
+/// Checks a transfer that moves nodes by other velocities than contact and walls have left them, once the contacts have
+/// been read.
 void check_contact_of_transfer(const JsonReader& reader, const tasks::Scene& scene);
 
 }  // namespace tamp::tools

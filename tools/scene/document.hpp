@@ -39,14 +39,14 @@ class Document
   /// FILE#/pointer of the value, in the file that it came from.
   std::string place(const JsonPointer& pointer) const;
 
-  /// What a relative path that stands at `pointer` is relative to.
+  /// The folder that a relative path at `pointer` starts from.
   std::filesystem::path folder(const JsonPointer& pointer) const;
 
   void add_problem(const JsonPointer& pointer, std::string found, std::string expected);
 
   /// Notes that `file`, named at `pointer` (none for the scene itself and what is merged into it), is read for it.
   void add_input(const std::filesystem::path& file, const std::string& pointer = "");
-  /// The same for a file that is named, and not read.
+  /// Notes a file that is named, and not read.
   void add_unread(const std::filesystem::path& file, const std::string& pointer);
 
   const std::filesystem::path& file() const { return file_; }
@@ -93,7 +93,7 @@ class Document
 /// The files that were read, each with its key (none for the scene itself and what is merged into it) and its hash.
 Json to_json(const std::vector<InputFile>& inputs);
 
-/// What `read` gives, or nothing if it throws InputError, whose problems are then the document's.
+/// The result of `read`; none if it throws InputError, whose problems are then the document's.
 template <class Read>
 auto noting_problems(Document& document, Read read) -> std::optional<decltype(read())>
 {

@@ -7,8 +7,8 @@ namespace tamp::tools
 
 enum class FileKind { json, hdf5, text };
 
-/// What a file holds: told by its ending (.json, .h5, .hdf5, .keras) or else by how it begins; otherwise text.
-/// Throws FileError if it cannot be read.
+/// The kind of a file, by its ending (.json, .h5, .hdf5, .keras) or else by how it begins; otherwise text. Throws
+/// FileError if it cannot be read.
 FileKind file_kind(const std::filesystem::path& file);
 
 }  // namespace tamp::tools

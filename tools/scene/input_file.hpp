@@ -18,10 +18,10 @@ void expect_input_file(const std::filesystem::path& file);
 /// The content of such a file.
 std::string read_input_file(const std::filesystem::path& file);
 
-/// The same of a text, without the mark of its bytes' order that some programs put before UTF-8.
+/// Reads a text, without the mark of its bytes' order that some programs put before UTF-8.
 std::string read_input_text(const std::filesystem::path& file);
 
-/// What stands behind that mark, if it is there.
+/// The text behind that mark, if it is there.
 std::string_view without_byte_order_mark(std::string_view text);
 
 /// Whether this is a file that the program has read by the functions above, under whatever name.

@@ -11,7 +11,7 @@
 namespace tamp::tools
 {
 
-/// What problems with a key that is not declared say they found.
+/// `found` of a problem with a key that is not declared.
 inline constexpr char unknown_key[] = "unknown key";
 
 /// Reads an object of a document by its keys (keys.hpp), which say what each may hold. Each function that reads a key
@@ -45,7 +45,7 @@ class JsonReader
   bool is_object(const std::string& key) const;
   /// One of the words of a choice, or empty if it is none.
   std::string word(const std::string& key);
-  /// What the word stands for; what the first one does if it is none.
+  /// The value of the word at a key; that of the first one if it is none.
   template <class Enum>
   Enum choice(const std::string& key)
   {
@@ -62,7 +62,7 @@ class JsonReader
   /// Makes the path of a file that is not needed absolute in the document.
   void pass_over_file(const std::string& key);
 
-  /// The object at a key. Without it a reader that finds nothing and complains of nothing.
+  /// The object at a key. Without it a reader that finds nothing and reports nothing.
   JsonReader object(const std::string& key);
   std::optional<JsonReader> optional_object(const std::string& key);
   /// The keys of an object that is there; nothing is noted.

@@ -12,8 +12,8 @@
 #include "components/range.hpp"
 #include "tools/scene/document.hpp"
 
-/// What the keys of scenes are called, may hold and mean: said here once, for the readers, the JSON schema and the
-/// tables of docs/scene.md.
+/// Names, values and meanings of the keys of scenes: said here once, for the readers, the JSON schema and the tables of
+/// docs/scene.md.
 namespace tamp::tools
 {
 
@@ -54,7 +54,7 @@ struct Names {
 /// A list of any of the names that a reader knows, each once.
 struct SomeNames {
 };
-/// What is not read.
+/// A value that is not read.
 struct Anything {
 };
 struct Number {
@@ -79,7 +79,7 @@ struct Rows {
 };
 struct Choice {
   std::vector<std::string> words;
-  /// What each word stands for in code: values of an enumeration; none where the word itself is used.
+  /// The value of each word in code: those of an enumeration; none where the word itself is used.
   std::vector<int> values{};
   /// The keys of an object that may stand there instead of a word.
   KeysOf instead = nullptr;
@@ -102,7 +102,7 @@ struct Objects {
 using Value = std::variant<Text, Flag, File, Name, Names, SomeNames, Anything, Number, Numbers, WholeNumber,
                            WholeNumbers, Rows, Choice, Object, Members, Objects>;
 
-/// What holds where a key is left out.
+/// The value of a key that is left out.
 struct Default {
   /// Null where there is none, or none that is known without the rest of the scene; for lists each entry.
   Json value = nullptr;
@@ -122,7 +122,7 @@ struct Key {
   std::string meaning;
   /// The dimension of the scenes that have the key; 0: all.
   int only_in = 0;
-  /// What it was in earlier versions, where that is still read.
+  /// The name of earlier versions, where that is still read.
   std::string old_name{};
 };
 
@@ -146,7 +146,7 @@ struct ObjectKeys {
   bool may_be_a_file = false;
 };
 
-/// What the words of a list mean, one after another.
+/// The meanings of the words of a list, one after another.
 template <class T>
 std::string meanings_of(const std::vector<components::Word<T>>& words)
 {

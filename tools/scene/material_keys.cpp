@@ -14,7 +14,7 @@ namespace
 
 constexpr Range within_one{.lower = 0, .upper = 1, .holds_lower = false, .holds_upper = false};
 
-/// What the models that a scene can name are, one after another: `text(std::type_identity<Model>())` of each.
+/// A text on each model that a scene can name, one after another: `text(std::type_identity<Model>())` of each.
 template <class Text>
 std::string of_each_modulus(Text text)
 {

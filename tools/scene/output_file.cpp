@@ -12,7 +12,7 @@ namespace
 
 namespace fs = std::filesystem;
 
-/// The same for all names of a file that may not be there yet.
+/// One path for all names of a file that may not be there yet.
 fs::path place_of(const OutputFile& output)
 {
   return fs::weakly_canonical(fs::absolute(output.file));

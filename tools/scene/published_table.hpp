@@ -37,7 +37,7 @@ struct PublishedTable {
   std::size_t level(const std::string& name) const;
   /// Is each level but `name`'s of one entry, so that it can be left out of account?
   bool depends_on_no_level_but(const std::string& name) const;
-  /// What stands in the file is something else than what was asked for.
+  /// The problem of a file that holds something else than was asked for.
   Problem unsuitable(const std::string& expected) const;
 };
 

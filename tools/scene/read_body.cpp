@@ -178,7 +178,7 @@ std::optional<tasks::BodyDrive> read_drive(JsonReader& body, bool rigid)
   return tasks::BodyDrive{std::move(*motion), turns};
 }
 
-/// What has one place, as a rigid body's centre, has many between periodic boundaries.
+/// Refuses a rigid body or an axis between periodic boundaries, where its one place would be many.
 void check_may_go_around(const tasks::Scene& scene, bool rigid, bool has_axis, const JsonReader& reader)
 {
   if (!scene.is_periodic()) return;

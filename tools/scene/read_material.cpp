@@ -98,7 +98,7 @@ std::optional<CrushCurve> read_crush_curve(JsonReader& reader, components::Elast
   }
 }
 
-/// What is said of the tests themselves is for material_warnings (plausibility.hpp) alone.
+/// Checks the keys of the tests; their values are for material_warnings (plausibility.hpp) alone.
 void check_tests(JsonReader& reader)
 {
   reader.optional_number("tested_density");

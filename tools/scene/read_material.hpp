@@ -26,7 +26,7 @@ struct CheckedMaterial {
 /// is the file's without its ending. Throws FileError if the file cannot be read, and InputError with every problem.
 CheckedMaterial read_checked_material(const std::filesystem::path& file,
                                       const std::vector<std::string>& assignments = {});
-/// The same without the JSON.
+/// Reads a material's file, without the JSON.
 tasks::SceneMaterial read_material_file(const std::filesystem::path& file,
                                         const std::vector<std::string>& assignments = {});
 

@@ -32,7 +32,7 @@ UnloadingTable unloading_table(const std::filesystem::path& file, StrainMeasure 
   return made_from(curves, [](Table& t) { return UnloadingTable(t.columns[0], t.columns[1], t.columns[2]); });
 }
 
-/// What `make` makes; its BadValue becomes an InputError, said with `place`.
+/// The result of `make`; its BadValue becomes an InputError at `place`.
 template <class Make>
 auto made_at(const std::string& place, Make make)
 {

@@ -10,7 +10,7 @@
 namespace tamp::tools
 {
 
-/// What a Keras HDF5 file holds: a Sequential model, or a Functional one that is a chain, of Dense layers (linear,
+/// The content of a Keras HDF5 file: a Sequential model, or a Functional one that is a chain, of Dense layers (linear,
 /// relu, sigmoid, tanh, also as Activation layers of their own) from elastic and plastic volumetric strain to the bulk
 /// modulus, and, where its maker added them as attributes of the root, what the three were standardised with and the
 /// strains it was fitted over.

@@ -12,7 +12,7 @@ namespace
 
 using components::SupportVectorFit;
 
-/// What stands alone in lists: [[5]] is 5.
+/// A value out of lists in which it stands alone: [[5]] is 5.
 const Json& unwrapped(const Json& value)
 {
   return value.is_array() && value.size() == 1 ? unwrapped(value.front()) : value;

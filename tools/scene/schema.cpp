@@ -56,7 +56,7 @@ Json or_null(Json schema)
   return schema;
 }
 
-/// What a key means, for an editor to show.
+/// The meaning of a key, for an editor to show.
 std::string description(const Key& key)
 {
   static const std::regex link(R"(\[[^\]]*\]\(([^)]*)\))");

@@ -9,7 +9,7 @@ namespace tamp::tools
 {
 
 /// The JSON schema (draft 7, which editors know) of scenes; materials and solids, which may be files of their own, are
-/// its definitions "material" and "solid". It tells what can be told of a key without the rest of the scene. An object
+/// its definitions "material" and "solid". It holds what is known of a key without the rest of the scene. An object
 /// that names another under "file" is a part of one: no key of it is compulsory, and null removes a key.
 Json scene_schema();
 

@@ -20,7 +20,7 @@ struct Table {
 
   std::size_t n_rows() const { return place_of_row.size(); }
 
-  /// What is wrong with a row, said with its place; with the file's name where there is no such row.
+  /// A problem of a row, with its place; with the file's name where there is no such row.
   Problem problem(std::ptrdiff_t row, const std::string& found, const std::string& expected) const;
 };
 
@@ -28,7 +28,7 @@ struct Table {
 /// csv_table.hpp and published_table.hpp. Throws InputError and FileError as they do.
 Table read_table(const std::filesystem::path& file, const std::vector<std::string>& columns);
 
-/// What `make` makes of a table; its BadValue becomes an InputError, said with the row's place.
+/// The result of `make` for a table; its BadValue becomes an InputError at the row's place.
 template <class Make>
 auto made_from(Table& table, Make make)
 {

@@ -158,7 +158,7 @@ void end_before_next(std::vector<Point>& points, double apart, const std::vector
 
 void append(Table& table, const Lists& curve, double plastic, std::vector<Point> points)
 {
-  // The straight line between two points, told by three.
+  // The straight line between two points, by three numbers.
   if (points.size() == 2) points.insert(points.begin() + 1, {points[1].elastic / 2, points[1].pressure / 2});
   for (const Point& p : points) {
     table.columns[0].push_back(plastic);

@@ -9,13 +9,13 @@
 namespace tamp::tools
 {
 
-/// What the strength of a yield table is: q = sqrt(3 J2), which a triaxial test measures, or sqrt(J2).
+/// How a yield table gives strength: q = sqrt(3 J2), which a triaxial test measures, or sqrt(J2).
 enum class YieldMeasure { q, sqrt_J2 };
 
 /// Pressures and sqrt(J2) [Pa] of a yield table, compression positive, whichever measure the file has. The heading of a
 /// table of our own says which, and `stated` may only repeat it; a published one calls its column SqrtJ2 whatever it
-/// holds, and has to be told. Throws InputError for a heading of neither or of both and, with `place_of_measure`, for a
-/// measure that is missing or contradicts the heading.
+/// holds, and has to be given. Throws InputError for a heading of neither or of both and, with `place_of_measure`, for
+/// a measure that is missing or contradicts the heading.
 Table read_yield_table(const std::filesystem::path& file, std::optional<YieldMeasure> stated,
                        const std::string& place_of_measure);
 

@@ -12,7 +12,7 @@ namespace tamp::tools::study
 /// Whether what was expected of one method holds.
 struct ExpectationResult {
   std::string quantity, method;
-  /// The method, and what tells its points from others of it that were refined on their own.
+  /// The method, and what distinguishes its points from others of it that were refined on their own.
   std::string label;
   Expectation::Kind kind = Expectation::Kind::error_at_most;
   double limit = 0;

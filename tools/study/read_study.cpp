@@ -361,7 +361,7 @@ class StudyReader
     }
   }
 
-  /// Counted before they are made, and told where most of them come from.
+  /// Counted before they are made, and reported where most of them come from.
   void expect_few_points()
   {
     const auto all = n_points_by_key();

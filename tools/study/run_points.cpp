@@ -98,7 +98,7 @@ class PointRunner
  private:
   fs::path folder_of(const std::string& key) const { return cache_ / key; }
 
-  /// A result that has all that the study asks for. One that is damaged is none, and told of.
+  /// A result that has all that the study asks for. One that is damaged is none, and is reported.
   std::optional<PointResult> kept(const Task& task) const
   {
     try {

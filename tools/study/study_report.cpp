@@ -76,7 +76,7 @@ Json methods_json(const StudyResults& results)
   for (const Method& method : results.study.methods) {
     all.push_back({{"name", method.name}, {"family", method.family}, {"dashed", method.dashed}, {"line", true}});
   }
-  // Their points tell of no method that one would choose.
+  // Their points are of no method that one would choose.
   if (results.study.reference) {
     const bool is_one = !results.study.reference->of_each_method;
     all.push_back({{"name", reference_name}, {"family", reference_name}, {"dashed", true}, {"line", is_one}});

@@ -19,7 +19,7 @@ void guard_console();
 void write_out(std::string_view text);
 void flush_out();
 
-/// Writes on stderr at once. What cannot be written there cannot be told anywhere.
+/// Writes on stderr at once. What cannot be written there is lost.
 void write_err(std::string_view text);
 
 /// A text that leaves a terminal as it is: control characters but the ends of lines are written out, such as \x1b.

@@ -18,7 +18,7 @@
 namespace tamp::runtime
 {
 
-/// What a checkpoint is of.
+/// Identifies a checkpoint.
 struct CheckpointHeader {
   std::int64_t step = 0;
   /// [s]

@@ -20,7 +20,7 @@ namespace tamp::runtime
 /// Version of what stands where in a checkpoint.
 inline constexpr std::int64_t checkpoint_format = 8;
 
-/// What this rank gives of a table.
+/// This rank's rows of a table.
 struct OwnRows {
   RowShare share;
   std::vector<std::byte> bytes;
@@ -37,8 +37,8 @@ struct OwnRows {
 ///     /by_patch/TABLE          for each patch its number of values and the checksum of their bytes
 ///     /host
 ///
-/// The same values stand in the same rows whatever rank has which patch. `rows_of` gives those of a table, by its
-/// place, and is asked once for each, in their order. Collective; throws FileError on all ranks.
+/// Each value stands in the same row whatever rank has its patch. `rows_of` gives those of a table, by its place, and
+/// is asked once for each, in their order. Collective; throws FileError on all ranks.
 void write_checkpoint_file(const std::filesystem::path& file, const CheckpointContents& contents,
                            const std::function<OwnRows(std::size_t table)>& rows_of, const Communicator& communicator);
 

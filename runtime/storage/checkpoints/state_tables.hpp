@@ -47,7 +47,7 @@ struct StateTable {
 /// All state that a step leaves to the next, the same tables on all ranks.
 std::vector<StateTable> state_tables(Warehouse& warehouse, std::span<const std::string> group_names);
 
-/// What a file says of one patch in a table: how many values it has, and the checksum of their bytes.
+/// A file's entry for one patch of a table: how many values it has, and the checksum of their bytes.
 struct PatchEntry {
   std::uint64_t n_values = 0;
   std::uint64_t sum = 0;
@@ -60,7 +60,7 @@ struct CheckpointTable {
   std::vector<PatchEntry> entries;
 };
 
-/// What a file says of each patch whose values this rank writes, from its memory; nothing of others.
+/// The entries of patches whose values this rank writes, from its memory; none of others.
 std::vector<PatchEntry> own_entries(const StateTable& table, const Communicator& communicator);
 
 /// The tables of all ranks, from what each says of its own patches, table by table. Collective.

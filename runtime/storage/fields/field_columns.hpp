@@ -14,8 +14,8 @@
 namespace tamp::runtime
 {
 
-/// What one item of a column is. A vector has 2 or 3 components; a symmetric tensor has (xx, yy, zz, xy) or
-/// (xx, yy, zz, xy, yz, xz).
+/// The kind of a column's items. A vector has 2 or 3 components; a symmetric tensor has (xx, yy, zz, xy) or (xx, yy,
+/// zz, xy, yz, xz).
 enum class ColumnKind { scalar, vector, tensor };
 
 /// Named values of consecutive items, component by component; whole numbers (ids) are scalars.

@@ -28,7 +28,7 @@ struct FieldCopy {
 
   std::vector<ParticleBlock> particles;
   std::optional<NodeBlock> nodes;
-  /// What the columns show, in their order: those of the particles, block by block, then those of the nodes.
+  /// Values of the columns, in their order: those of the particles, block by block, then those of the nodes.
   std::deque<Values> values;
   /// How many particles of each block each patch has, whatever rank it is on.
   std::vector<std::vector<std::uint64_t>> n_particles;

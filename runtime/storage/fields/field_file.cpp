@@ -86,7 +86,7 @@ void FieldFile::begin_or_continue(std::int64_t last_step, std::size_t n_expected
                           missing ? "missing" : "empty", n_expected, last_step);
     return begin();
   }
-  // What may not be read or written is not damaged.
+  // A file without permission to read or write is not damaged.
   if (faccessat(AT_FDCWD, hdf5_file_.c_str(), R_OK | W_OK, AT_EACCESS) != 0) {
     throw FileError(hdf5_file_.string(), std::strerror(errno));
   }

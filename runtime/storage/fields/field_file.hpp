@@ -47,7 +47,7 @@ class FieldFile
   /// Output times in the file. On the first rank.
   std::size_t n_steps() const { return steps_.size(); }
 
-  /// What the user should know of the file that was to be continued; nothing if all was well. On the first rank.
+  /// A notice for the user on the file that was to be continued; empty if all was well. On the first rank.
   const std::string& notice() const { return notice_; }
 
  private:
@@ -60,7 +60,7 @@ class FieldFile
   std::filesystem::path hdf5_file_;
   std::filesystem::path xdmf_file_;
   Communicator communicator_;
-  /// What is in the file; on the first rank.
+  /// The steps in the file; on the first rank.
   std::vector<XdmfStep> steps_;
   std::string notice_;
 };

@@ -39,7 +39,7 @@ struct XdmfVertices {
   std::size_t n;
 };
 
-/// What there is to see at one time.
+/// The fields at one time.
 struct XdmfStep {
   double time;
   std::vector<XdmfParticles> particles;

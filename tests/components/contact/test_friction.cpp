@@ -17,7 +17,7 @@ using namespace tamp::components;
 namespace
 {
 
-/// What several materials have at one node.
+/// Masses and velocities of several materials at one node.
 template <int D>
 struct Node {
   std::vector<double> mass;

@@ -76,7 +76,7 @@ std::vector<Triangle> joined(std::vector<Triangle> a, const std::vector<Triangle
   return a;
 }
 
-/// What is found wrong with a mesh.
+/// The fault found in a mesh.
 std::string fault(const std::string& text)
 {
   try {

@@ -169,7 +169,7 @@ TEST_CASE("round solids that are none are refused")
   CHECK_THROWS_AS(Revolved(o, z, {{0, 0}, {1, 1}}, 1.6), BadValue);
 }
 
-TEST_CASE("a profile that goes backward is told with its row")
+TEST_CASE("a profile that goes backward is reported with its row")
 {
   try {
     const Revolved body({0, 0, 0}, {0, 0, 1}, {{0, 1}, {2, 1}, {1, 1}});

@@ -42,7 +42,7 @@ struct Particles {
   void turn_inside_out(std::size_t p) { g[p] = -1.5 * Vector<D>::Unit(0) * Vector<D>::Unit(0).transpose(); }
 };
 
-/// What comes of `n` particles from `first` on.
+/// `n` particles from `first` on, deformed.
 template <int D>
 struct Deformed {
   std::vector<Matrix<D>> gradient;

@@ -99,7 +99,7 @@ TEST_CASE("bodies approach by no more than a tenth of a cell in the contact time
   CHECK(std::isinf(contact_time_step(0.01, 0)));
 }
 
-TEMPLATE_TEST_CASE_SIG("in lanes each particle gets the viscous pressure and the bounds that it gets alone", "",
+TEMPLATE_TEST_CASE_SIG("in lanes each particle has the viscous pressure and the bounds of scalar code", "",
                        ((int D), D), 2, 3)
 {
   constexpr double h = 0.01;

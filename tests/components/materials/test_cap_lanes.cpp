@@ -24,7 +24,7 @@ struct Strained {
   SymmetricTensor<3> increment;
 };
 
-/// What a step leads to, bit for bit.
+/// The results of a step, compared bit for bit.
 using Numbers = std::array<double, 11>;
 
 /// Particles on random paths, each at another place of its own, with steps from 1e-6 to 5 %.

@@ -144,7 +144,7 @@ const DruckerPrager soil{
 
 }  // namespace
 
-TEST_CASE("particles of a batch get the bits that each gets alone, in any order and beside any other")
+TEST_CASE("particles of a batch have the bits of scalar code, in any order and beside any other")
 {
   DruckerPrager cut_off = soil, cohesive = soil;
   cut_off.tension_cutoff = 5e3;

@@ -274,7 +274,7 @@ TEST_CASE("sand that may not separate bears the tension of its vertex at any den
   CHECK_FALSE(particle.is_apart());
 }
 
-TEST_CASE("sand that is apart and sand that is whole get the bits side by side that each gets alone")
+TEST_CASE("sand that is apart and sand that is whole have the same bits side by side as alone")
 {
   const TabularCap sand = parting_sand(GENERATE(ElasticUpdate::rate, ElasticUpdate::state));
 

@@ -3,7 +3,7 @@
 #include "components/problems/body_functions.hpp"
 #include "tests/components/materials/one_particle.hpp"
 
-/// What a body's exact motion needs, by differences alone.
+/// The forces that a body's exact motion needs, by differences alone.
 namespace tamp::test
 {
 
@@ -39,7 +39,7 @@ Matrix<D> nominal_stress(const Solid& solid, const components::BodyFunctions& fu
   return f.determinant() * plane_part<D>(particle.stress) * f.inverse().transpose();
 }
 
-/// What force per mass the exact motion needs [m/s^2]: its acceleration less div P / density.
+/// The force per mass that the exact motion needs [m/s^2]: its acceleration less div P / density.
 template <int D, class Solid>
 Vector<D> force_needed(const Solid& solid, double density, const components::BodyFunctions& functions,
                        const Vector<3>& X, double t, double time_step)

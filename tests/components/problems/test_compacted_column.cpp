@@ -32,7 +32,7 @@ double stress_at(const Model& model, double stretch)
   return particle.stress[0];
 }
 
-/// What force per mass the column's motion along x needs, its stress being a function of the stretch [m/s^2].
+/// The force per mass that the column's motion along x needs, its stress being a function of the stretch [m/s^2].
 template <class Stress>
 double force_along(const BodyFunctions& column, const Stress& stress, double x, double t, double step)
 {

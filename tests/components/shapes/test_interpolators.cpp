@@ -39,8 +39,8 @@ struct NodeShape {
   Vector<D> gradient = Vector<D>::Zero();
 };
 
-/// What a particle gives to each node, seen through the kernels: its mass is 1, and a stress of -1 Pa along one axis on
-/// a volume of 1 makes the force along it that component of the gradient.
+/// A particle's weight and gradient at each node, seen through the kernels: its mass is 1, and a stress of -1 Pa along
+/// one axis on a volume of 1 makes the force along it that component of the gradient.
 template <int D>
 std::vector<NodeShape<D>> shape_of(Interpolator interpolator, int n_per_axis, const GridBlock<D>& block,
                                    const Vector<D>& x, const Matrix<D>& f)

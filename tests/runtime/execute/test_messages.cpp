@@ -135,7 +135,7 @@ TEST_CASE("the failure of another rank stops the run and comes out as it is", "[
   CHECK(work.failures.empty());
 }
 
-TEST_CASE("other ranks are told once of a task that fails", "[executor][messages]")
+TEST_CASE("other ranks learn once of a task that fails", "[executor][messages]")
 {
   const auto executor = any_executor();
   test::ToyWork work;

@@ -64,7 +64,7 @@ TEST_CASE("a message that does not come is named, with the task that waits for i
 
   CHECK_THAT(listener.text, Contains("rank 1: nothing has completed for 0."));
   CHECK_THAT(listener.text, Contains("1 of 3 instances are done, 0 ready\n"));
-  // What waits for another rank comes before what waits for this.
+  // Tasks that wait for another rank come before those that wait for this one.
   CHECK_THAT(listener.text, Contains("rank 1: blocked: task 2 waits for message 0\n"
                                      "rank 1: blocked: task 3 waits for task 2\n"));
   CHECK(listener.n_reports == 1);

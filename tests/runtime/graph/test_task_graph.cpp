@@ -184,7 +184,7 @@ TEST_CASE("tasks that wait for each other are a cycle, told link by link", "[gra
   CHECK(found[0].explanation.find("which waits for 'chicken' (node velocity)") != std::string::npos);
 }
 
-TEST_CASE("a reader with a wider halo than the sum supplies is told so", "[graph]")
+TEST_CASE("a reader with a wider halo than the sum supplies is refused", "[graph]")
 {
   const auto found = problems({gather(1), move(2)});
 

@@ -25,7 +25,7 @@ const CellLabel<double, "edges"> edges;
 const CellLabel<double, "smoother"> smoother;
 
 const ReductionLabel<double, "total"> total;
-/// What every rank works out for itself: a trace of all totals so far, and the same as the step begins.
+/// Globals that every rank computes: a trace of all totals so far, and the same as the step begins.
 const GlobalLabel<double, "trace"> trace;
 const GlobalLabel<double, "old trace"> old_trace;
 

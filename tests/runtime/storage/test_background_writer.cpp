@@ -13,7 +13,7 @@ using tamp::runtime::BackgroundWriter;
 namespace
 {
 
-/// A job that goes on until it is told to end.
+/// A job that goes on until it is asked to end.
 class LongJob
 {
  public:

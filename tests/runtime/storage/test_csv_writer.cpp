@@ -123,7 +123,7 @@ TEST_CASE("a table that nobody has counted goes on with what can be read of it, 
   CHECK_FALSE(fs::exists(folder.path() / "machine.csv.damaged"));
 }
 
-TEST_CASE("of a damaged table the rows that can be read are kept, the file is set aside, and both are told of")
+TEST_CASE("of a damaged table the rows that can be read are kept, the file is set aside, and both are reported")
 {
   struct Damage {
     std::string text;

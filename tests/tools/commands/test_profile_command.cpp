@@ -7,7 +7,7 @@ namespace test_profile_command
 
 using namespace tamp::test;
 
-TEST_CASE("a profile that is damaged is told with the key that it lacks")
+TEST_CASE("a profile that is damaged is reported with the key that it lacks")
 {
   const TemporaryFolder folder;
   const std::string file = folder.write("profile.json", "{}").string();

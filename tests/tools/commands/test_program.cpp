@@ -80,7 +80,7 @@ TEST_CASE("a command that no ranks share is the first rank's alone", "[mpiexec]"
   CHECK(tamp_on_ranks(2, "--version").exit_code == 0);
 }
 
-TEST_CASE("ranks with different arguments are told, and do not wait for each other", "[mpiexec]")
+TEST_CASE("ranks with different arguments are reported, and do not wait for each other", "[mpiexec]")
 {
   const TemporaryFolder folder;
   const auto file = folder.write("small.json", small_scene);

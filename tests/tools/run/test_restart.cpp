@@ -486,7 +486,7 @@ TEST_CASE("of runs that start at once in one folder, one has it, and the others 
   CHECK_FALSE(fs::exists(run / "run.lock"));
 }
 
-TEST_CASE("a run is not replaced or gone on with while it runs; killed, it is, and that is told")
+TEST_CASE("a run is not replaced or gone on with while it runs; killed, it is, and that is reported")
 {
   const TemporaryFolder folder;
   const auto run = folder.path() / "run";

@@ -226,7 +226,7 @@ TEST_CASE("what is judged of each step is the balance that the history shows")
   CHECK(history.energies().total - at_start == Approx(simulation->energies().sum()).margin(1e-10 * at_start));
 }
 
-TEST_CASE("an energy error is told beyond its limit, and never where the limit is off")
+TEST_CASE("an energy error is reported beyond its limit, and never where the limit is off")
 {
   const auto checked = tools::read_scene(TAMP_SOURCE_DIR "/inputs/punch/quick.json");
   const auto simulation = tasks::Simulation::make(checked.scene, 1);

@@ -11,7 +11,7 @@ using namespace tamp;
 using namespace tamp::test;
 
 TEST_CASE(
-    "only the materials whose modulus is compiled are told, with type, "
+    "only the materials whose modulus is compiled are reported, with type, "
     "tolerance and errors")
 {
   const TemporaryFolder folder;

@@ -162,7 +162,7 @@ TEST_CASE("the files of the types that are not chosen need not be there")
         "--set#/modulus/svr: there is no file no.json; expected the path of a file");
 }
 
-TEST_CASE("the keys of a modulus that are wrong are told")
+TEST_CASE("the keys of a modulus that are wrong are reported")
 {
   CHECK(problems_of_sand({"/modulus/type=tabl"}) ==
         "--set#/modulus/type: \"tabl\"; expected one of table, svr, mlp, did you mean \"table\"?");
@@ -257,7 +257,7 @@ TEST_CASE("a material's file may name another, over which its own keys are merge
         "more/svr.json#/poisson_ratio: 2; expected a number above -1 and below 0.5");
 }
 
-TEST_CASE("files of materials that name each other in a ring are told")
+TEST_CASE("files of materials that name each other in a ring are reported")
 {
   const TemporaryFolder folder;
   folder.write("a.json", R"({"file": "b.json"})");

@@ -201,7 +201,7 @@ TEST_CASE("a network file that does not exist is an error of the input")
   CHECK_THROWS_AS(read_network_file("/no/such/network.h5"), tools::InputError);
 }
 
-TEST_CASE("a file that is no HDF5, is cut short, or holds no Keras model is told")
+TEST_CASE("a file that is no HDF5, is cut short, or holds no Keras model is reported")
 {
   const TemporaryFolder folder;
   const auto text = folder.write("text.h5", "plastic_volumetric[-]\n");
@@ -238,7 +238,7 @@ TEST_CASE("a file whose texts of variable length would be looked through for eve
   CHECK(problems_with(size, std::string(2, '\xff')) == damaged_texts);
 }
 
-TEST_CASE("a configuration that is none is told with its place")
+TEST_CASE("a configuration that is none is reported with its place")
 {
   CHECK(problems_of_network(small_network, "{") ==
         "n.h5#/model_config: no JSON object; expected the model's description");
@@ -257,7 +257,7 @@ TEST_CASE("a configuration that is none is told with its place")
         "n.h5#/model_weights/layer_names: first, second, third, last; expected the layer other too");
 }
 
-TEST_CASE("weights whose shapes do not chain are told with the layer")
+TEST_CASE("weights whose shapes do not chain are reported with the layer")
 {
   KerasFile content = small_network;
   content.layers[0] = {"first", "relu", 3, 2, {1, 2, 3, 4, 5, 6}, {0, 0}};
@@ -281,7 +281,7 @@ TEST_CASE("weights whose shapes do not chain are told with the layer")
   CHECK(problems_of_network(content) == "n.h5#/model_weights/second: a bias of shape 3; expected 2");
 }
 
-TEST_CASE("weights that are missing or not finite are told with their place")
+TEST_CASE("weights that are missing or not finite are reported with their place")
 {
   KerasFile content = small_network;
   content.layers[1].kernel[3] = std::nan("");
@@ -294,7 +294,7 @@ TEST_CASE("weights that are missing or not finite are told with their place")
         "n.h5#/model_weights/second/weight_names: second/kernel:0; expected a bias too");
 }
 
-TEST_CASE("scaling and range that cannot be such are told")
+TEST_CASE("scaling and range that cannot be such are reported")
 {
   KerasFile content = small_network;
   content.scaling[1] = -1;

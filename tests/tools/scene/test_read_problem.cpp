@@ -66,7 +66,7 @@ TEST_CASE("a body whose problem lays out its particles has those")
   CHECK(scene.bodies.at(0).n_particles == 8);
 }
 
-TEST_CASE("a body whose problem may lay out its particles has those of the lattice where it is told not to")
+TEST_CASE("a body whose problem may lay out its particles has those of the lattice where it is asked not to")
 {
   const TemporaryFolder folder;
   const std::string path = folder.write("small.json", small_scene);
@@ -84,7 +84,7 @@ TEST_CASE("a body whose problem may lay out its particles has those of the latti
         at_problem + "/on_rings: 1; expected true or false");
 }
 
-TEST_CASE("a problem that is not known, or lacks something, is told")
+TEST_CASE("a problem that is not known, or lacks something, is reported")
 {
   CHECK(problems_of_problem(R"({"type":"axis_alined"})") ==
         at_problem + R"(/type: "axis_alined"; expected one of axis_aligned, cavity, compacted_column, ring, )"
@@ -100,7 +100,7 @@ TEST_CASE("a problem that is not known, or lacks something, is told")
   CHECK(problems_of_problem("3") == at_problem + ": 3; expected an object");
 }
 
-TEST_CASE("a problem whose parameters do not go together is told")
+TEST_CASE("a problem whose parameters do not go together is reported")
 {
   CHECK(problems_of_problem(R"({"type":"axis_aligned","amplitude":0.05,"length":1,"n_axes":3})") ==
         at_problem + "/n_axes: 3; expected at most the scene's dimension, 2");
@@ -108,7 +108,7 @@ TEST_CASE("a problem whose parameters do not go together is told")
         at_problem + "/amplitude: 0.4; expected less than length / pi, as more turns the body inside out");
 }
 
-TEST_CASE("a problem that does not go with its body or its scene is told")
+TEST_CASE("a problem that does not go with its body or its scene is reported")
 {
   const std::string steel =
       R"(/materials/steel={"type":"hypoelastic","density":8000,"bulk_modulus":10e9,"shear_modulus":7e9})";
@@ -133,7 +133,7 @@ TEST_CASE("a problem that does not go with its body or its scene is told")
         at_problem + ": a scene of dimension 3; expected one of dimension 2, in which it is a disk");
 }
 
-TEST_CASE("a ring whose rims would not be free is told")
+TEST_CASE("a ring whose rims would not be free is reported")
 {
   CHECK(problems_of_problem(ring_of + "true}", {log_solid, ring_of_disk, "/materials/steel/bulk_modulus=500"}) ==
         at_problem +
@@ -143,14 +143,14 @@ TEST_CASE("a ring whose rims would not be free is told")
         "--set#/materials/steel/bulk_modulus: 300; expected at least 2/3 of the shear modulus, 400");
 }
 
-TEST_CASE("particles of a lattice where a problem does not hold are told")
+TEST_CASE("particles of a lattice where a problem does not hold are reported")
 {
   CHECK(problems_of_problem(ring_of + "false}", {log_solid}) ==
         "scene.json#/bodies/block/geometry: a particle at [0.25, 0.25]; expected all of them where the problem is "
         "set");
 }
 
-TEST_CASE("particles that a problem puts outside of the body or the grid are told")
+TEST_CASE("particles that a problem puts outside of the body or the grid are reported")
 {
   // A ring of 0.65 m about (1, 1), its first particle an eighth of pi from the x axis.
   CHECK_THAT(problems_of_problem(disk), Catch::StartsWith(at_problem + ": a particle at [1.60052") &&

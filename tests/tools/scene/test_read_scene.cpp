@@ -132,7 +132,7 @@ TEST_CASE("materials and bodies are numbered in the order in which they stand")
   CHECK(scene.materials.at(1).name == "aluminium");
 }
 
-TEST_CASE("all problems of a scene are told at once")
+TEST_CASE("all problems of a scene are reported at once")
 {
   const std::string problems =
       problems_with({"/grid/cell_size=-1", "/time/end=\"soon\"", "/materials/steel/density=-8000", "/gravty=[0,0]"});
@@ -164,7 +164,7 @@ TEST_CASE("a body of three dimensions is counted in three dimensions")
   CHECK(scene.bodies.at(0).n_particles == 16);
 }
 
-TEST_CASE("a disk whose particles lie on rings has its area, and is as round as it is told")
+TEST_CASE("a disk whose particles lie on rings has its area, and is as round as it is asked to be")
 {
   const TemporaryFolder folder;
   const auto file = folder.write("small.json", small_scene);

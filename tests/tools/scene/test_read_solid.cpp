@@ -130,7 +130,7 @@ TEST_CASE("a geometry may stand in a file of its own and be changed in the scene
         "shapes/ball.json#/centre: [0]; expected 2 numbers");
 }
 
-TEST_CASE("a geometry that comes to hold itself is told")
+TEST_CASE("a geometry that comes to hold itself is reported")
 {
   const TemporaryFolder folder;
   folder.write("a.json", R"({"type":"transform","of":{"file":"a.json"}})");
@@ -140,7 +140,7 @@ TEST_CASE("a geometry that comes to hold itself is told")
              Catch::Contains("too many solids, one within the other; expected a file that does not name itself"));
 }
 
-TEST_CASE("what is wrong with a solid is told where it stands")
+TEST_CASE("what is wrong with a solid is reported where it stands")
 {
   CHECK(fault(R"({"type":"revolved","start":[1,1,0],"axis":[0,0,1],"profile":[[0,1],[1,1],[0.5,1]]})") ==
         "--set#/bodies/block/geometry/profile/2: a profile that goes from 1.000000 to 0.500000; expected places that "

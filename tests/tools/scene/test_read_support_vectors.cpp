@@ -75,7 +75,7 @@ TEST_CASE("a number of a regression may stand alone, in a list, or in a list of 
   CHECK(fit.coefficients.size() == 3);
 }
 
-TEST_CASE("keys of a regression that are missing are told, all at once")
+TEST_CASE("keys of a regression that are missing are reported, all at once")
 {
   const std::string problems = problems_of_text("{}");
 
@@ -85,7 +85,7 @@ TEST_CASE("keys of a regression that are missing are told, all at once")
   CHECK_THAT(problems, Catch::Contains("svr.json#/dual_coeffs: missing; expected a list that is not empty"));
 }
 
-TEST_CASE("numbers of a regression that are none, or out of range, are told with their place")
+TEST_CASE("numbers of a regression that are none, or out of range, are reported with their place")
 {
   CHECK(problems_with("/gamma", "0.5") == "svr.json#/gamma: \"0.5\"; expected a number above 0");
   CHECK(problems_with("/gamma", -1) == "svr.json#/gamma: -1; expected a number above 0");
@@ -95,7 +95,7 @@ TEST_CASE("numbers of a regression that are none, or out of range, are told with
   CHECK(problems_with("/X_max", {40, 0}) == "svr.json#/X_max: [40, 0]; expected more than X_min, [-10, 0]");
 }
 
-TEST_CASE("ragged vectors and lists of other lengths are told with their place")
+TEST_CASE("ragged vectors and lists of other lengths are reported with their place")
 {
   CHECK(problems_with("/support_vectors/1", {1}) == "svr.json#/support_vectors/1: [1]; expected two numbers");
   CHECK(problems_with("/support_vectors/2/0", "x") == "svr.json#/support_vectors/2: [\"x\",0.5]; expected two numbers");
@@ -106,7 +106,7 @@ TEST_CASE("ragged vectors and lists of other lengths are told with their place")
         "svr.json#/dual_coeffs/0: 2 numbers; expected 3, one for each support vector");
 }
 
-TEST_CASE("text that is no JSON, and a file that does not exist, are told")
+TEST_CASE("text that is no JSON, and a file that does not exist, are reported")
 {
   CHECK_THAT(problems_of_text(R"({"gamma": NaN})"), Catch::StartsWith("svr.json:1:"));
   CHECK_THROWS_AS(read_support_vectors("/no/such/svr.json"), tools::InputError);

@@ -147,7 +147,7 @@ TEST_CASE("engineering strains are converted, the elastic ones as the difference
       Catch::Contains("strain 1.1; expected engineering strains below 1"));
 }
 
-TEST_CASE("a variable of one entry is left out of account, one of more is told with the others")
+TEST_CASE("a variable of one entry is left out of account, one of more is reported with the others")
 {
   const json inner = pressure_of_total()["Vaango_tabular_data"]["Data"];
   json content;
@@ -161,7 +161,7 @@ TEST_CASE("a variable of one entry is left out of account, one of more is told w
             "a level PlasticStrainVol, and one entry of every other");
 }
 
-TEST_CASE("a table of other variables is told with those it has")
+TEST_CASE("a table of other variables is reported with those it has")
 {
   CHECK(problems_with("/Data/0", {{"Strain", {0, 1}}, {"Pressure", {0, 1}}}) ==
         data +
@@ -176,7 +176,7 @@ TEST_CASE("a table of other variables is told with those it has")
                                                                "table");
 }
 
-TEST_CASE("lists of a table that are none, or whose lengths differ, are told with their place")
+TEST_CASE("lists of a table that are none, or whose lengths differ, are reported with their place")
 {
   CHECK(problems_with("/Data/1/Pressure/2", nullptr) == data + "/Data/1/Pressure/2: null; expected a number");
   CHECK(problems_with("/Data/1/TotalStrainVol/0", "0.04") ==
@@ -191,7 +191,7 @@ TEST_CASE("lists of a table that are none, or whose lengths differ, are told wit
   CHECK(problems_with("/Data/2", 7) == data + "/Data/2: number; expected an object");
 }
 
-TEST_CASE("abscissae that do not ascend are told with their place")
+TEST_CASE("abscissae that do not ascend are reported with their place")
 {
   CHECK(problems_with("/Data/1/TotalStrainVol/2", 0.05) ==
         data +
@@ -201,7 +201,7 @@ TEST_CASE("abscissae that do not ascend are told with their place")
         data + "/Data/2: PlasticStrainVol 0.05 after 0.05; expected plastic strains that strictly increase");
 }
 
-TEST_CASE("pressure before the plastic strain, and a curve without pressure, are told")
+TEST_CASE("pressure before the plastic strain, and a curve without pressure, are reported")
 {
   CHECK(problems_with("/Data/1/Pressure", {-1, 1, 2, 3}) ==
         data + "/Data/1/Pressure/1: 1 at TotalStrainVol 0.05; expected no pressure up to the plastic strain, 0.05");
@@ -209,7 +209,7 @@ TEST_CASE("pressure before the plastic strain, and a curve without pressure, are
         data + "/Data/1: no point in compression; expected pressures above 0");
 }
 
-TEST_CASE("a bulk modulus that is not above zero is told with its place")
+TEST_CASE("a bulk modulus that is not above zero is reported with its place")
 {
   for (const double bad : {0.0, -1e9}) {
     CHECK_THAT(

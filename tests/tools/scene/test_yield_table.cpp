@@ -77,7 +77,7 @@ TEST_CASE("a yield table with a column of neither name, or of both, is refused w
              Contains("y.csv:1: columns pressure[Pa],q[Pa],sqrt_J2[Pa]; expected "));
 }
 
-TEST_CASE("a measure that is none is told once")
+TEST_CASE("a measure that is none is reported once")
 {
   CHECK(problems("y.csv", "pressure[Pa],q[Pa]\n-1e4,0\n1e6,6e5\n", {"/yield/measure=tau"}) ==
         "--set#/yield/measure: \"tau\"; expected one of q, sqrt_J2");

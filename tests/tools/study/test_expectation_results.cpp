@@ -57,7 +57,7 @@ ExpectationResult judged(Kind kind, double limit, const std::vector<double>& err
 
 }  // namespace
 
-TEST_CASE("an expectation that is known to be missed is told apart from one that is to hold")
+TEST_CASE("an expectation that is known to be missed is distinguished from one that is to hold")
 {
   Expectation known = expecting(Kind::error_at_most, 0.1);
   known.missed = {{"a", "noise"}, {"other", "more noise"}};

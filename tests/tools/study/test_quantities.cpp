@@ -93,7 +93,7 @@ TEST_CASE("nothing is said of rows that cannot be compared")
   CHECK(std::isnan(distance(depth(Take::curve), taken(depth(Take::curve)), taken(depth(Take::curve), "0,x\n4,1\n"))));
 }
 
-TEST_CASE("a column that is not there is told, with those that are")
+TEST_CASE("a column that is not there is reported, with those that are")
 {
   CHECK_THAT(problems_of_reading(TemporaryFolder(),
                                  [] {

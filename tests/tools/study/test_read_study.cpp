@@ -61,7 +61,7 @@ TEST_CASE("an order takes three grids, from coarse to fine")
   CHECK_THAT(with_values("[4, 2, \"x\"]"), Contains("values that are no spacings"));
 }
 
-TEST_CASE("what is misspelt or of the wrong kind is told with its place")
+TEST_CASE("what is misspelt or of the wrong kind is reported with its place")
 {
   CHECK_THAT(problems_of_study(R"({"metods": []})"), Contains("unknown key; did you mean \"methods\"?"));
   CHECK_THAT(problems_of_study(R"({"refine": "cell_size"})"), Contains("study.json#/refine: \"cell_size\""));

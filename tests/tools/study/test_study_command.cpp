@@ -335,7 +335,7 @@ TEST_CASE("a run that somebody kills is no result")
 TEST_CASE("a kept point whose files are not what was written is run again, and told of once")
 {
   const FlightStudy study;
-  // Its points are one, so that one is told of.
+  // Its points are one, so that one is reported.
   const std::string patch = R"({"methods": [{"name": "a"}, {"name": "b"}], "sweep": null, "quantities": [
     {"name": "depth", "column": "block.depth[m]", "take": "greatest", "exact": 0.1},
     {"name": "lowest", "take": "quantile", "quantile": 0, "field": "position", "component": 1, "material": "steel"}]})";
@@ -460,7 +460,7 @@ TEST_CASE("results of another program are refused, and removed only when asked")
   CHECK_FALSE(std::filesystem::exists(study.out() / "points" / "old"));
 }
 
-TEST_CASE("paths that are no UTF-8 are told in JSON with a mark, and are no settings")
+TEST_CASE("paths that are no UTF-8 are reported in JSON with a mark, and are no settings")
 {
   const FlightStudy study;
   const std::string odd = (study.path() / "odd\xff").string(), file = odd + "/st\xfe.json";

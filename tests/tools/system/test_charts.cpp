@@ -58,7 +58,7 @@ TEST_CASE("the command that a missing Python leaves behind draws the page")
   CHECK_THAT(test::read_text(folder.path() / "out/report.html"), Contains("Depth of block"));
 }
 
-TEST_CASE("a Python without matplotlib is told from one whose drawing fails")
+TEST_CASE("a Python without matplotlib is distinguished from one whose drawing fails")
 {
   const test::TemporaryFolder lacks, fails;
 

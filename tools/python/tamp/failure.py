@@ -57,7 +57,7 @@ def package_of(error):
 
 def end(text, code):
     say(text)
-    # What could not be written would be tried again.
+    # Else the interpreter would try to write it again at its end.
     os.dup2(os.open(os.devnull, os.O_WRONLY), 1)
     sys.exit(code)
 

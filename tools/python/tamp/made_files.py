@@ -8,7 +8,7 @@ import tempfile
 from tamp.failure import Refusal, say
 from tamp.program import USUAL, answer
 
-# What a sand needs besides its curves; it is asked only whether those are sound.
+# Keys of a sand besides its curves; only the curves are judged.
 REST = {"type": "tabular_cap", "density": 1600, "poisson_ratio": 0.2, "elastic_update": "state",
         "strain_measure": "logarithmic", "yield": {"file": "yield.csv", "cap_ellipticity": 0.7}}
 YIELD = "pressure[Pa],q[Pa]\n-1,0\n1e9,1e9\n2e9,2e9\n"

@@ -7,7 +7,7 @@
 namespace tamp::tools
 {
 
-/// Reads a path in either of two formats, told apart by the first line that is no comment (#):
+/// Reads a path in either of two formats, distinguished by the first line that is no comment (#):
 ///  - CSV: a line with the names time,F11,F12,F13,F21,...,F33 in any order, then rows of numbers;
 ///  - the published prescribed deformation: rows of 14 numbers separated by blanks, which are the time, F row by row,
 ///    and the angle in degrees and the axis of a superposed rotation.

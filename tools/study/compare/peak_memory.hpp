@@ -10,7 +10,7 @@ namespace tamp::tools::compare
 {
 
 /// The most memory [bytes] that a process of this program has resident while it does nothing but the first steps of one
-/// scene; models that share a process cannot be told apart. None if that run fails.
+/// scene; models that share a process cannot be distinguished. None if that run fails.
 ///
 /// To be called before this process has grown large itself: what a process starts from counts in its peak (Linux).
 /// `scratch` is a folder that is made for the run and removed again.

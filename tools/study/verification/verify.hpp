@@ -25,7 +25,7 @@ struct VerifyOptions {
 /// Runs the studies of inputs/verification, as `tamp study` does, and writes and prints a table of what came out beside
 /// what was expected. Throws InputError for a name that is no study's; FileError; Interrupted; and SimulationError,
 /// after all is written, if an expectation does not hold that no study lists as missed. One that is listed and holds is
-/// told of.
+/// reported.
 void verify(const VerifyOptions& options);
 
 }  // namespace tamp::tools::verify

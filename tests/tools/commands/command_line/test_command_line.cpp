@@ -30,7 +30,7 @@ std::string bash_offers(const std::string& line)
 
 }  // namespace
 
-TEST_CASE("a word that is not known is told before what is missing, with what was meant")
+TEST_CASE("a word that is not known is reported before what is missing, with what was meant")
 {
   const std::vector<std::array<std::string, 2>> all{
       {"rnu", "rnu: no command of tamp; did you mean run?"},

@@ -18,7 +18,7 @@ namespace
 const std::string at_rest = "0 1 0 0 0 1 0 0 0 1 0 0 0 1\n";
 
 /// Problems of a path that cannot be read, without the folder's name.
-std::string complaint(const std::string& text)
+std::string problem(const std::string& text)
 {
   const test::TemporaryFolder folder;
   const std::string file = folder.write("path", text).string();
@@ -63,18 +63,17 @@ TEST_CASE("prescribed deformation is read row by row, with its rotation in degre
 
 TEST_CASE("a path that cannot be used is refused with file and line")
 {
-  CHECK(complaint("") == "P: an empty path; expected two or more rows");
-  CHECK(complaint("# only\n" + at_rest) == "P: 1 rows; expected two or more");
-  CHECK(complaint("time,F11\n0,1\n1,1\n") ==
-        "P:1: columns time,F11; expected time,F11,F12,F13,F21,F22,F23,F31,F32,F33");
-  CHECK(complaint(at_rest + "1 1 0 0 0 1 0 0 0 1\n") ==
+  CHECK(problem("") == "P: an empty path; expected two or more rows");
+  CHECK(problem("# only\n" + at_rest) == "P: 1 rows; expected two or more");
+  CHECK(problem("time,F11\n0,1\n1,1\n") == "P:1: columns time,F11; expected time,F11,F12,F13,F21,F22,F23,F31,F32,F33");
+  CHECK(problem(at_rest + "1 1 0 0 0 1 0 0 0 1\n") ==
         "P:2: 10 values; expected 14: time, F row by row, angle in degrees, axis");
-  CHECK(complaint(at_rest + "1 1 0 0 0 1,0 0 0 0 nan 1e999 0 0 1\n") ==
+  CHECK(problem(at_rest + "1 1 0 0 0 1,0 0 0 0 nan 1e999 0 0 1\n") ==
         "P:2: \"1,0\"; expected a finite number\nP:2: \"nan\"; expected a finite number\n"
         "P:2: \"1e999\"; expected a finite number");
-  CHECK(complaint("# a comment\n" + at_rest + at_rest) == "P:3: time 0 after 0; expected times that rise");
-  CHECK(complaint(at_rest + "1 -1 0 0 0 1 0 0 0 1 0 0 0 1\n") == "P:2: det F = -1; expected a determinant above 0");
-  CHECK(complaint(at_rest + "1 1 0 0 0 1 0 0 0 1 30 0 0 0\n") ==
+  CHECK(problem("# a comment\n" + at_rest + at_rest) == "P:3: time 0 after 0; expected times that rise");
+  CHECK(problem(at_rest + "1 -1 0 0 0 1 0 0 0 1 0 0 0 1\n") == "P:2: det F = -1; expected a determinant above 0");
+  CHECK(problem(at_rest + "1 1 0 0 0 1 0 0 0 1 30 0 0 0\n") ==
         "P:2: a rotation about the axis 0 0 0; expected an axis");
 }
 

@@ -127,7 +127,7 @@ TEST_CASE("a command line that asks for nothing sensible ends with 2 and says wh
   const TemporaryFolder folder;
   write_sand(folder);
   const auto curves = folder.path() / "tables/unloading.csv";
-  const auto complaint = [&](const std::string& options) {
+  const auto problem = [&](const std::string& options) {
     const Outcome outcome = modulus(curves, options);
     CHECK(outcome.exit_code == 2);
     CHECK(outcome.out.empty());
@@ -136,13 +136,13 @@ TEST_CASE("a command line that asks for nothing sensible ends with 2 and says wh
 
   for (const std::string at : {"0.1", "0.1,0.2,0.3", "a,0", "0.1,", "nan,0", "0,inf", "0.1;0"}) {
     INFO(at);
-    CHECK_THAT(complaint("--at '" + at + "'"),
+    CHECK_THAT(problem("--at '" + at + "'"),
                Catch::StartsWith("tamp: --at " + at + ": not 2 finite numbers; expected EE,EP"));
   }
-  CHECK_THAT(complaint(""), Catch::Contains("--at or --states is required"));
-  CHECK_THAT(complaint("--at 0,0 --nu 0.5"), Catch::StartsWith("tamp: --nu: 0.5; expected a number above -1"));
-  CHECK_THAT(complaint("--at 0,0 --set /density=1"), Catch::Contains("expected a material"));
-  CHECK_THAT(complaint("--at 0,0 --scaling 1,2,3,4,5,6"), Catch::Contains("no network"));
+  CHECK_THAT(problem(""), Catch::Contains("--at or --states is required"));
+  CHECK_THAT(problem("--at 0,0 --nu 0.5"), Catch::StartsWith("tamp: --nu: 0.5; expected a number above -1"));
+  CHECK_THAT(problem("--at 0,0 --set /density=1"), Catch::Contains("expected a material"));
+  CHECK_THAT(problem("--at 0,0 --scaling 1,2,3,4,5,6"), Catch::Contains("no network"));
 }
 
 TEST_CASE("files that are no model, or are not there, end with 2 and their place")
@@ -154,7 +154,7 @@ TEST_CASE("files that are no model, or are not there, end with 2 and their place
   folder.write("half.json", R"({"gamma": 1})");
   folder.write("words.txt", "some words\n");
   folder.write("steel.json", R"({"type":"hypoelastic","density":8000,"bulk_modulus":1e10,"shear_modulus":7e9})");
-  const auto complaint = [&](const std::string& file) {
+  const auto problem = [&](const std::string& file) {
     const Outcome outcome = modulus(folder.path() / file, "--at 0,0");
     CHECK(outcome.exit_code == 2);
     CHECK(outcome.out.empty());
@@ -162,13 +162,13 @@ TEST_CASE("files that are no model, or are not there, end with 2 and their place
     return outcome.err;
   };
 
-  CHECK_THAT(complaint("n.h5"), Catch::Contains("a network without the attribute scaling; expected --scaling"));
+  CHECK_THAT(problem("n.h5"), Catch::Contains("a network without the attribute scaling; expected --scaling"));
   // One line: nothing of HDF5's own account.
-  CHECK_THAT(complaint("cut.h5"), Catch::EndsWith("cut.h5: a damaged or truncated HDF5 file; expected an HDF5 file\n"));
-  CHECK_THAT(complaint("empty.json"), Catch::Contains("expected Vaango_tabular_data, support_vectors or a material"));
-  CHECK_THAT(complaint("half.json"), Catch::Contains("#/support_vectors: missing"));
-  CHECK_THAT(complaint("words.txt"), Catch::Contains(":1: columns some words; expected plastic_volumetric[-]"));
-  CHECK_THAT(complaint("steel.json"), Catch::Contains("#/type: a material without a model of its moduli"));
+  CHECK_THAT(problem("cut.h5"), Catch::EndsWith("cut.h5: a damaged or truncated HDF5 file; expected an HDF5 file\n"));
+  CHECK_THAT(problem("empty.json"), Catch::Contains("expected Vaango_tabular_data, support_vectors or a material"));
+  CHECK_THAT(problem("half.json"), Catch::Contains("#/support_vectors: missing"));
+  CHECK_THAT(problem("words.txt"), Catch::Contains(":1: columns some words; expected plastic_volumetric[-]"));
+  CHECK_THAT(problem("steel.json"), Catch::Contains("#/type: a material without a model of its moduli"));
   CHECK(modulus("/no/such/model.h5", "--at 0,0").exit_code == 2);
 }
 
@@ -216,7 +216,7 @@ TEST_CASE("a sand in rate form answers the states of a file with the integral of
   CHECK(second[10] == Approx(1 / std::sqrt(2)));
 }
 
-TEST_CASE("the cost of evaluations is told with their number and the bytes of the model")
+TEST_CASE("the cost of evaluations is reported with their number and the bytes of the model")
 {
   const TemporaryFolder folder;
   const std::string sand = TAMP_SOURCE_DIR "/inputs/materials/concrete-sand/svr.json";
@@ -244,7 +244,7 @@ TEST_CASE("files of states that cannot be answered end with 2 and their place")
   const TemporaryFolder folder;
   write_sand(folder);
   const std::string header = "elastic_volumetric[-],plastic_volumetric[-],pressure[Pa],bulk_modulus[Pa]\n";
-  const auto complaint = [&](const std::string& content) {
+  const auto problem = [&](const std::string& content) {
     const Outcome outcome =
         modulus(folder.path() / "sand.json", "--states " + folder.write("states.csv", content).string());
     CHECK(outcome.exit_code == 2);
@@ -253,13 +253,13 @@ TEST_CASE("files of states that cannot be answered end with 2 and their place")
   };
   const std::string place = "tamp: " + (folder.path() / "states.csv").string();
 
-  CHECK_THAT(complaint("plastic_volumetric[-]\n0\n"),
+  CHECK_THAT(problem("plastic_volumetric[-]\n0\n"),
              Catch::StartsWith(place + ":1: columns plastic_volumetric[-]; expected elastic_volumetric[-],plastic"));
-  CHECK_THAT(complaint("elastic_volumetric[-],plastic_volumetric[-],pressure[Pa]\n0,0,1\n"),
+  CHECK_THAT(problem("elastic_volumetric[-],plastic_volumetric[-],pressure[Pa]\n0,0,1\n"),
              Catch::Contains("expected elastic_volumetric[-],plastic_volumetric[-],pressure[Pa],bulk_modulus[Pa]"));
-  CHECK_THAT(complaint(header + "0,0,1,1\n0,0,0,1\n"),
+  CHECK_THAT(problem(header + "0,0,1,1\n0,0,0,1\n"),
              Catch::StartsWith(place + ":3: pressure[Pa] 0; expected a number above 0"));
-  CHECK_THAT(complaint(header + "0,0,1,-2\n"),
+  CHECK_THAT(problem(header + "0,0,1,-2\n"),
              Catch::StartsWith(place + ":2: bulk_modulus[Pa] -2; expected a number above 0"));
   const std::string sand = (folder.path() / "sand.json").string(), states = folder.write("s.csv", header).string();
   CHECK(tamp_with("modulus " + sand + " --at 0,0 --states " + states).exit_code == 2);

@@ -87,7 +87,7 @@ TEST_CASE("a verification whose expectations hold ends with 0, and prints the ta
   CHECK(results["studies"][0]["points"].size() == 3);
 }
 
-TEST_CASE("a verification writes a list of problems and methods where it is told to")
+TEST_CASE("a verification writes a list of problems and methods where it is asked to")
 {
   const Studies studies;
 

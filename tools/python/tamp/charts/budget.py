@@ -89,11 +89,11 @@ def draw_bar(sheet, bar, colours, y, unknown):
 
 
 def describe(quantity, bars):
-    said = [f"{counted(len(bars), 'bar')}."]
+    sentences = [f"{counted(len(bars), 'bar')}."]
     for bar in bars:
         parts = [f"{part['name']} {amount_text(part)}" for part in bar["parts"]]
-        said.append(f"{label_of(bar, quantity)} ({', '.join(parts)}).")
-    return " ".join(said)
+        sentences.append(f"{label_of(bar, quantity)} ({', '.join(parts)}).")
+    return " ".join(sentences)
 
 
 def table(quantity, bars):

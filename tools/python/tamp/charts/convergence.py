@@ -36,9 +36,9 @@ def lines_with_orders(study, quantity):
         lines.append((fit["method"], f"{fit.get('label') or fit['method']}: {found}", points))
         if order is not None:
             guides += guide(fit["method"], order, points, quantity)
-    said = {fit["method"] for fit in quantity.orders}
+    fitted_methods = {fit["method"] for fit in quantity.orders}
     for method, groups in lines_of_methods(study):
-        if method not in said:
+        if method not in fitted_methods:
             lines += [(method, method, [p for p in points if p.refine]) for points in groups]
     return lines, guides
 

@@ -9,38 +9,38 @@ def describe(spec):
     """What is to be seen, in numbers, for who cannot see it."""
     drawn, across = drawable(spec), spec.across
     n_methods = len({p.method for p in drawn.points})
-    said = [f"{counted(len(drawn.points), 'point')} of {counted(n_methods, 'method')}."]
+    sentences = [f"{counted(len(drawn.points), 'point')} of {counted(n_methods, 'method')}."]
     if drawn.points and spec.quantity.has_reference:
         best = min(drawn.points, key=lambda p: (abs(spec.up(p)), across.of(p)))
         least = spec.up_text(abs(spec.up(best)))
-        said.append(f"The least error, {least}, has {best.name} at {across.text(across.of(best))}.")
+        sentences.append(f"The least error, {least}, has {best.name} at {across.text(across.of(best))}.")
     for p in sorted((p for p in spec.front or [] if p in drawn.points), key=across.of):
-        said.append(f"On the Pareto front: {p.name}, {across.text(across.of(p))}, {spec.up_text(spec.up(p))}.")
+        sentences.append(f"On the Pareto front: {p.name}, {across.text(across.of(p))}, {spec.up_text(spec.up(p))}.")
     if spec.quantity.has_reference and spec.quantity.uncertainty:
         n_within = sum(abs(spec.up(p)) <= spec.quantity.uncertainty for p in drawn.points)
-        said.append(f"The reference itself is uncertain by {spec.up_text(spec.quantity.uncertainty)}; "
-                    f"{counted(n_within, 'point lies', 'points lie')} within that.")
+        sentences.append(f"The reference itself is uncertain by {spec.up_text(spec.quantity.uncertainty)}; "
+                         f"{counted(n_within, 'point lies', 'points lie')} within that.")
     if drawn.zeros:
-        said.append(f"{counted(len(drawn.zeros), 'error')} of 0 at the lower edge.")
-    return " ".join(said + [f"No result: {p.name}, {p.why}." for p in spec.failed()])
+        sentences.append(f"{counted(len(drawn.zeros), 'error')} of 0 at the lower edge.")
+    return " ".join(sentences + [f"No result: {p.name}, {p.why}." for p in spec.failed()])
 
 
 def caption(spec, about):
     drawn, quantity = drawable(spec), spec.quantity
-    said = [about]
+    sentences = [about]
     if quantity.has_reference and quantity.uncertainty and not shown_uncertainty(quantity, drawn.limits):
         uncertainty = quantity.error_text(quantity.uncertainty)
-        said.append(f"The reference's own uncertainty, {uncertainty}, lies below the chart.")
+        sentences.append(f"The reference's own uncertainty, {uncertainty}, lies below the chart.")
     if drawn.zeros:
-        said.append("An error of 0 stands at the lower edge.")
+        sentences.append("An error of 0 stands at the lower edge.")
     if spec.failed():
-        said.append("Crosses above the axes are runs without a result, with the reason.")
+        sentences.append("Crosses above the axes are runs without a result, with the reason.")
     if not all(map(spec.has_place, spec.failed())):
-        said.append("Where nothing is known of them along the axis they stand at its left end.")
+        sentences.append("Where nothing is known of them along the axis they stand at its left end.")
     n_left_out = len(spec.left_out(drawn))
     if n_left_out:
-        said.append(f"{counted(n_left_out, 'run has', 'runs have')} no place here, as a figure is missing.")
-    return " ".join(said)
+        sentences.append(f"{counted(n_left_out, 'run has', 'runs have')} no place here, as a figure is missing.")
+    return " ".join(sentences)
 
 
 def table(spec):

@@ -44,7 +44,7 @@ def si_text(value, unit, digits=3):
     if unit not in BASE_UNITS or value == 0:
         return f"{number_text(value, digits)} {unit}".strip()
     power, base = BASE_UNITS[unit]
-    # What rounds to 1000 has the next prefix already; so the exponent is that of the rounded number.
+    # A number that rounds to 1000 has the next prefix already; so the exponent is that of the rounded number.
     exponent = int(f"{value:.{digits - 1}e}".split("e")[1]) + power
     prefix = min(max(exponent - exponent % 3, -12), 12)
     # A plain number needs no letter that says milli.

@@ -91,15 +91,15 @@ def thinned(x, y, n_wanted):
 
 
 def describe(plot):
-    said = [f"{counted(len(plot.lines), 'line')} over {si_text(end_of(plot), 's')}."]
+    sentences = [f"{counted(len(plot.lines), 'line')} over {si_text(end_of(plot), 's')}."]
     for line in plot.lines:
         if not line.x:
-            said.append(f"{line.name}: nothing to draw.")
+            sentences.append(f"{line.name}: nothing to draw.")
             continue
         end = "breaks off" if line.breaks_off else "ends"
         low, high, last = (si_text(y, plot.y_unit) for y in (min(line.y), max(line.y), line.y[-1]))
-        said.append(f"{line.name}: between {low} and {high}, {end} at {last} after {si_text(line.x[-1], 's')}.")
-    return " ".join(said)
+        sentences.append(f"{line.name}: between {low} and {high}, {end} at {last} after {si_text(line.x[-1], 's')}.")
+    return " ".join(sentences)
 
 
 def table(plot):

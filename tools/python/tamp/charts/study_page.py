@@ -88,13 +88,13 @@ def threads_text(study):
 def overview(study):
     """What each quantity is compared with; links where there are many."""
     failed = study.failed()
-    said = f"<p>{counted(len(study.points), 'run')} of {counted(len(study.methods), 'method')}"
-    said += f", of which {len(failed)} gave no result (<a href=\"#failed\">why</a>).</p>\n" if failed else ".</p>\n"
+    text = f"<p>{counted(len(study.points), 'run')} of {counted(len(study.methods), 'method')}"
+    text += f", of which {len(failed)} gave no result (<a href=\"#failed\">why</a>).</p>\n" if failed else ".</p>\n"
     if len(study.quantities) < 2:
-        return said
+        return text
     named = zip(study.quantities, prefixes(study))
     links = "".join(f'<a href="#{prefix}">{escaped(quantity.name)}</a>\n' for quantity, prefix in named)
-    return f'{said}<nav aria-label="Quantities">\n{links}</nav>\n'
+    return f'{text}<nav aria-label="Quantities">\n{links}</nav>\n'
 
 
 def verdict(expectation):
@@ -105,17 +105,17 @@ def verdict(expectation):
 
 
 def expectations(study):
-    """What was said before the runs, and whether it holds."""
+    """Expectations from before the runs, and whether they hold."""
     if not study.expected:
         return ""
     missed = sum(not expectation["holds"] for expectation in study.expected)
     known = sum(not expectation["holds"] and bool(expectation.get("missed")) for expectation in study.expected)
-    said = f"{missed} of {len(study.expected)} do not hold" if missed else f"All {len(study.expected)} hold"
-    said += f", {known} of them as is known" if known else ""
+    text = f"{missed} of {len(study.expected)} do not hold" if missed else f"All {len(study.expected)} hold"
+    text += f", {known} of them as is known" if known else ""
     rows = [[verdict(g), g["quantity"], g["label"], g["note"], g["expected"], g.get("missed") or g["why"]]
             for g in study.expected]
     table = page.as_html(Table(["", "quantity", "method", "found", "expected", "why"], rows))
-    return f'<section id="expected">\n<h2>What was expected</h2>\n<p>{said}.</p>\n{table}</section>\n'
+    return f'<section id="expected">\n<h2>What was expected</h2>\n<p>{text}.</p>\n{table}</section>\n'
 
 
 def reference_text(quantity):
@@ -123,16 +123,16 @@ def reference_text(quantity):
     notes = f" {sentence(note)}" if note else ""
     if not quantity.has_reference:
         return "There is no reference, so that no error is claimed." + notes
-    said = f"Errors are against {REFERENCES.get(reference['kind'], reference['kind'])}"
+    text = f"Errors are against {REFERENCES.get(reference['kind'], reference['kind'])}"
     if reference.get("value") is not None:
-        said += f", {quantity.value_text(reference['value'])}"
+        text += f", {quantity.value_text(reference['value'])}"
     if quantity.uncertainty:
-        said += f", itself uncertain by {quantity.error_text(quantity.uncertainty)}"
+        text += f", itself uncertain by {quantity.error_text(quantity.uncertainty)}"
     elif reference["kind"] != "exact" and quantity.uncertainty is None and not note.startswith("no bound"):
-        said += ", of whose own error there is no bound"
+        text += ", of whose own error there is no bound"
     if reference.get("order") is not None:
-        said += f"; it converges with order {number_text(reference['order'])}"
-    return f"{said}.{notes}"
+        text += f"; it converges with order {number_text(reference['order'])}"
+    return f"{text}.{notes}"
 
 
 def sentence(text):
@@ -157,14 +157,14 @@ def closing(study):
 
 
 def short_text(study, point):
-    said = [point.name] + ([point.why] if point.failed else [])
+    parts = [point.name] + ([point.why] if point.failed else [])
     for quantity in study.quantities:
         if not point.failed and point.error(quantity) is not None:
-            said.append(f"error of {quantity.name} {error_text(quantity, point)}")
+            parts.append(f"error of {quantity.name} {error_text(quantity, point)}")
     for cost in study.costs[:1]:
         if point.cost_of(cost.key) is not None:
-            said.append(f"{cost.name} {cost.text(point.cost_of(cost.key))}")
-    return ", ".join(said)
+            parts.append(f"{cost.name} {cost.text(point.cost_of(cost.key))}")
+    return ", ".join(parts)
 
 
 def error_text(quantity, point):

@@ -187,29 +187,29 @@ class Both:
                             for name in ("material", "solid")}
         self.n_wrong = 0
 
-    def complain(self, words):
+    def report(self, problem):
         self.n_wrong += 1
-        print(words)
+        print(problem)
 
     def expect_accepted(self, name, value, validator=None):
         for error in (validator or self.validator).iter_errors(value):
             place = "/".join(map(str, error.absolute_path))
-            self.complain(f"{name}: the schema refuses {place}: {error.message[:200]}")
+            self.report(f"{name}: the schema refuses {place}: {error.message[:200]}")
 
     def expect_sound(self, name, file):
         self.expect_accepted(name, files.document(file))
         checked = program.answer(self.tamp, "check", file)
         if checked.returncode != 0:
-            self.complain(f"{name}: `tamp check` ends with {checked.returncode}: {checked.stderr}")
+            self.report(f"{name}: `tamp check` ends with {checked.returncode}: {checked.stderr}")
             return
         self.expect_accepted(f"{name}, as resolved", json.loads(checked.stdout))
 
     def expect_broken(self, name, file):
         if self.validator.is_valid(files.document(file)):
-            self.complain(f"{name}: the schema accepts it")
+            self.report(f"{name}: the schema accepts it")
         checked = program.answer(self.tamp, "check", file)
         if checked.returncode != 2:
-            self.complain(f"{name}: `tamp check` ends with {checked.returncode}")
+            self.report(f"{name}: `tamp check` ends with {checked.returncode}")
 
 
 def is_scene(file):

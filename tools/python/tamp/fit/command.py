@@ -71,7 +71,7 @@ def main(options):
     check_with_tamp(tamp, [svr, mlp], curves)
     made_files.put_in_place(outputs)
 
-    # What is shown is what the files say.
+    # The page shows the models as the files have them.
     models = [support_vectors.SupportVectors(outputs[0]), network.Network(outputs[1])]
     print(f"support_vectors.json: {len(models[0].vectors)} vectors\n")
     tables = errors.tables(curves, hydrostat, models)

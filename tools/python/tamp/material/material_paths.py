@@ -82,7 +82,7 @@ def general_paths():
     }
 
 
-# What is measured
+# Measured quantities
 
 
 class Measured:
@@ -105,7 +105,7 @@ def interpolated(xs, ys, x):
     return ys[i - 1] + (ys[i] - ys[i - 1]) * (x - xs[i - 1]) / (xs[i] - xs[i - 1])
 
 
-# What a run of the point says
+# Results of a run of the point
 
 
 class Point:

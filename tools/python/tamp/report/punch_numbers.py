@@ -10,7 +10,7 @@ DEPTH_TIMES = (0.5e-3, 1e-3, 1.5e-3, 2e-3, 2.6e-3, 3e-3, 4e-3)
 PEAK_TIMES = (0.5e-3, 1e-3, 2e-3, 2.6e-3, 2.7e-3)
 PLUG_TIMES = (0.3e-3, 0.5e-3, 0.7e-3, 1e-3, 1.5e-3)
 WAVE_TIMES = (0.2e-3, 0.3e-3, 0.4e-3, 0.5e-3)
-# What the report's text says: field, model, time in milliseconds.
+# Numbers in the report's text: field, model, time in milliseconds.
 SAID = {
     ("p", "table", 1): "166", ("p", "mlp", 1): "180", ("p", "table", 2): "315", ("p", "mlp", 2): "156",
     ("q", "table", 1): "145", ("q", "mlp", 1): "145", ("q", "table", 2): "276", ("q", "mlp", 2): "124",
