@@ -16,7 +16,7 @@
 
 using namespace tamp::runtime;
 
-// What a number lives on, its type and its name.
+// Labels: where a number lives, its type and its name.
 const CellLabel<double, "temperature"> temperature;
 
 // A value of which every patch has a part.

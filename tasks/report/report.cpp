@@ -166,7 +166,7 @@ class Noses
 
 /// Waits for the report of the bodies, which tells where their noses are.
 template <int D, class Model>
-runtime::TaskDeclaration report_near_noses(const Method<D>& method, int material, const Model& model)
+runtime::TaskDeclaration report_at_noses(const Method<D>& method, int material, const Model& model)
 {
   auto task = runtime::task("report near noses: " + method.materials[static_cast<std::size_t>(material)].name)
                   .over_patches_and_groups({material})
@@ -245,7 +245,7 @@ std::vector<runtime::TaskDeclaration> report_tasks(const Method<D>& method)
   };
   add_for_all([&](int material, const auto& model) { return report_of(method, material, model); });
   if (method.scene.has_nose()) {
-    add_for_all([&](int material, const auto& model) { return report_near_noses(method, material, model); });
+    add_for_all([&](int material, const auto& model) { return report_at_noses(method, material, model); });
   }
   return tasks;
 }

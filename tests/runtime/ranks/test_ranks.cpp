@@ -91,7 +91,7 @@ TaskDeclaration average()
       });
 }
 
-/// What has been sent is changed where it came from, in the same step.
+/// Changes values that have been sent, where they came from, in the same step.
 TaskDeclaration sharpen()
 {
   return task("sharpen")

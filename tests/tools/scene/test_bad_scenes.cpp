@@ -44,7 +44,7 @@ bool is_like(std::string_view text, std::string_view pattern)
   return false;
 }
 
-/// What is said of a good scene after some assignments.
+/// Problems of a good scene after some assignments.
 using GoodScene = std::function<std::string(const std::vector<std::string>&)>;
 
 GoodScene shipped(const std::string& file)
