@@ -40,13 +40,15 @@ concept Hyperelastic = requires(const Model& model, const Matrix<3>& f)
   model.template stored_energy<3>(f);
 };
 
-/// Elastic moduli [Pa].
-struct TangentModuli {
-  double bulk_modulus;
-  double shear_modulus;
+/// Elastic moduli [Pa], of one state or of as many as there are lanes.
+template <class Number>
+struct ModuliOf {
+  Number bulk_modulus;
+  Number shear_modulus;
 
-  double youngs_modulus() const { return 9 * bulk_modulus * shear_modulus / (3 * bulk_modulus + shear_modulus); }
+  Number youngs_modulus() const { return 9 * bulk_modulus * shear_modulus / (3 * bulk_modulus + shear_modulus); }
 };
+using TangentModuli = ModuliOf<double>;
 
 /// Particles of a model for one step, in the frame that turns with the material, tension positive: spans of equal
 /// length, those of states empty where the model has none.

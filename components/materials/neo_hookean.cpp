@@ -14,10 +14,6 @@ namespace
 {
 
 /// See tangent_moduli.
-template <class Number>
-struct ModuliOf {
-  Number bulk_modulus, shear_modulus;
-};
 template <int D, class Number>
 ModuliOf<Number> moduli_of(const NeoHookean& solid, const Number& J, const Number& shear_share,
                            const SymmetricTensor<D, Number>& b)
@@ -66,9 +62,7 @@ template <int D>
 TangentModuli tangent_moduli(const NeoHookean& solid, const Matrix<D>& deformation_gradient)
 {
   const double J = deformation_gradient.determinant();
-  const auto [bulk_modulus, shear_modulus] =
-      moduli_of<D>(solid, J, shear_share_of(J), left_cauchy_green<D>(deformation_gradient));
-  return {bulk_modulus, shear_modulus};
+  return moduli_of<D>(solid, J, shear_share_of(J), left_cauchy_green<D>(deformation_gradient));
 }
 
 template double NeoHookean::stored_energy<2>(const Matrix<2>&) const;

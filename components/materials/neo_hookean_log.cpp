@@ -17,11 +17,7 @@ namespace
 
 /// See tangent_moduli.
 template <class Number>
-struct LogModuli {
-  Number bulk_modulus, shear_modulus;
-};
-template <class Number>
-LogModuli<Number> moduli_of(const NeoHookeanLog& solid, const Number& J, const Number& log_J, const Number& b_max)
+ModuliOf<Number> moduli_of(const NeoHookeanLog& solid, const Number& J, const Number& log_J, const Number& b_max)
 {
   const Number volumetric = 1 - lesser_of<Number>(log_J, log_J / 3);
   const Number shear = solid.shear_modulus * (b_max + 1) / J;
@@ -69,8 +65,7 @@ TangentModuli tangent_moduli(const NeoHookeanLog& solid, const Matrix<D>& deform
 {
   const double J = deformation_gradient.determinant();
   const double b_max = principal_extremes(left_cauchy_green<D>(deformation_gradient)).greatest;
-  const auto [bulk_modulus, shear_modulus] = moduli_of(solid, J, portable::log(J), b_max);
-  return {bulk_modulus, shear_modulus};
+  return moduli_of(solid, J, portable::log(J), b_max);
 }
 
 template double NeoHookeanLog::stored_energy<2>(const Matrix<2>&) const;
