@@ -62,9 +62,12 @@ endfunction()
 
 # Where CMAKE_UNITY_BUILD is on, the sources of a folder are compiled as one, or as a few where there are more than
 # TAMP_MOST_UNITED: what they borrow is read, and its templates are made, once. Sources with options of their own stay
-# by themselves.
+# by themselves. tools/lint, which spends its time on what is borrowed, takes whole folders.
 set(TAMP_MOST_UNITED 16)
 function(tamp_unite_folders target)
+  if(CMAKE_BUILD_TYPE STREQUAL "Lint")
+    set(TAMP_MOST_UNITED 100)
+  endif()
   get_target_property(sources ${target} SOURCES)
   foreach(source IN LISTS sources)
     cmake_path(GET source PARENT_PATH folder)
