@@ -184,7 +184,7 @@ TEST_CASE("a step that is refused leaves the state before it whole, though parti
 TEST_CASE("updates that may fail are counted, and their particles marked")
 {
   Scene scene = torn_sand();
-  scene.failed_updates_allowed = 1000;
+  scene.failed_updates_allowed = 1L << 32;  // more than 32 bits hold
   const auto simulation = Simulation::make(scene, 2);
 
   simulation->advance(1e30);

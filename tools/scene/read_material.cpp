@@ -214,9 +214,4 @@ CheckedMaterial read_checked_material(const std::filesystem::path& file, const s
   return {std::move(*material), std::move(document.root), std::move(document.notes)};
 }
 
-tasks::SceneMaterial read_material_file(const std::filesystem::path& file, const std::vector<std::string>& assignments)
-{
-  return read_checked_material(file, assignments).material;
-}
-
 }  // namespace tamp::tools

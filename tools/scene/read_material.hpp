@@ -26,8 +26,5 @@ struct CheckedMaterial {
 /// is the file's without its ending. Throws FileError if the file cannot be read, and InputError with every problem.
 CheckedMaterial read_checked_material(const std::filesystem::path& file,
                                       const std::vector<std::string>& assignments = {});
-/// Reads a material's file, without the JSON.
-tasks::SceneMaterial read_material_file(const std::filesystem::path& file,
-                                        const std::vector<std::string>& assignments = {});
 
 }  // namespace tamp::tools

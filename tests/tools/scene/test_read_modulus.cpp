@@ -46,7 +46,7 @@ components::Modulus modulus_of_sand(const std::vector<std::string>& assignments)
 {
   const TemporaryFolder folder;
   write_sand_of_three_models(folder);
-  return modulus_of(tools::read_material_file(folder.path() / "sand.json", assignments));
+  return modulus_of(tools::read_checked_material(folder.path() / "sand.json", assignments).material);
 }
 
 std::string problems_of_sand(const std::vector<std::string>& assignments)
@@ -54,7 +54,7 @@ std::string problems_of_sand(const std::vector<std::string>& assignments)
   const TemporaryFolder folder;
   write_sand_of_three_models(folder);
   write_keras(folder.path() / "models/plain.h5", {.layers = small_network.layers});
-  return problems_of_reading(folder, [&] { tools::read_material_file(folder.path() / "sand.json", assignments); });
+  return problems_of_reading(folder, [&] { tools::read_checked_material(folder.path() / "sand.json", assignments); });
 }
 
 /// The small regression, written out: pressure and K of total and plastic strain.
@@ -134,11 +134,11 @@ TEST_CASE("a network's scaling and range may stand in the material")
       {"type", "mlp"}, {"mlp", "models/plain.h5"}, {"scaling", small_network.scaling}, {"range", small_network.range}};
   const auto file = folder.write("sand.json", sand.dump());
 
-  const components::Modulus modulus = modulus_of(tools::read_material_file(file));
+  const components::Modulus modulus = modulus_of(tools::read_checked_material(file).material);
 
   CHECK(at(modulus, 0.02, 0.1).bulk_modulus == Approx(plain_network(0.02, 0.1)).epsilon(1e-10));
   const std::string problems =
-      problems_of_reading(folder, [&] { tools::read_material_file(file, {"/modulus/scaling=null"}); });
+      problems_of_reading(folder, [&] { tools::read_checked_material(file, {"/modulus/scaling=null"}); });
   CHECK(problems == "--set#/modulus/scaling: missing, and not in models/plain.h5 either; expected 6 numbers");
 }
 
@@ -199,7 +199,7 @@ TEST_CASE("numbers in engineering strain are converted, and a fit to such strain
   const TemporaryFolder folder;
   write_sand_of_three_models(folder);
   const auto sand = std::get<components::TabularCap>(
-      tools::read_material_file(folder.path() / "sand.json", {"/strain_measure=engineering"}).model);
+      tools::read_checked_material(folder.path() / "sand.json", {"/strain_measure=engineering"}).material.model);
   CHECK(sand.crush_pressure(-std::log(0.9)) == Approx(2e7));
   // The first unloading curve ends at total strain 0.06, pressure 1e7.
   CHECK(at(sand.parameters().modulus, std::log(0.95 / 0.94), -std::log(0.95)).pressure == Approx(1e7).epsilon(2e-3));
@@ -222,12 +222,12 @@ TEST_CASE("published tables stand in for every table of a material")
   sand["yield"]["measure"] = "sqrt_J2";
   const auto file = folder.write("sand.json", sand.dump());
 
-  const tasks::SceneMaterial material = tools::read_material_file(file);
+  const tasks::SceneMaterial material = tools::read_checked_material(file).material;
 
   CHECK(std::get<components::TabularCap>(material.model).crush_pressure(0.1) == 2e7);
   write("tables/yield.json", {{"Pressure", {-1e4, 1e6}}, {"SqrtJ", {0, 6e5}}});
   write("tables/crush.json", {{"PlasticStrainVol", {0, 0.1, 0.1}}, {"Pressure", {1e6, 2e7, 1e8}}});
-  const std::string problems = problems_of_reading(folder, [&] { tools::read_material_file(file); });
+  const std::string problems = problems_of_reading(folder, [&] { tools::read_checked_material(file); });
   CHECK_THAT(problems, Catch::Contains("tables/yield.json#/Vaango_tabular_data/Data: a table of Pressure, SqrtJ; "
                                        "expected Pressure, SqrtJ2"));
   CHECK_THAT(problems, Catch::Contains("tables/crush.json#/Vaango_tabular_data/Data/PlasticStrainVol/2: abscissa "));
@@ -240,19 +240,19 @@ TEST_CASE("a material's file may name another, over which its own keys are merge
   folder.write("more/svr.json", R"({"file": "../sand.json", "modulus": {"type": "svr"}, "density": 1700})");
   const auto file = folder.write("last.json", R"({"file": "more/svr.json", "density": 1800})");
 
-  const tasks::SceneMaterial material = tools::read_material_file(file);
+  const tasks::SceneMaterial material = tools::read_checked_material(file).material;
 
   CHECK(material.name == "last");
   CHECK(material.density == 1800);
   CHECK(std::holds_alternative<components::SupportVectorModulus>(modulus_of(material)));
   CHECK(problems_of_reading(folder,
                             [&] {
-                              tools::read_material_file(file, {"/poisson_ratio=1", "/density=null"});
+                              tools::read_checked_material(file, {"/poisson_ratio=1", "/density=null"});
                             }) ==
         "--set#/density: missing; expected a number above 0 [kg/m^3]\n"
         "--set#/poisson_ratio: 1; expected a number above -1 and below 0.5");
   folder.write("more/svr.json", R"({"file": "../sand.json", "density": -1, "poisson_ratio": 2})");
-  CHECK(problems_of_reading(folder, [&] { tools::read_material_file(folder.path() / "more/svr.json"); }) ==
+  CHECK(problems_of_reading(folder, [&] { tools::read_checked_material(folder.path() / "more/svr.json"); }) ==
         "more/svr.json#/density: -1; expected a number above 0 [kg/m^3]\n"
         "more/svr.json#/poisson_ratio: 2; expected a number above -1 and below 0.5");
 }
@@ -264,7 +264,7 @@ TEST_CASE("files of materials that name each other in a ring are reported")
   folder.write("b.json", R"({"file": "a.json"})");
 
   const std::string problems =
-      problems_of_reading(folder, [&] { tools::read_material_file(folder.path() / "a.json"); });
+      problems_of_reading(folder, [&] { tools::read_checked_material(folder.path() / "a.json"); });
 
   CHECK_THAT(problems, Catch::Contains("b.json#/file: ") && Catch::Contains("names itself"));
 }

@@ -22,7 +22,8 @@ double strength(const std::string& table, const std::string& content, const std:
   write_sand(folder);
   std::vector<std::string> all{"/yield/file=" + folder.write(table, content).string()};
   all.insert(all.end(), assignments.begin(), assignments.end());
-  const auto sand = std::get<components::TabularCap>(tools::read_material_file(folder.path() / "sand.json", all).model);
+  const auto sand =
+      std::get<components::TabularCap>(tools::read_checked_material(folder.path() / "sand.json", all).material.model);
   return sand.parameters().yield.strength(1e6).value;
 }
 
@@ -34,7 +35,7 @@ std::string problems(const std::string& table, const std::string& content,
     write_sand(folder);
     std::vector<std::string> all{"/yield/file=" + folder.write(table, content).string()};
     all.insert(all.end(), assignments.begin(), assignments.end());
-    tools::read_material_file(folder.path() / "sand.json", all);
+    tools::read_checked_material(folder.path() / "sand.json", all);
   });
 }
 

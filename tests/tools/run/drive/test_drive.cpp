@@ -38,8 +38,9 @@ Matrix<3> isotropic_stretch(double compaction)
 
 const tasks::SceneMaterial& state_sand()
 {
-  static const auto sand = tools::read_material_file(TAMP_SOURCE_DIR "/inputs/materials/concrete-sand/table.json",
-                                                     {"/elastic_update=state"});
+  static const auto sand = tools::read_checked_material(TAMP_SOURCE_DIR "/inputs/materials/concrete-sand/table.json",
+                                                        {"/elastic_update=state"})
+                               .material;
   return sand;
 }
 
@@ -125,7 +126,7 @@ TEST_CASE("the first point shown is at rest, and increments are as few as the la
 /// The companion of the report read these off its figures, see docs/companion.md: by eye, to about 2 % of 5 GPa.
 TEST_CASE("the report's sand has the stress of its companion's single particle in uniaxial strain to 0.6")
 {
-  const auto sand = tools::read_material_file(TAMP_SOURCE_DIR "/inputs/materials/concrete-sand/table.json");
+  const auto sand = tools::read_checked_material(TAMP_SOURCE_DIR "/inputs/materials/concrete-sand/table.json").material;
 
   const auto points = points_along(sand, path_through({identity, diagonal(0.6, 1, 1)}));
 
@@ -186,8 +187,9 @@ TEST_CASE("sand unloaded hydrostatically follows all five measured unloading cur
 TEST_CASE("on a multiaxial path stress stays within the yield surface")
 {
   for (const char* form : {"state", "rate"}) {
-    const auto material = tools::read_material_file(TAMP_SOURCE_DIR "/inputs/materials/concrete-sand/table.json",
-                                                    {std::string("/elastic_update=") + form});
+    const auto material = tools::read_checked_material(TAMP_SOURCE_DIR "/inputs/materials/concrete-sand/table.json",
+                                                       {std::string("/elastic_update=") + form})
+                              .material;
 
     for (const MaterialPoint& point : points_along(material, multiaxial_path())) {
       REQUIRE(outside(material, point) < 1e-6);
@@ -272,8 +274,9 @@ TEST_CASE("a point that fails says when, and on the way to which row")
 TEST_CASE("the updates of a drive, made side by side for their cost, take the substeps and evaluations that they took")
 {
   for (const char* form : {"state", "rate"}) {
-    const auto material = tools::read_material_file(TAMP_SOURCE_DIR "/inputs/materials/concrete-sand/table.json",
-                                                    {std::string("/elastic_update=") + form});
+    const auto material = tools::read_checked_material(TAMP_SOURCE_DIR "/inputs/materials/concrete-sand/table.json",
+                                                       {std::string("/elastic_update=") + form})
+                              .material;
     const auto points = points_along(material, multiaxial_path(), 5e-3);
     components::UpdateCounts alone;
     for (const MaterialPoint& point : points) alone.add(point.last_update);

@@ -25,7 +25,7 @@ void follow_shipped_sand(const std::string& model)
       "| --- | --- | --- | --- | --- | --- | --- | --- | --- | --- |\n");
   for (const char* form : {"state", "rate"}) {
     const auto material =
-        tools::read_material_file(folder / (model + ".json"), {std::string("/elastic_update=") + form});
+        tools::read_checked_material(folder / (model + ".json"), {std::string("/elastic_update=") + form}).material;
 
     const auto outcome = random_paths::follow(std::get<components::TabularCap>(material.model), 100'000);
 

@@ -2,7 +2,7 @@
 
 #include "tests/tasks/scenes.hpp"
 
-namespace test_affine_transfer
+namespace test_carried_gradients
 {
 
 using namespace tamp;
@@ -137,4 +137,4 @@ TEST_CASE("with any transfer a body meets a mirror as it meets its image")
   CHECK(whole->report().momentum()[1] == Approx(start).epsilon(1e-12));
 }
 
-}  // namespace test_affine_transfer
+}  // namespace test_carried_gradients
