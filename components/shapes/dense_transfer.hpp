@@ -43,6 +43,28 @@ Vector<D> mean_place(const GridBlock<D>& block, const DenseStencil<D, Support>& 
   return place;
 }
 
+/// sum S_i (x_i - x) (x) (x_i - x) of a stencil about `place`, x in cells [m^2].
+template <int D, int Support>
+Matrix<D> second_moments_of(const GridBlock<D>& block, const DenseStencil<D, Support>& stencil, const Vector<D>& place)
+{
+  Matrix<D> sum = Matrix<D>::Zero();
+  for_each_weight(block, stencil, [&](std::ptrdiff_t i, double weight) {
+    const Vector<D> away = block.cell_size * (block.cells_to(i) - place);
+    sum += weight * away * away.transpose();
+  });
+  return sum;
+}
+
+/// m_p S_ip of each node of a particle times `gradient` (x_i - x_p), x in cells.
+template <int D, int Support>
+void add_gradient_momentum(const GridBlock<D>& block, const DenseStencil<D, Support>& stencil, const Vector<D>& place,
+                           const Matrix<D>& gradient, NodeSums<D>* sums)
+{
+  for_each_weight(block, stencil, [&](std::ptrdiff_t node, double weight) {
+    sums[node].add_momentum(weight * (gradient * (block.cells_to(node) - place)));
+  });
+}
+
 template <Dense Interpolator, int D = Interpolator::dimension>
 void add_gradient_momentum(const Interpolator& interpolator, const GridBlock<D>& block, const ParticlePlaces<D>& places,
                            std::span<const double> mass, std::span<const Matrix<D>> velocity_gradient,
@@ -50,10 +72,19 @@ void add_gradient_momentum(const Interpolator& interpolator, const GridBlock<D>&
 {
   for_each_stencil(interpolator, block, places, [&](std::size_t p, const auto& stencil) {
     const Matrix<D> gradient = mass[p] * block.cell_size * velocity_gradient[p];
+    add_gradient_momentum<D>(block, stencil, mean_place(block, stencil), gradient, sums);
+  });
+}
+
+template <Dense Interpolator, int D = Interpolator::dimension>
+void add_affine_momentum(const Interpolator& interpolator, const GridBlock<D>& block, const ParticlePlaces<D>& places,
+                         std::span<const double> mass, std::span<const Matrix<D>> velocity_moments, NodeSums<D>* sums)
+{
+  for_each_stencil(interpolator, block, places, [&](std::size_t p, const auto& stencil) {
     const Vector<D> place = mean_place(block, stencil);
-    for_each_node(block, stencil, [&](std::ptrdiff_t node, double weight, const Vector<D>&) {
-      sums[node].add_momentum(weight * (gradient * (block.cells_to(node) - place)));
-    });
+    const Matrix<D> of_weights = second_moments_of(block, stencil, place);
+    const Matrix<D> gradient = mass[p] * block.cell_size * velocity_moments[p] * of_weights.inverse();
+    add_gradient_momentum<D>(block, stencil, place, gradient, sums);
   });
 }
 
@@ -131,12 +162,7 @@ void second_moments(const Interpolator& interpolator, const GridBlock<D>& block,
                     std::span<Matrix<D>> moments)
 {
   for_each_stencil(interpolator, block, places, [&](std::size_t p, const auto& stencil) {
-    const Vector<D> place = mean_place(block, stencil);
-    moments[p].setZero();
-    for_each_weight(block, stencil, [&](std::ptrdiff_t i, double weight) {
-      const Vector<D> away = block.cell_size * (block.cells_to(i) - place);
-      moments[p] += weight * away * away.transpose();
-    });
+    moments[p] = second_moments_of(block, stencil, mean_place(block, stencil));
   });
 }
 

@@ -37,6 +37,12 @@ class InterpolationBy final : public Interpolation<D>
     components::add_gradient_momentum(shape_, block, places, mass, velocity_gradient, sums);
   }
 
+  void add_affine_momentum(const GridBlock<D>& block, const ParticlePlaces<D>& places, std::span<const double> mass,
+                           std::span<const Matrix<D>> velocity_moments, NodeSums<D>* sums) const override
+  {
+    components::add_affine_momentum(shape_, block, places, mass, velocity_moments, sums);
+  }
+
   void add_forces(const GridBlock<D>& block, const ParticlePlaces<D>& places, std::span<const Vector<D>> force,
                   NodeSums<D>* sums) const override
   {

@@ -33,6 +33,9 @@ class Interpolation
   virtual void add_gradient_momentum(const GridBlock<D>& block, const ParticlePlaces<D>& places,
                                      std::span<const double> mass, std::span<const Matrix<D>> velocity_gradient,
                                      NodeSums<D>* sums) const = 0;
+  virtual void add_affine_momentum(const GridBlock<D>& block, const ParticlePlaces<D>& places,
+                                   std::span<const double> mass, std::span<const Matrix<D>> velocity_moments,
+                                   NodeSums<D>* sums) const = 0;
   virtual void add_forces(const GridBlock<D>& block, const ParticlePlaces<D>& places, std::span<const Vector<D>> force,
                           NodeSums<D>* sums) const = 0;
   virtual void grid_to_particles(const GridBlock<D>& block, const ParticlePlaces<D>& places, const NodeMotion<D>* nodes,

@@ -120,17 +120,15 @@ Stencil<D, Support> with_moments(Stencil<D, Support> stencil, double cell_size)
   return stencil;
 }
 
-/// sum S_i (x_i - x) (x) (x_i - x) of a stencil, its weights' second moments about the particle [m^2]. Those of two
-/// axes are products of first moments, which are zero.
+/// sum S_i (x_i - x)_k^2 of a stencil that has first moments in place of slopes: its weights' second moments about the
+/// particle along each axis [m^2]. Those of two axes are products of first moments, which are zero.
 template <int D, int Support>
-Matrix<D> second_moments(const Stencil<D, Support>& stencil, double cell_size)
+Vector<D> second_moments_of(const Stencil<D, Support>& with_moments, double cell_size)
 {
-  const auto moments = with_moments(stencil, cell_size);
-  Matrix<D> sum = Matrix<D>::Zero();
+  Vector<D> sum = Vector<D>::Zero();
   for (std::size_t k = 0; k < D; ++k) {
-    const int axis = static_cast<int>(k);
     for (std::size_t i = 1; i < Support; ++i) {
-      sum(axis, axis) += moments.slope[k][i] * static_cast<double>(i) * cell_size;
+      sum[static_cast<int>(k)] += with_moments.slope[k][i] * static_cast<double>(i) * cell_size;
     }
   }
   return sum;

@@ -94,6 +94,28 @@ void particles_to_grid(const Interpolator& interpolator, const GridBlock<D>& blo
   });
 }
 
+/// Adds to the momenta of the nodes of a particle m_p S_ip grad v_p (x_i - x_p): `gradient` is m_p grad v_p, and
+/// `stencil` has moments in place of slopes.
+template <int D, int Support>
+[[gnu::always_inline]] inline void add_gradient_momentum(const GridBlock<D>& block, const Stencil<D, Support>& stencil,
+                                                         const Matrix<D>& gradient, NodeSums<D>* sums)
+{
+  // Momenta follow the mass in the first four of a node, to which 0 is added.
+  std::array<Quad, D> columns;
+  for (int k = 0; k < D; ++k) {
+    columns[static_cast<std::size_t>(k)] = quad(0, gradient(0, k), gradient(1, k), D == 3 ? gradient(D - 1, k) : 0);
+  }
+  const auto weight = in_fours(stencil.weight[0]), moment = in_fours(stencil.slope[0]);
+  for_each_row<D>(block, stencil, [&, sums](const StencilRow<D>& row) {
+    Quad by_weight = row.slope_across[0] * columns[1];
+    if constexpr (D == 3) by_weight += row.slope_across[1] * columns[2];
+    const Quad by_moment = row.across * columns[0];
+    for (std::size_t i = 0; i < Support; ++i) {
+      sums[row.first + static_cast<std::ptrdiff_t>(i)].add(0, weight[i] * by_weight + moment[i] * by_moment);
+    }
+  });
+}
+
 /// Adds to the momenta of nodes the velocities there by the particles' velocity gradients,
 /// m_p S_ip grad v_p (x_i - x_p), row of grad v: component of velocity (Wallstedt & Guilkey, CMES 19, 2007). A rigid
 /// motion then comes to the grid as it is, where without it nodes at a surface get the velocity of the matter that they
@@ -103,18 +125,22 @@ void add_gradient_momentum(const Interpolator& interpolator, const GridBlock<D>&
                            std::span<const double> mass, std::span<const Matrix<D>> velocity_gradient,
                            NodeSums<D>* sums)
 {
+  for_each_stencil(interpolator, block, places, [&](std::size_t p, const auto& stencil) {
+    add_gradient_momentum<D>(block, with_moments(stencil, block.cell_size), mass[p] * velocity_gradient[p], sums);
+  });
+}
+
+/// Adds to the momenta of nodes m_p S_ip C_p (x_i - x_p), C_p = B_p D_p^-1, where particles bring first moments B_p of
+/// velocities and the second moments D_p of their weights have no products of two axes (APIC, see apic.hpp).
+template <class Interpolator, int D = Interpolator::dimension>
+void add_affine_momentum(const Interpolator& interpolator, const GridBlock<D>& block, const ParticlePlaces<D>& places,
+                         std::span<const double> mass, std::span<const Matrix<D>> velocity_moments, NodeSums<D>* sums)
+{
   for_each_stencil(interpolator, block, places, [&](std::size_t p, const auto& of_particle) {
-    const Matrix<D> gradient = mass[p] * velocity_gradient[p];
     const auto stencil = with_moments(of_particle, block.cell_size);
-    for_each_row<D>(block, stencil, [&](const StencilRow<D>& row) {
-      Vector<D> by_weight = Vector<D>::Zero();
-      for (int k = 1; k < D; ++k) by_weight += row.slope_across[k - 1] * gradient.col(k);
-      const Vector<D> by_moment = row.across * gradient.col(0);
-      for (std::size_t i = 0; i < Interpolator::support; ++i) {
-        sums[row.first + static_cast<std::ptrdiff_t>(i)].add_momentum(stencil.weight[0][i] * by_weight +
-                                                                      stencil.slope[0][i] * by_moment);
-      }
-    });
+    const Vector<D> of_weights = second_moments_of(stencil, block.cell_size);
+    const Matrix<D> gradient = mass[p] * velocity_moments[p] * of_weights.cwiseInverse().asDiagonal();
+    add_gradient_momentum<D>(block, stencil, gradient, sums);
   });
 }
 
@@ -233,17 +259,23 @@ void velocity_moments(const Interpolator& interpolator, const GridBlock<D>& bloc
 {
   for_each_stencil(interpolator, block, places, [&](std::size_t p, const auto& of_particle) {
     const auto stencil = with_moments(of_particle, block.cell_size);
-    moments[p].setZero();
+    std::array<Quad, D> columns;
+    columns.fill(0);
     for_each_row<D>(block, stencil, [&](const StencilRow<D>& row) {
-      Vector<D> by_weight = Vector<D>::Zero(), by_moment = Vector<D>::Zero();
+      Quad by_weight = 0, by_moment = 0;
       for (std::size_t i = 0; i < Interpolator::support; ++i) {
-        const Vector<D> velocity = nodes[row.first + static_cast<std::ptrdiff_t>(i)].velocity();
+        const Quad velocity = nodes[row.first + static_cast<std::ptrdiff_t>(i)].four(0);
         by_weight += stencil.weight[0][i] * velocity;
         by_moment += stencil.slope[0][i] * velocity;
       }
-      moments[p].col(0) += row.across * by_moment;
-      for (int k = 1; k < D; ++k) moments[p].col(k) += row.slope_across[k - 1] * by_weight;
+      columns[0] += row.across * by_moment;
+      for (int k = 1; k < D; ++k) columns[static_cast<std::size_t>(k)] += row.slope_across[k - 1] * by_weight;
     });
+    for (int i = 0; i < D; ++i) {
+      for (int k = 0; k < D; ++k) {
+        moments[p](i, k) = columns[static_cast<std::size_t>(k)][static_cast<std::size_t>(i)];
+      }
+    }
   });
 }
 
@@ -252,8 +284,10 @@ template <class Interpolator, int D = Interpolator::dimension>
 void second_moments(const Interpolator& interpolator, const GridBlock<D>& block, const ParticlePlaces<D>& places,
                     std::span<Matrix<D>> moments)
 {
-  for_each_stencil(interpolator, block, places,
-                   [&](std::size_t p, const auto& stencil) { moments[p] = second_moments(stencil, block.cell_size); });
+  for_each_stencil(interpolator, block, places, [&](std::size_t p, const auto& stencil) {
+    const auto with = with_moments(stencil, block.cell_size);
+    moments[p] = second_moments_of(with, block.cell_size).asDiagonal();
+  });
 }
 
 /// h^2 m_p sum |grad S_ip|^2 / m_i, a pure number: how stiff a particle makes its nodes by itself, and so how fast they

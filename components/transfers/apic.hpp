@@ -18,11 +18,4 @@ struct Apic : Pic {
   static constexpr CarriedGradient carried_gradient = CarriedGradient::moment;
 };
 
-/// C_p [1/s].
-template <int D>
-Matrix<D> affine_gradient(const Matrix<D>& first_moment, const Matrix<D>& second_moment)
-{
-  return first_moment * second_moment.inverse();
-}
-
 }  // namespace tamp::components

@@ -1,8 +1,5 @@
 #pragma once
 
-#include <span>
-#include <vector>
-
 #include "components/shapes/transfer.hpp"
 #include "tasks/labels.hpp"
 #include "tasks/method.hpp"
@@ -11,21 +8,6 @@
 
 namespace tamp::tasks
 {
-
-/// The gradients [1/s] that moments of velocity come to with the weights of this step.
-template <int D>
-std::vector<Matrix<D>> affine_gradients(const components::Interpolation<D>& interpolation,
-                                        const components::GridBlock<D>& block,
-                                        const components::ParticlePlaces<D>& places,
-                                        std::span<const Matrix<D>> velocity_moments)
-{
-  std::vector<Matrix<D>> gradients(places.size());
-  interpolation.second_moments(block, places, gradients);
-  for (std::size_t p = 0; p < gradients.size(); ++p) {
-    gradients[p] = components::affine_gradient<D>(velocity_moments[p], gradients[p]);
-  }
-  return gradients;
-}
 
 /// Adds to the momenta of nodes what particles bring beside their velocities, where the transfer has them do so.
 template <int D, class Data>
@@ -37,10 +19,7 @@ void bring_gradients(const components::Interpolation<D>& interpolation, const co
   const auto gradients = data[particle::velocity_gradient<D>];
   const auto moments = data[particle::velocity_moment<D>];
   if (!gradients.empty()) interpolation.add_gradient_momentum(block, places, mass, gradients, sums);
-  if (!moments.empty()) {
-    interpolation.add_gradient_momentum(block, places, mass, affine_gradients<D>(interpolation, block, places, moments),
-                                        sums);
-  }
+  if (!moments.empty()) interpolation.add_affine_momentum(block, places, mass, moments, sums);
 }
 
 /// Adds to the grid the image of what is scattered behind a wall.

@@ -376,4 +376,37 @@ TEMPLATE_TEST_CASE_SIG("dense stencils take from the grid what they give to it",
   CHECK((motion[0].velocity_gradient - expected.velocity_gradient).norm() * cell_size < 1e-13);
 }
 
+TEMPLATE_TEST_CASE_SIG(
+    "first moments of velocity are brought as the gradients by which the weights' second moments divide", "",
+    ((int D), D), 2, 3)
+{
+  const auto block = block_of_nodes<D>(7, cell_size);
+  std::mt19937 random(9);
+  const std::vector<Vector<D>> position{random_place(block, random)};
+  const std::vector<Matrix<D>> deformation{random_deformation<D>(0.3, random)},
+      moment{random_deformation<D>(3, random)};
+  const std::vector<double> mass{1.7};
+  for (const Interpolator interpolator : all_interpolators()) {
+    if (!has_second_moments(interpolator)) continue;
+    INFO(interpolator.word());
+    const auto interpolation = Interpolation<D>::make(interpolator, 2);
+    const auto shape = shape_of<D>(interpolator, 2, block, position[0], deformation[0]);
+    std::vector<NodeSums<D>> sums(static_cast<std::size_t>(n_nodes_of(block)));
+
+    interpolation->add_affine_momentum(block, {position, deformation}, mass, moment, sums.data());
+
+    Matrix<D> of_weights = Matrix<D>::Zero();
+    const auto away = [&](std::size_t i) -> Vector<D> {
+      return node_position(block, static_cast<std::ptrdiff_t>(i)) - position[0];
+    };
+    for (std::size_t i = 0; i < sums.size(); ++i) of_weights += shape[i].weight * away(i) * away(i).transpose();
+    const Matrix<D> gradient = moment[0] * of_weights.inverse();
+    for (std::size_t i = 0; i < sums.size(); ++i) {
+      const Vector<D> expected = mass[0] * shape[i].weight * gradient * away(i);
+      REQUIRE((sums[i].momentum() - expected).norm() < 1e-11 * gradient.norm() * cell_size);
+      REQUIRE(sums[i].mass() == 0);
+    }
+  }
+}
+
 }  // namespace test_interpolators
