@@ -17,8 +17,8 @@
 #include "tools/scene/read_network.hpp"
 #include "tools/scene/read_support_vectors.hpp"
 #include "tools/scene/unloading_curves.hpp"
+#include "tools/system/processor_time.hpp"
 #include "tools/system/statistics.hpp"
-#include "tools/system/thread_time.hpp"
 
 namespace tamp::tools::bench
 {

@@ -1,20 +1,15 @@
 #include "tools/bench/particle_steps.hpp"
 
 #include <chrono>
-#include <ctime>
 #include <stdexcept>
+
+#include "tools/system/processor_time.hpp"
 
 namespace tamp::tools::bench
 {
 
 namespace
 {
-
-/// Processor time of this program [s]: on one thread, other programs are not counted.
-double processor_seconds()
-{
-  return static_cast<double>(std::clock()) / CLOCKS_PER_SEC;
-}
 
 using WallClock = std::chrono::steady_clock;
 
@@ -27,7 +22,7 @@ class StepsClock
       : simulation_(simulation),
         updates_(simulation.updates()),
         first_step_(simulation.n_steps()),
-        start_(processor_seconds()),
+        start_(process_seconds()),
         wall_start_(WallClock::now())
   {
   }
@@ -36,20 +31,21 @@ class StepsClock
   template <class Work>
   void pause(const Work& work)
   {
-    const double begin = processor_seconds();
+    const double begin = process_seconds();
     const WallClock::time_point wall_begin = WallClock::now();
     work();
-    start_ += processor_seconds() - begin;
+    start_ += process_seconds() - begin;
     wall_start_ += WallClock::now() - wall_begin;
   }
 
   StepsTime time() const
   {
-    const double seconds = processor_seconds() - start_;
+    const double seconds = process_seconds() - start_;
     const double wall = std::chrono::duration<double>(WallClock::now() - wall_start_).count();
     const long n_steps = simulation_.n_steps() - first_step_;
     const double updates = particles_of(simulation_.scene()) * static_cast<double>(n_steps);
-    StepsTime time{n_steps, wall, seconds / updates * 1e9, 0, {}, least_work(simulation_, updates_, n_steps)};
+    StepsTime time{
+        n_steps, wall, seconds / wall, seconds / updates * 1e9, 0, {}, least_work(simulation_, updates_, n_steps)};
     time.ns_between_tasks = time.ns;
     for (const runtime::TaskStatistics& task : simulation_.engine().profile().tasks) {
       const double ns = task.total_s * seconds / wall * 1e9;

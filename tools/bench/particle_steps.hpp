@@ -23,6 +23,8 @@ struct StepsTime {
   long n_steps = 0;
   /// Wall-clock time [s].
   double wall = 0;
+  /// The part of it in which these steps had a core; other programs had it for the rest.
+  double core_share = 0;
   /// Processor time per particle and step; of it what is no task.
   double ns = 0;
   double ns_between_tasks = 0;

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <chrono>
 
 #include "runtime/storage/temporary_folder.hpp"
 #include "tasks/forecast/demand.hpp"
@@ -11,6 +10,7 @@
 #include "tools/bench/peak_rate.hpp"
 #include "tools/bench/triad.hpp"
 #include "tools/scene/read_scene.hpp"
+#include "tools/system/processor_time.hpp"
 #include "tools/system/statistics.hpp"
 
 namespace tamp::tools::bench
@@ -37,9 +37,9 @@ struct MeasuredWindow {
 
 double seconds_of_step(tasks::Simulation& simulation)
 {
-  const auto start = std::chrono::steady_clock::now();
+  const double start = process_seconds();
   simulation.advance(simulation.scene().time.end);
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  return process_seconds() - start;
 }
 
 /// Neighbouring steps do the same work: each recorded one is compared with the one after it, which is not.
@@ -224,6 +224,13 @@ class WindowBenchmark
     arithmetic_.push_back(multiplies_and_adds_per_second());
   }
 
+  /// Whether other programs had the core for so long that caches and memory were theirs, too.
+  bool is_too_busy() const
+  {
+    constexpr double least_share = 0.9;
+    return whole_.time.core_share < least_share;
+  }
+
   Machine machine() const { return {median(bandwidth_), median(arithmetic_)}; }
 
   Json json() const
@@ -235,6 +242,8 @@ class WindowBenchmark
     all["triad_gb_per_s"] = machine().bandwidth * 1e-9;
     all["multiply_add_gop_per_s"] = machine().arithmetic * 1e-9;
     all["recording_overhead"] = recording_overhead_;
+    all["core_share"] = whole_.time.core_share;
+    all["too_busy"] = is_too_busy();
     all["windows"] = Json::array();
     for (const MeasuredWindow& measured : windows_) {
       Json window{{"name", measured.window.name}, {"from", measured.window.begin}};
@@ -262,6 +271,9 @@ class WindowBenchmark
                "\n  one thread moves {:.2f} GB/s (triad), and makes {:.1f} multiplies and adds in a nanosecond\n"
                "  recording tasks costs {:.2f} %\n",
                machine().bandwidth * 1e-9, machine().arithmetic * 1e-9, recording_overhead_ * 100) +
+           (is_too_busy() ? fmt::format("  too busy to trust: other programs had this core for {:.0f} % of the time\n",
+                                        100 * (1 - whole_.time.core_share))
+                          : "") +
            memory_text(memory_of(scene_));
   }
 

@@ -1,7 +1,6 @@
 #include "tools/run/machine_history.hpp"
 
 #include <array>
-#include <ctime>
 #include <string>
 #include <utility>
 #include <vector>
@@ -9,6 +8,7 @@
 #include "runtime/ranks/on_all_ranks.hpp"
 #include "tools/scene/csv_table.hpp"
 #include "tools/system/capacity.hpp"
+#include "tools/system/processor_time.hpp"
 
 namespace tamp::tools
 {
@@ -21,14 +21,6 @@ const std::vector<std::string>& machine_columns()
   static const std::vector<std::string> names{"step",         "time[s]",          "wall[s]",
                                               "processor[s]", "wall_per_step[s]", "rss[B]"};
   return names;
-}
-
-/// Processor time of all threads of this process [s].
-double process_seconds()
-{
-  timespec now{};
-  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
-  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
 }
 
 /// Processor time [s] and resident memory [bytes] of a rank.

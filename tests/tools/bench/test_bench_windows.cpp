@@ -1,6 +1,9 @@
 #include <catch2/catch.hpp>
+#include <deque>
 #include <nlohmann/json.hpp>
+#include <thread>
 
+#include "tests/tools/background_program.hpp"
 #include "tests/tools/program.hpp"
 #include "tools/bench/peak_rate.hpp"
 
@@ -40,6 +43,8 @@ TEST_CASE("the benchmark of a scene tells windows from the whole, phases, bounds
   const auto json = nlohmann::json::parse(read_text(file)).at("projectile");
   CHECK(json.at("scene") == "ball.json");
   CHECK(json.at("steps") == 40);
+  CHECK(json.at("core_share") > 0.0);
+  CHECK(json.at("too_busy") == (json.at("core_share") < 0.9));
   REQUIRE(json.at("windows").size() == 3);
   for (const auto& window : json.at("windows")) CHECK(window.at("steps") == 4);
   for (const auto& part : {json, json.at("windows").at(1)}) {
@@ -63,6 +68,27 @@ TEST_CASE("the benchmark of a scene tells windows from the whole, phases, bounds
   CHECK(json.at("bytes").at("with_grid") > bytes.at("all"));
   CHECK_THAT(outcome.out, Catch::Contains("projectile: ball.json") && Catch::Contains("grid to particles") &&
                               Catch::Contains("fit into 16 GB"));
+}
+
+TEST_CASE("on a machine that others keep busy the benchmark says that it was too busy to trust")
+{
+  const TemporaryFolder folder;
+  // In enough steps to lose the core while they run.
+  nlohmann::json slow_ball = nlohmann::json::parse(falling_ball);
+  slow_ball["time"]["maximum_step"] = 2e-5;
+  const std::string scene = folder.write("ball.json", slow_ball.dump()).string();
+  const std::string file = (folder.path() / "bench.json").string();
+  const std::string loop = folder.write("loop.sh", "while :; do :; done").string();
+  std::deque<BackgroundProgram> others;
+  for (unsigned i = 0; i < 3 * std::thread::hardware_concurrency(); ++i) others.emplace_back("/bin/sh", loop);
+
+  const Outcome outcome = tamp_with("bench projectile --scene " + scene + " --steps 4 --rounds 1 --json " + file);
+
+  REQUIRE(outcome.exit_code == 0);
+  const auto json = nlohmann::json::parse(read_text(file)).at("projectile");
+  CHECK(json.at("core_share") < 0.9);
+  CHECK(json.at("too_busy") == true);
+  CHECK_THAT(outcome.out, Catch::Contains("too busy to trust"));
 }
 
 TEST_CASE("a benchmark of a scene that is not there, or of windows without steps, is refused")

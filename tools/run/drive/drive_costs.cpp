@@ -3,8 +3,8 @@
 #include <algorithm>
 
 #include "components/kinematics/strain_increment.hpp"
+#include "tools/system/processor_time.hpp"
 #include "tools/system/statistics.hpp"
-#include "tools/system/thread_time.hpp"
 
 namespace tamp::tools
 {

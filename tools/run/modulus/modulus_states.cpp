@@ -8,8 +8,8 @@
 
 #include "tools/run/modulus/modulus_timing.hpp"
 #include "tools/scene/csv_table.hpp"
+#include "tools/system/processor_time.hpp"
 #include "tools/system/statistics.hpp"
-#include "tools/system/thread_time.hpp"
 
 namespace tamp::tools
 {

@@ -1,7 +1,7 @@
 #include "tools/run/modulus/modulus_timing.hpp"
 
 #include "components/moduli/elastic_model.hpp"
-#include "tools/system/thread_time.hpp"
+#include "tools/system/processor_time.hpp"
 
 namespace tamp::tools::compare
 {

@@ -3,8 +3,9 @@
 namespace tamp::tools
 {
 
-/// Processor time of this thread [s]: what others do on the machine does not count.
+/// Processor time of this thread, and of all threads of this process [s]: other work on the machine does not count.
 double thread_seconds();
+double process_seconds();
 
 /// Time that one call of `work` takes on this thread [s], from enough repetitions to be measured.
 template <class Work>
