@@ -290,6 +290,17 @@ inline void set_side_by_side(const std::array<Lanes, n>& numbers, const std::arr
   });
 }
 
+/// The numbers of each lane, one after the other.
+template <std::size_t n>
+inline std::array<std::array<double, n>, n_lanes> by_lane(const std::array<Lanes, n>& numbers)
+{
+  std::array<std::array<double, n>, n_lanes> rows;
+  std::array<double*, n_lanes> places;
+  for (std::size_t l = 0; l < n_lanes; ++l) places[l] = rows[l].data();
+  set_side_by_side(numbers, places, n_lanes);
+  return rows;
+}
+
 }  // namespace tamp
 
 /// Lanes as the numbers of a matrix.

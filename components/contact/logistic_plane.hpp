@@ -1,14 +1,11 @@
 #pragma once
 
 #include <array>
-#include <cmath>
-#include <cstddef>
 #include <cstdint>
-#include <span>
 
+#include "components/lanes.hpp"
 #include "components/portable_math.hpp"
-#include "components/shapes/grid_block.hpp"
-#include "components/shapes/stencil.hpp"
+#include "components/shapes/node_sums.hpp"
 #include "components/tensors.hpp"
 
 /// The plane at a grid node that best parts the particles of two materials, by logistic regression, and how far the
@@ -23,8 +20,8 @@ template <int D>
 struct ContactPlane {
   /// -1: this material is the first of the pair, the normal points out of it. +1: the second.
   std::int8_t side = 0;
-  /// Whether a particle whose stencil starts here reaches a node with a plane.
-  bool starts_near = false;
+  /// Whether a particle in the cell that begins here may reach a node with a plane.
+  bool is_near_cell = false;
   /// (n, d): n . x + d is negative in the first material. The longer n, the sharper the materials are parted.
   Vector<D + 1> coefficients = Vector<D + 1>::Zero();
 
@@ -39,52 +36,89 @@ struct ContactPlane {
   }
 };
 
+/// A particle seen from a node with a plane. Number is double, or Lanes for as many particles and nodes.
+template <int D, class Number>
+struct PartedParticle {
+  /// Of the plane, as the particle's material sees it.
+  Number side;
+  Vector<D + 1, Number> coefficients;
+  /// S_ip
+  Number shape;
+  Vector<D, Number> x;
+};
+
 /// Parts of the particles of one material in gradient and Hessian of the cost sum_p w_p log(1 + exp(-y_p z_p . phi))
 /// with z = (x, 1), y = -1 in the first material and +1 in the second. Weights w are the roots of S_ip: more
 /// even, they see more of the surface than S_ip itself, and still fade in and out as particles move.
 template <int D>
-struct RegressionSums {
-  Vector<D + 1> gradient = Vector<D + 1>::Zero();
-  /// Its lower triangle alone is used.
-  Matrix<D + 1> hessian = Matrix<D + 1>::Zero();
-  /// sum w_p
-  double weight = 0;
+struct RegressionSums : NodeValues<D, D == 2 ? 12 : 16, 1> {
+  static constexpr int n = D + 1;
+  static constexpr int at_gradient = 1, at_hessian = 1 + n, n_used = at_hessian + n * (n + 1) / 2;
+  template <class Number>
+  using Share = std::array<Number, n_used>;
 
-  /// `shape` is S_ip of the particle.
-  void add(const ContactPlane<D>& plane, double shape, const Vector<D>& x)
+  /// sum w_p
+  double weight() const { return this->values[0]; }
+  Vector<n> gradient() const { return this->values.template segment<n>(at_gradient).matrix(); }
+  /// Its lower triangle alone.
+  Matrix<n> hessian() const
   {
-    Vector<D + 1> z;
-    z << x, 1;
-    const double w = std::sqrt(shape);
+    Matrix<n> lower = Matrix<n>::Zero();
+    for_each_of_hessian([&](int at, int i, int k) { lower(i, k) = this->values[at]; });
+    return lower;
+  }
+
+  /// What a particle adds to the values.
+  template <class Number>
+  static Share<Number> share(const PartedParticle<D, Number>& particle)
+  {
+    Vector<n, Number> z;
+    z << particle.x, Number(1.0);
+    const Number w = sqrt(particle.shape);
     // The fit's probability that the particle lies on the other side.
-    const double other_side = 1 / (1 + portable::exp(plane.side * z.dot(plane.coefficients)));
-    weight += w;
-    gradient -= w * plane.side * other_side * z;
-    hessian += w * other_side * (1 - other_side) * z * z.transpose();
+    const Number other_side = 1.0 / (1.0 + portable::exp(Number(particle.side * z.dot(particle.coefficients))));
+    const Number slope = w * particle.side * other_side, curvature = w * other_side * (1.0 - other_side);
+    Share<Number> share;
+    share[0] = w;
+    for (int k = 0; k < n; ++k) share[static_cast<std::size_t>(at_gradient + k)] = -(slope * z[k]);
+    for_each_of_hessian([&](int at, int i, int k) { share[static_cast<std::size_t>(at)] = curvature * z[i] * z[k]; });
+    return share;
   }
 
   RegressionSums& operator+=(const RegressionSums& other)
   {
-    gradient += other.gradient;
-    hessian += other.hessian;
-    weight += other.weight;
+    this->values += other.values;
     return *this;
   }
   void hold_on_mirror(int axis)
   {
-    const double own = hessian(axis, axis);
-    gradient[axis] = 0;
-    hessian.row(axis).setZero();
-    hessian.col(axis).setZero();
-    hessian(axis, axis) = own;
+    for_each_across(axis, [](double& value) { value = 0; });
   }
   RegressionSums mirrored(int axis) const
   {
     RegressionSums image = *this;
-    image.gradient[axis] = -gradient[axis];
-    image.hessian.row(axis) *= -1;
-    image.hessian.col(axis) *= -1;
+    image.for_each_across(axis, [](double& value) { value *= -1; });
     return image;
+  }
+
+ private:
+  /// Calls `visit(at, i, k)` for element (i, k) of the lower triangle of the Hessian, which is the value number `at`.
+  template <class Visit>
+  static constexpr void for_each_of_hessian(const Visit& visit)
+  {
+    int at = at_hessian;
+    for (int k = 0; k < n; ++k) {
+      for (int i = k; i < n; ++i) visit(at++, i, k);
+    }
+  }
+  /// The values that a mirror normal to `axis` turns round.
+  template <class Visit>
+  void for_each_across(int axis, const Visit& visit)
+  {
+    visit(this->values[at_gradient + axis]);
+    for_each_of_hessian([&](int at, int i, int k) {
+      if ((i == axis) != (k == axis)) visit(this->values[at]);
+    });
   }
 };
 
@@ -98,16 +132,22 @@ Vector<D + 1> newton_step(const Vector<D + 1>& plane, const RegressionSums<D>& f
 /// round body seems to touch too, which keeps it from rolling; the narrower, the more the edge jitters.
 template <int D>
 struct EdgeSums {
+  template <class Number>
+  using Share = std::array<Number, 2>;
+
   double weight = 0;
   double moment = 0;
 
-  /// Particles of edge `size`. Of many layers, each a size behind the one before, the outermost has the say.
-  void add(const ContactPlane<D>& plane, double shape, const Vector<D>& x, double size)
+  /// What a particle of edge `size` adds to weight and moment. Of many layers, each a size behind the one before, the
+  /// outermost has the say.
+  template <class Number>
+  static Share<Number> share(const PartedParticle<D, Number>& particle, double size)
   {
-    const double place = -plane.side * x.dot(plane.normal());
-    const double say = shape * portable::exp(sharpness / size * place);
-    weight += say;
-    moment += say * place;
+    const Vector<D, Number> n = particle.coefficients.template head<D>();
+    const Number square = n.squaredNorm(), length = select(square > 0.0, Number(sqrt(square)), Number(1.0));
+    const Number place = -particle.side * particle.x.dot(n / length);
+    const Number say = particle.shape * portable::exp(Number(sharpness / size * place));
+    return {say, say * place};
   }
   /// Exact for layers of particles up to the edge. An edge that cuts through the layers seems to be 0.22 sizes further
   /// out, as the particles along it reach out by up to half their size.
@@ -125,25 +165,5 @@ struct EdgeSums {
   /// The weight falls by exp(-sharpness) from layer to layer.
   static constexpr double sharpness = 3;
 };
-
-/// Marks where the stencils of `support` nodes an axis start that reach a node with a plane.
-template <int D>
-void mark_starts(const GridBlock<D>& block, int support, ContactPlane<D>* planes);
-
-/// Calls `visit(node, S_ip, x)` for every particle and every node with a plane that it reaches, x being the particle
-/// seen from the node.
-template <class Interpolator, int D = Interpolator::dimension, class Visit>
-void for_each_parted(const Interpolator& interpolator, const GridBlock<D>& block, const ContactPlane<D>* planes,
-                     const ParticlePlaces<D>& places, Visit&& visit)
-{
-  for_each_stencil(interpolator, block, places, [&](std::size_t p, const auto& stencil) {
-    if (!planes[stencil.first].starts_near) return;
-    const Vector<D> place = block.in_cells(places.position[p]);
-    for_each_weight(block, stencil, [&](std::ptrdiff_t node, double shape) {
-      if (planes[node].side == 0 || !(shape > 0)) return;
-      visit(node, shape, Vector<D>(place - block.cells_to(node)));
-    });
-  });
-}
 
 }  // namespace tamp::components

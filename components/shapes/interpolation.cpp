@@ -1,8 +1,6 @@
 #include "components/shapes/interpolation.hpp"
 
-#include <algorithm>
-#include <cstddef>
-
+#include "components/contact/parted_particles.hpp"
 #include "components/loads/time_step.hpp"
 #include "components/shapes/dense_transfer.hpp"
 
@@ -91,26 +89,16 @@ class InterpolationBy final : public Interpolation<D>
     components::add_pressure(shape_, block, places, pressure, sums);
   }
 
-  void mark_planes(const GridBlock<D>& block, ContactPlane<D>* planes) const override
-  {
-    mark_starts(block, Shape::support, planes);
-  }
-
   void add_regression(const GridBlock<D>& block, const ParticlePlaces<D>& places, const ContactPlane<D>* planes,
                       RegressionSums<D>* sums) const override
   {
-    for_each_parted(shape_, block, planes, places, [&](std::ptrdiff_t node, double weight, const Vector<D>& x) {
-      sums[node].add(planes[node], weight, x);
-    });
+    components::add_regression(shape_, block, places, planes, sums);
   }
 
   void add_edges(const GridBlock<D>& block, const ParticlePlaces<D>& places, const ContactPlane<D>* planes,
                  EdgeSums<D>* sums) const override
   {
-    const double size = 1.0 / n_per_axis_;
-    for_each_parted(shape_, block, planes, places, [&](std::ptrdiff_t node, double weight, const Vector<D>& x) {
-      sums[node].add(planes[node], weight, x, size);
-    });
+    components::add_edges(shape_, 1.0 / n_per_axis_, block, places, planes, sums);
   }
 
  private:

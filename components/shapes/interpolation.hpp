@@ -55,8 +55,7 @@ class Interpolation
   virtual void add_pressure(const GridBlock<D>& block, const ParticlePlaces<D>& places,
                             std::span<const ByFace<D>> pressure, PressureSums<D>* sums) const = 0;
 
-  /// Marks the nodes that tell `add_regression` and `add_edges` which particles reach a node with a plane.
-  virtual void mark_planes(const GridBlock<D>& block, ContactPlane<D>* planes) const = 0;
+  /// Near cells must be marked, see components::mark_near_cells.
   virtual void add_regression(const GridBlock<D>& block, const ParticlePlaces<D>& places, const ContactPlane<D>* planes,
                               RegressionSums<D>* sums) const = 0;
   virtual void add_edges(const GridBlock<D>& block, const ParticlePlaces<D>& places, const ContactPlane<D>* planes,

@@ -4,7 +4,7 @@
 #include <string>
 #include <utility>
 
-#include "components/contact/logistic_plane.hpp"
+#include "components/contact/parted_particles.hpp"
 #include "tasks/labels.hpp"
 #include "tasks/phases/phases.hpp"
 #include "tasks/phases/places.hpp"
@@ -72,10 +72,10 @@ void mirror(const Method<D>& method, const TaskContext& at, const PerGroup<GridV
 }
 
 template <int D>
-bool any_starts(const GridView<const ContactPlane<D>>& planes)
+bool any_plane(const GridView<const ContactPlane<D>>& planes)
 {
   bool any = false;
-  for_each(planes.box(), [&](const Index& i) { any |= planes[i].starts_near; });
+  for_each(planes.box(), [&](const Index& i) { any |= planes[i].side != 0; });
   return any;
 }
 
@@ -98,8 +98,8 @@ runtime::TaskDeclaration lay_planes(const Method<D>& method)
           }
         });
         mirror(method, at, planes);
-        for (std::size_t g = 0; g < planes.size(); ++g) {
-          method.interpolation(static_cast<int>(g)).mark_planes(block_of<D>(at.layout, planes[g]), planes[g].data());
+        for (const GridView<ContactPlane<D>>& plane : planes) {
+          components::mark_near_cells(block_of<D>(at.layout, plane), plane.data());
         }
       });
 }
@@ -118,7 +118,7 @@ runtime::TaskDeclaration sum_at_planes(const Method<D>& method, std::string name
       .body([&method, &label, add](const TaskContext& at, auto data) {
         const auto planes = data[node::contact_plane<D>];
         const auto sums = data[label];
-        if (!any_starts(planes)) return;
+        if (!any_plane(planes)) return;
         add(method.interpolation(at.group), block_of<D>(at.layout, planes), places_at_start<D>(data), planes.data(),
             sums.data());
         for_each_wall(method, at, sums.box(), [&](const Wall<D>& wall) { wall.image.fold(sums.data()); });
@@ -141,7 +141,7 @@ runtime::TaskDeclaration turn_planes(const Method<D>& method, std::string name)
           if (!pair) return;
           const auto& [first, second] = *pair;
           // Beyond a mirror nothing may have come; such nodes take the plane of their mirror node.
-          if (!(sums[first][i].weight > 0 && sums[second][i].weight > 0)) return;
+          if (!(sums[first][i].weight() > 0 && sums[second][i].weight() > 0)) return;
           planes[first][i].coefficients = planes[second][i].coefficients =
               components::newton_step<D>(planes[first][i].coefficients, sums[first][i], sums[second][i]);
         });

@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "components/contact/friction.hpp"
-#include "components/contact/logistic_plane.hpp"
-#include "components/shapes/gimp.hpp"
+#include "components/contact/parted_particles.hpp"
+#include "components/shapes/interpolator.hpp"
 
 namespace test_logistic_plane
 {
@@ -63,9 +63,7 @@ struct Around {
   {
     ContactPlane<D> plane;
     for (int pass = 0; pass < n_passes; ++pass) {
-      const auto add = [](RegressionSums<D>& sums, const ContactPlane<D>& p, double shape, const Vector<D>& x) {
-        sums.add(p, shape, x);
-      };
+      const auto add = [](const auto&... rest) { add_regression(Gimp<D>(2), rest...); };
       plane.coefficients =
           newton_step<D>(plane.coefficients, sums<RegressionSums<D>>(first, -1, plane.coefficients, add),
                          sums<RegressionSums<D>>(second, 1, plane.coefficients, add));
@@ -74,9 +72,7 @@ struct Around {
   }
   double gap(const ContactPlane<D>& plane) const
   {
-    const auto add = [](EdgeSums<D>& sums, const ContactPlane<D>& p, double shape, const Vector<D>& x) {
-      sums.add(p, shape, x, particle_size);
-    };
+    const auto add = [](const auto&... rest) { add_edges(Gimp<D>(2), particle_size, rest...); };
     return -sums<EdgeSums<D>>(first, -1, plane.coefficients, add).edge(particle_size) -
            sums<EdgeSums<D>>(second, 1, plane.coefficients, add).edge(particle_size);
   }
@@ -96,14 +92,13 @@ struct Around {
   {
     const GridBlock<D> block = unit_block<D>();
     std::vector<ContactPlane<D>> planes(D == 2 ? n_nodes * n_nodes : n_nodes * n_nodes * n_nodes);
-    for (auto& plane : planes) plane.starts_near = true;
     ContactPlane<D>& own = planes[static_cast<std::size_t>(node())];
     own.side = static_cast<std::int8_t>(side);
     own.coefficients = coefficients;
-    Sums sums;
-    for_each_parted(Gimp<D>(2), block, planes.data(), {position},
-                    [&](std::ptrdiff_t, double shape, const Vector<D>& x) { add(sums, own, shape, x); });
-    return sums;
+    mark_near_cells(block, planes.data());
+    std::vector<Sums> sums(planes.size());
+    add(block, ParticlePlaces<D>{position}, planes.data(), sums.data());
+    return sums[static_cast<std::size_t>(node())];
   }
 
   static Vector<D> gradient(const std::vector<Vector<D>>& position)
@@ -233,13 +228,16 @@ TEST_CASE("sums on a mirror are those of the particles with their images, halved
 {
   std::mt19937 random(4);
   std::uniform_real_distribution<double> uniform(-1, 1);
-  ContactPlane<3> plane{.side = 1, .starts_near = false, .coefficients = {2, 0, -1, 0.3}};
   RegressionSums<3> one_side, both;
+  const auto add = [](RegressionSums<3>& sums, double shape, const Vector<3>& x) {
+    const auto share = RegressionSums<3>::share(PartedParticle<3, double>{1, {2, 0, -1, 0.3}, shape, x});
+    for (std::size_t k = 0; k < share.size(); ++k) sums.values[static_cast<int>(k)] += share[k];
+  };
   for (int i = 0; i < 20; ++i) {
     const Vector<3> x = Vector<3>::NullaryExpr([&] { return uniform(random); });
-    one_side.add(plane, 0.1 * i, x);
-    both.add(plane, 0.1 * i, x);
-    both.add(plane, 0.1 * i, Vector<3>(x[0], -x[1], x[2]));
+    add(one_side, 0.1 * i, x);
+    add(both, 0.1 * i, x);
+    add(both, 0.1 * i, Vector<3>(x[0], -x[1], x[2]));
   }
 
   RegressionSums<3> folded = one_side;
@@ -247,10 +245,62 @@ TEST_CASE("sums on a mirror are those of the particles with their images, halved
   one_side.hold_on_mirror(1);
   const Vector<4> any(1, 2, 3, 4);
 
-  CHECK((folded.gradient - both.gradient).norm() < 1e-12);
-  CHECK(((folded.hessian - both.hessian) * any).norm() < 1e-12);
-  CHECK((2 * one_side.gradient - both.gradient).norm() < 1e-12);
-  CHECK(((2 * one_side.hessian - both.hessian) * any).norm() < 1e-12);
+  const auto whole = [](const RegressionSums<3>& sums) {
+    return Matrix<4>(sums.hessian().selfadjointView<Eigen::Lower>());
+  };
+  CHECK((folded.gradient() - both.gradient()).norm() < 1e-12);
+  CHECK(((whole(folded) - whole(both)) * any).norm() < 1e-12);
+  CHECK((2 * one_side.gradient() - both.gradient()).norm() < 1e-12);
+  CHECK(((2 * whole(one_side) - whole(both)) * any).norm() < 1e-12);
+}
+
+TEMPLATE_TEST_CASE("sums at planes are those of one particle after the other, bit for bit", "", (Linear<2>), (Gimp<2>),
+                   (CubicSpline<2>), (Cpdi<2>), (Linear<3>), (Cpgimp<3>), (CubicSpline<3>), (Cpdi<3>))
+{
+  constexpr int D = TestType::dimension;
+  const TestType interpolator(2);
+  const GridBlock<D> block = unit_block<D>();
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> inside(-middle + 1, middle - 1), around(-1, 1);
+  std::vector<Vector<D>> position(1000);
+  for (Vector<D>& x : position) x = Vector<D>::NullaryExpr([&] { return inside(random); });
+  std::vector<Matrix<D>> deformation(position.size(), 1.1 * Matrix<D>::Identity());
+  // Half of the nodes have none, and of the others each fourth.
+  std::vector<ContactPlane<D>> planes(
+      static_cast<std::size_t>(D == 2 ? n_nodes * n_nodes : n_nodes * n_nodes * n_nodes));
+  for (std::size_t i = 0; i < planes.size() / 2; ++i) {
+    planes[i].side = i % 4 == 0 ? 0 : 1;
+    planes[i].coefficients = Vector<D + 1>::NullaryExpr([&] { return around(random); });
+  }
+  mark_near_cells(block, planes.data());
+  const ParticlePlaces<D> places{position, deformation};
+
+  std::vector<RegressionSums<D>> regression(planes.size()), plain_regression(planes.size());
+  std::vector<EdgeSums<D>> edges(planes.size()), plain_edges(planes.size());
+  add_regression(interpolator, block, places, planes.data(), regression.data());
+  add_edges(interpolator, particle_size, block, places, planes.data(), edges.data());
+  for_each_stencil(interpolator, block, places, [&](std::size_t p, const auto& stencil) {
+    for_each_weight(block, stencil, [&](std::ptrdiff_t i, double shape) {
+      const auto node = static_cast<std::size_t>(i);
+      const ContactPlane<D>& plane = planes[node];
+      if (plane.side == 0 || !(shape > 0)) return;
+      const Vector<D> x = block.in_cells(position[p]) - block.cells_to(i);
+      const PartedParticle<D, double> particle{static_cast<double>(plane.side), plane.coefficients, shape, x};
+      const auto share = RegressionSums<D>::share(particle);
+      for (std::size_t k = 0; k < share.size(); ++k) plain_regression[node].values[static_cast<int>(k)] += share[k];
+      const auto [weight, moment] = EdgeSums<D>::share(particle, particle_size);
+      plain_edges[node] += EdgeSums<D>{weight, moment};
+    });
+  });
+
+  int n_reached = 0;
+  for (std::size_t i = 0; i < planes.size(); ++i) {
+    n_reached += regression[i].weight() > 0 ? 1 : 0;
+    CHECK((regression[i].values == plain_regression[i].values).all());
+    CHECK(edges[i].weight == plain_edges[i].weight);
+    CHECK(edges[i].moment == plain_edges[i].moment);
+  }
+  CHECK(n_reached > n_nodes);
 }
 
 }  // namespace test_logistic_plane
