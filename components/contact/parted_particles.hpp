@@ -78,8 +78,9 @@ class PartedPairs
       }
       particles.shape = each_lane([&](std::size_t l) { return shape_[at(l)]; });
       const auto cells = block.cells_to(each_lane([&](std::size_t l) { return static_cast<double>(node_[at(l)]); }));
-      for (std::size_t k = 0; k < D; ++k) {
-        particles.x[static_cast<int>(k)] = each_lane([&](std::size_t l) { return place_[k][at(l)]; }) - cells[k];
+      for (int k = 0; k < D; ++k) {
+        const auto& place = place_[static_cast<std::size_t>(k)];
+        particles.x[k] = each_lane([&](std::size_t l) { return place[at(l)]; }) - cells[k];
       }
       visit(&node_[first], n, particles);
     }
