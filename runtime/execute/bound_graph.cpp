@@ -1,6 +1,7 @@
 #include "runtime/execute/bound_graph.hpp"
 
 #include <algorithm>
+#include <bitset>
 #include <cstring>
 
 namespace tamp::runtime
@@ -92,7 +93,7 @@ BoundGraph::Bound BoundGraph::bind_body(const Instance& instance)
     bound.begins_part.push_back(access.mode == Mode::accumulate &&
                                 std::find(begun.begin(), begun.end(), access.label) != begun.end());
   }
-  if (graph_.declaration(instance).sparse) bind_sparse(instance, bound);
+  if (graph_.declaration(instance).sparsity != Sparsity::none) bind_sparse(instance, bound);
   return bound;
 }
 
@@ -101,7 +102,8 @@ void BoundGraph::bind_sparse(const Instance& instance, Bound& bound)
 {
   // A layer that is filled from neighbours may not be zero.
   const auto is_filler = [&](int p) { return at(p).kind == InstanceKind::fill_halo; };
-  bound.is_sparse = std::none_of(instance.predecessors.begin(), instance.predecessors.end(), is_filler);
+  if (std::any_of(instance.predecessors.begin(), instance.predecessors.end(), is_filler)) return;
+  bound.sparsity = graph_.declaration(instance).sparsity;
   const auto& accesses = graph_.declaration(instance).accesses;
   for (std::size_t a = 0; a < accesses.size(); ++a) {
     const bool is_taken = accesses[a].mode == Mode::read || accesses[a].mode == Mode::update;
@@ -157,7 +159,7 @@ void BoundGraph::run(int i, const Step& step)
   Bound& bound = bound_[static_cast<std::size_t>(i)];
   switch (instance.kind) {
     case InstanceKind::body: {
-      bound.was_skipped = bound.is_sparse && takes_nothing(bound);
+      bound.was_skipped = makes_nothing(bound);
       if (bound.was_skipped) return make_nothing(instance, bound);
       prepare(instance, bound);
       graph_.declaration(instance).body({graph_.layout(), patch_of(instance), instance.group, step},
@@ -208,21 +210,38 @@ void BoundGraph::prepare(const Instance& instance, const Bound& bound)
   }
 }
 
-/// Whether a body would find no particle, and nothing but zeros in the fields of this step.
-bool BoundGraph::takes_nothing(const Bound& bound)
+/// Whether a body would find too little to make anything of it.
+bool BoundGraph::makes_nothing(const Bound& bound)
 {
-  const auto is_zero = [](const Taken& taken) { return taken.field->is_zero(taken.buffer); };
-  return std::all_of(bound.counts.begin(), bound.counts.end(), [](const std::size_t* n) { return *n == 0; }) &&
-         std::all_of(bound.taken.begin(), bound.taken.end(), is_zero);
+  std::bitset<PerGroup<int>::max_groups> groups;
+  bool any = false;
+  for (const Taken& taken : bound.taken) {
+    if (taken.field->is_zero(taken.buffer)) continue;
+    any = true;
+    if (taken.field->group >= 0) groups.set(static_cast<std::size_t>(taken.field->group));
+  }
+  switch (bound.sparsity) {
+    case Sparsity::none:
+      return false;
+    case Sparsity::no_particles:
+      return !any &&
+             std::all_of(bound.counts.begin(), bound.counts.end(), [](const std::size_t* n) { return *n == 0; });
+    case Sparsity::no_fields:
+      return !any;
+    case Sparsity::no_pair:
+      return groups.count() < 2;
+  }
+  return false;
 }
 
-/// Leaves behind what a body makes of nothing, which is there already if it was so in the step before.
+/// Leaves behind what a skipped body makes, which is there already if it was so in the step before.
 void BoundGraph::make_nothing(const Instance& instance, const Bound& bound)
 {
   const auto& accesses = graph_.declaration(instance).accesses;
   for (std::size_t a = 0; a < accesses.size(); ++a) {
     const Access& access = accesses[a];
-    if (access.mode == Mode::read || access.label->centring() == Centring::particle) continue;
+    const bool stays = access.mode == Mode::read || access.mode == Mode::update;
+    if (stays || access.label->centring() == Centring::particle) continue;
     for (Field* field : fields_of(bound.arguments[a])) {
       if (access.mode == Mode::reduce) {
         access.label->reduction()->reset(field->current_buffer.data());

@@ -59,8 +59,8 @@ class BoundGraph final : public Work
     bool uses_particles = false;
     /// For each argument: whether this task is the first that adds to the patch's part.
     std::vector<bool> begins_part;
-    /// Whether it may be skipped: where these particles are none and these fields are zero.
-    bool is_sparse = false;
+    /// When it may be skipped, by the numbers of its particles and by the fields that it takes.
+    Sparsity sparsity = Sparsity::none;
     std::vector<const std::size_t*> counts;
     std::vector<Taken> taken;
     bool was_skipped = false;
@@ -73,7 +73,7 @@ class BoundGraph final : public Work
   Bound bind_halos(const Instance& instance);
   void bind_sparse(const Instance& instance, Bound& bound);
   void prepare(const Instance& instance, const Bound& bound);
-  static bool takes_nothing(const Bound& bound);
+  static bool makes_nothing(const Bound& bound);
   void make_nothing(const Instance& instance, const Bound& bound);
   Bound bind_reduction(const Label& label);
   static void combine(const Bound& bound);

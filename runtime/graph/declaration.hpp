@@ -57,6 +57,13 @@ struct TaskContext {
 /// On what a task runs.
 enum class Domain { patches_and_groups, patches, ranks, migration };
 
+/// Where a body makes nothing but zeros and neutral parts, and so need not run: nowhere, as far as is known; or where,
+/// of the node and cell fields of this step that it reads or updates,
+///  - all are zero, and there are no particles either;
+///  - all are zero, whatever particles there are;
+///  - those of all groups but one are zero.
+enum class Sparsity { none, no_particles, no_fields, no_pair };
+
 /// A task as declared: its name, its data, its body. The graph infers everything else from this.
 struct TaskDeclaration {
   std::string name;
@@ -64,8 +71,7 @@ struct TaskDeclaration {
   /// Groups it runs for; empty means all.
   std::vector<int> groups;
   std::vector<Access> accesses;
-  /// See TaskBuilder::sparse.
-  bool sparse = false;
+  Sparsity sparsity = Sparsity::none;
   std::function<void(const TaskContext&, const BoundArgument*)> body;
 };
 
@@ -104,11 +110,11 @@ class TaskBuilder
   /// Once on every rank, with globals and whole reductions: what all ranks then know alike, none has to send.
   TaskBuilder over_ranks() && { return std::move(*this).over(Domain::ranks, {}); }
 
-  /// Promises that with no particles, and only zeros in the node and cell fields of this step that it reads or updates,
-  /// the body produces only zeros and neutral parts. Such patches are skipped.
-  TaskBuilder sparse() &&
+  /// Promises that the body makes only zeros and neutral parts, and leaves alone what it updates, on such patches: they
+  /// are skipped.
+  TaskBuilder sparse(Sparsity where = Sparsity::no_particles) &&
   {
-    declaration_.sparse = true;
+    declaration_.sparsity = where;
     return std::move(*this);
   }
 

@@ -86,7 +86,7 @@ runtime::TaskList contact(const Method<D>& method)
 {
   return {runtime::task("contact")
               .over_patches()
-              .sparse()
+              .sparse(runtime::Sparsity::no_pair)
               .reads(rigid_states.previous(), node::sums<D>.halo(method.halo).every_group())
               .updates(node::motion<D>.halo(method.halo).every_group())
               .reduces(step_totals, contact_impulses)

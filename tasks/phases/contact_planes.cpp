@@ -84,7 +84,7 @@ runtime::TaskDeclaration lay_planes(const Method<D>& method)
 {
   return runtime::task("lay contact planes")
       .over_patches()
-      .sparse()
+      .sparse(runtime::Sparsity::no_pair)
       .reads(node::sums<D>.halo(method.halo).every_group())
       .computes(node::contact_plane<D>.halo(method.halo).every_group())
       .body([&method](const TaskContext& at, auto data) {
@@ -111,7 +111,7 @@ runtime::TaskDeclaration sum_at_planes(const Method<D>& method, std::string name
 {
   return runtime::task(std::move(name))
       .over_patches_and_groups()
-      .sparse()
+      .sparse(runtime::Sparsity::no_fields)
       .reads(node::contact_plane<D>.halo(method.halo), particle::position<D>.previous(),
              particle::deformation_gradient<D>.previous())
       .accumulates(label.anew().halo(method.halo))
@@ -156,7 +156,7 @@ runtime::TaskDeclaration align_contact_normals(const Method<D>& method)
 {
   return runtime::task("align contact normals")
       .over_patches()
-      .sparse()
+      .sparse(runtime::Sparsity::no_pair)
       .reads(node::contact_plane<D>.halo(method.halo).every_group(), node::edge_sums<D>.halo(method.halo).every_group(),
              node::motion<D>.halo(method.halo).every_group())
       .updates(node::sums<D>.halo(method.halo).every_group())

@@ -83,7 +83,7 @@ runtime::TaskList gather_rigid_contact(const Method<D>& method)
   if (method.rigid_bodies.empty()) return {};
   return {runtime::task("gather rigid contact")
               .over_patches()
-              .sparse()
+              .sparse(runtime::Sparsity::no_pair)
               .reads(rigid_states.previous(), node::sums<D>.halo(method.halo).every_group(),
                      node::motion<D>.halo(method.halo).every_group())
               .reduces(rigid_couplings)

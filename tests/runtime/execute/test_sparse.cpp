@@ -111,7 +111,7 @@ struct Row {
                        const double dx = at.group == 0 ? 1.3 : -1.3;
                        for (std::size_t p = 0; p < old.size(); ++p) now[p] = {old[p][0] + dx, old[p][1]};
                      });
-    for (TaskDeclaration* t : {&give, &move, &meet}) t->sparse = sparse;
+    for (TaskDeclaration* t : {&give, &move, &meet}) t->sparsity = sparse ? Sparsity::no_particles : Sparsity::none;
     return {give, move, meet, drift, migration(place)};
   }
 
@@ -216,6 +216,68 @@ TEST_CASE("a sparse task whose halo is filled from neighbours runs everywhere", 
   CHECK(n_made == 0);
   const std::vector<int> ranks = layout.ranks();
   CHECK(n_used == std::count(ranks.begin(), ranks.end(), all.rank()));
+}
+
+TEST_CASE("tasks that need a pair of groups, or what such a task made, run nowhere else")
+{
+  const PatchLayout layout = Row::row(1);
+  const NodeLabel<double, "level"> level;
+  const NodeLabel<double, "gap"> gap;
+  const NodeLabel<double, "sum"> sum;
+  std::atomic<int> n_met{0}, n_added{0};
+  auto rise = task("rise")
+                  .over_patches_and_groups()
+                  .sparse()
+                  .reads(place.previous())
+                  .computes(level)
+                  .body([&](const TaskContext&, auto data) {
+                    const auto levels = data[level];
+                    for_each(levels.box(), [&](const Index& i) { levels[i] = 1; });
+                  });
+  auto meet = task("meet")
+                  .over_patches()
+                  .sparse(Sparsity::no_pair)
+                  .updates(level.every_group())
+                  .computes(gap.every_group())
+                  .body([&](const TaskContext&, auto data) {
+                    ++n_met;
+                    const auto levels = data[level];
+                    const auto gaps = data[gap];
+                    for (std::size_t g = 0; g < 2; ++g) {
+                      for_each(levels[g].box(), [&](const Index& i) { gaps[g][i] = levels[g][i] += 1; });
+                    }
+                  });
+  auto add = task("add")
+                 .over_patches_and_groups()
+                 .sparse(Sparsity::no_fields)
+                 .reads(gap, place.previous())
+                 .computes(sum)
+                 .body([&](const TaskContext&, auto data) {
+                   ++n_added;
+                   const auto gaps = data[gap];
+                   const auto sums = data[sum];
+                   for_each(sums.box(), [&](const Index& i) { sums[i] = gaps[i]; });
+                 });
+  const TaskGraph graph({rise, meet, add}, layout, {"one", "other"}, {{&place}, {&level, &sum}});
+  Warehouse warehouse(std::vector<const TaskGraph*>{&graph});
+  BoundGraph bound(graph, warehouse);
+  Schedule schedule(bound, 1);
+  const int alone = 1, both = 4;
+  for (const auto& [patch, group] : {std::pair{alone, 0}, {both, 0}, {both, 1}}) {
+    warehouse.set_n_particles(patch, group, 1);
+  }
+
+  Executor(1).run(schedule, {});
+
+  CHECK(n_met == 1);
+  CHECK(n_added == 2);
+  const auto at = [&](const auto& label, int patch) {
+    return warehouse.grid_result(label, patch, 0)[{patch * cells_per_patch, 1, 0}];
+  };
+  CHECK(at(level, alone) == 1);
+  CHECK(at(sum, alone) == 0);
+  CHECK(at(level, both) == 2);
+  CHECK(at(sum, both) == 2);
 }
 
 TEST_CASE("state that the host sets is never taken for zero")
