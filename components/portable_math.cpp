@@ -2,6 +2,8 @@
 
 #include <sleef.h>
 
+#include <cmath>
+
 // In SLEEF's names "cinz" are the reproducible functions that do not use a fused multiply-add, "u10" is an error of at
 // most 1.0 units in the last place, "purec" is plain C, "d1" one number and "d4" four.
 namespace tamp::portable
@@ -10,6 +12,15 @@ namespace tamp::portable
 double exp(double x)
 {
   return Sleef_cinz_expd1_u10purec(x);
+}
+long double exp(long double x)
+{
+  // ln 2 in two parts, of which the first has few enough bits for its multiples to be exact.
+  constexpr long double ln2_first = 0x1.62e42fefp-1L, ln2_rest = 0x0.a39ef35793c7673007ep-33L;
+  const long double n = std::rint(x / (ln2_first + ln2_rest)), rest = x - n * ln2_first - n * ln2_rest;
+  long double sum = 1;
+  for (int k = 18; k > 0; --k) sum = 1 + rest / static_cast<long double>(k) * sum;
+  return std::ldexp(sum, static_cast<int>(n));
 }
 double expm1(double x)
 {

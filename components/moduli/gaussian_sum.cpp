@@ -3,6 +3,8 @@
 #include <cmath>
 #include <span>
 
+#include "components/portable_math.hpp"
+
 namespace tamp::components
 {
 
@@ -46,7 +48,7 @@ std::array<long double, n_terms> GaussianSum::Axis::terms(long double centre, lo
   const long double s = sharpness / (static_cast<long double>(tiles_per_unit) * tiles_per_unit);
   // Both sides of d/du exp(-s (t - u)^2) = 2 s (t - u) exp(-s (t - u)^2), power by power.
   std::array<long double, n_terms + 6> h;
-  h[0] = std::exp(-s * t * t);
+  h[0] = portable::exp(-s * t * t);
   h[1] = 2 * s * t * h[0];
   for (std::size_t n = 1; n + 1 < h.size(); ++n) {
     h[n + 1] = 2 * s * (t * h[n] - h[n - 1]) / static_cast<long double>(n + 1);
@@ -94,7 +96,7 @@ void GaussianSum::subtract_diagonal(const Gaussians& gaussians)
   for (const auto& [x, y, weight] : gaussians.peaks) {
     const long double centre = (gaussians.sharpness_x * x + gaussians.sharpness_y * y) / sharpness;
     const long double on_diagonal =
-        weight * std::exp(-gaussians.sharpness_x * gaussians.sharpness_y / sharpness * (x - y) * (x - y));
+        weight * portable::exp(-gaussians.sharpness_x * gaussians.sharpness_y / sharpness * (x - y) * (x - y));
     for (std::size_t j = 0; j < y_.n_tiles; ++j) {
       const auto in_y = y_.terms<n_terms_y>(centre, sharpness, j);
       for (std::size_t i = 0; i < x_.n_tiles; ++i) {
