@@ -97,6 +97,9 @@ inline const runtime::NodeLabel<double, "inverse mass"> inverse_mass;
 /// Only for materials with a body under a pressure load.
 template <int D>
 inline const runtime::NodeLabel<components::PressureSums<D>, "pressure sums"> pressure_sums;
+/// Only for materials with a body force [N].
+template <int D>
+inline const runtime::NodeLabel<components::NodeVector<D>, "body force"> body_force;
 template <int D>
 inline const runtime::NodeLabel<components::ContactPlane<D>, "contact plane"> contact_plane;
 /// Anew in each pass over the particles that turns the planes.

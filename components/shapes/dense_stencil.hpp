@@ -53,6 +53,15 @@ template <int D, int Support, class Visit>
   }
 }
 
+/// Calls `visit(node, weight, cells)` for them, `cells` being their place from the stencil's first node.
+template <int D, int Support, class Visit>
+[[gnu::always_inline]] inline void for_each_placed_weight(const GridBlock<D>& block,
+                                                          const DenseStencil<D, Support>& stencil, Visit&& visit)
+{
+  for_each_node(block, stencil, [&](std::ptrdiff_t node, double weight, const Vector<D>&) {
+    visit(node, weight, block.cells_to(node - stencil.first));
+  });
+}
 /// Calls `visit(node, weight)` for them.
 template <int D, int Support, class Visit>
 [[gnu::always_inline]] inline void for_each_weight(const GridBlock<D>& block, const DenseStencil<D, Support>& stencil,

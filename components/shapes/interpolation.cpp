@@ -25,32 +25,14 @@ class InterpolationBy final : public Interpolation<D>
   void particles_to_grid(const GridBlock<D>& block, const ParticleSources<D>& from, bool with_surface,
                          NodeSums<D>* sums) const override
   {
-    if (with_surface) return components::particles_to_grid<true>(shape_, block, from, sums);
-    components::particles_to_grid<false>(shape_, block, from, sums);
-  }
-
-  void add_gradient_momentum(const GridBlock<D>& block, const ParticlePlaces<D>& places, std::span<const double> mass,
-                             std::span<const Matrix<D>> velocity_gradient, NodeSums<D>* sums) const override
-  {
-    components::add_gradient_momentum(shape_, block, places, mass, velocity_gradient, sums);
-  }
-
-  void add_affine_momentum(const GridBlock<D>& block, const ParticlePlaces<D>& places, std::span<const double> mass,
-                           std::span<const Matrix<D>> velocity_moments, NodeSums<D>* sums) const override
-  {
-    components::add_affine_momentum(shape_, block, places, mass, velocity_moments, sums);
-  }
-
-  void add_forces(const GridBlock<D>& block, const ParticlePlaces<D>& places, std::span<const Vector<D>> force,
-                  NodeSums<D>* sums) const override
-  {
-    components::add_forces(shape_, block, places, force, sums);
+    if (from.carried_gradient == CarriedGradient::none) return bring<false>(block, from, with_surface, sums);
+    bring<true>(block, from, with_surface, sums);
   }
 
   void grid_to_particles(const GridBlock<D>& block, const ParticlePlaces<D>& places, const NodeMotion<D>* nodes,
-                         std::span<ParticleMotion<D>> motion) const override
+                         const ParticleTargets<D>& to) const override
   {
-    components::grid_to_particles(shape_, block, places, nodes, motion);
+    components::grid_to_particles(shape_, n_per_axis_, block, places, nodes, to);
   }
 
   void interpolate(const GridBlock<D>& block, const ParticlePlaces<D>& places, const NodeVector<D>* nodes,
@@ -65,22 +47,10 @@ class InterpolationBy final : public Interpolation<D>
     components::add_vectors(shape_, block, places, vectors, sums);
   }
 
-  void velocity_moments(const GridBlock<D>& block, const ParticlePlaces<D>& places, const NodeMotion<D>* nodes,
-                        std::span<Matrix<D>> moments) const override
-  {
-    components::velocity_moments(shape_, block, places, nodes, moments);
-  }
-
   void second_moments(const GridBlock<D>& block, const ParticlePlaces<D>& places,
                       std::span<Matrix<D>> moments) const override
   {
     components::second_moments(shape_, block, places, moments);
-  }
-
-  void own_stiffness(const GridBlock<D>& block, const ParticlePlaces<D>& places, std::span<const double> mass,
-                     const double* inverse_mass, std::span<double> stiffness) const override
-  {
-    components::own_stiffness(shape_, n_per_axis_, block, places, mass, inverse_mass, stiffness);
   }
 
   void add_pressure(const GridBlock<D>& block, const ParticlePlaces<D>& places, std::span<const ByFace<D>> pressure,
@@ -102,6 +72,13 @@ class InterpolationBy final : public Interpolation<D>
   }
 
  private:
+  template <bool carries>
+  void bring(const GridBlock<D>& block, const ParticleSources<D>& from, bool with_surface, NodeSums<D>* sums) const
+  {
+    if (with_surface) return components::particles_to_grid<true, carries>(shape_, block, from, sums);
+    components::particles_to_grid<false, carries>(shape_, block, from, sums);
+  }
+
   Shape shape_;
   int n_per_axis_;
 };

@@ -24,32 +24,20 @@ class Interpolation
   static std::unique_ptr<const Interpolation> make(Interpolator interpolator, int n_per_axis);
   virtual ~Interpolation() = default;
 
-  /// The greatest `own_stiffness` of a particle, one that has its nodes to itself.
+  /// The greatest own stiffness of a particle, one that has its nodes to itself.
   virtual double greatest_own_stiffness() const = 0;
 
   /// See components::particles_to_grid, and so on.
   virtual void particles_to_grid(const GridBlock<D>& block, const ParticleSources<D>& from, bool with_surface,
                                  NodeSums<D>* sums) const = 0;
-  virtual void add_gradient_momentum(const GridBlock<D>& block, const ParticlePlaces<D>& places,
-                                     std::span<const double> mass, std::span<const Matrix<D>> velocity_gradient,
-                                     NodeSums<D>* sums) const = 0;
-  virtual void add_affine_momentum(const GridBlock<D>& block, const ParticlePlaces<D>& places,
-                                   std::span<const double> mass, std::span<const Matrix<D>> velocity_moments,
-                                   NodeSums<D>* sums) const = 0;
-  virtual void add_forces(const GridBlock<D>& block, const ParticlePlaces<D>& places, std::span<const Vector<D>> force,
-                          NodeSums<D>* sums) const = 0;
   virtual void grid_to_particles(const GridBlock<D>& block, const ParticlePlaces<D>& places, const NodeMotion<D>* nodes,
-                                 std::span<ParticleMotion<D>> motion) const = 0;
+                                 const ParticleTargets<D>& to) const = 0;
   virtual void interpolate(const GridBlock<D>& block, const ParticlePlaces<D>& places, const NodeVector<D>* nodes,
                            std::span<Vector<D>> values) const = 0;
   virtual void add_vectors(const GridBlock<D>& block, const ParticlePlaces<D>& places,
                            std::span<const Vector<D>> vectors, NodeVector<D>* sums) const = 0;
-  virtual void velocity_moments(const GridBlock<D>& block, const ParticlePlaces<D>& places, const NodeMotion<D>* nodes,
-                                std::span<Matrix<D>> moments) const = 0;
   virtual void second_moments(const GridBlock<D>& block, const ParticlePlaces<D>& places,
                               std::span<Matrix<D>> moments) const = 0;
-  virtual void own_stiffness(const GridBlock<D>& block, const ParticlePlaces<D>& places, std::span<const double> mass,
-                             const double* inverse_mass, std::span<double> stiffness) const = 0;
 
   /// `pressure` is m_p P_p of each particle.
   virtual void add_pressure(const GridBlock<D>& block, const ParticlePlaces<D>& places,

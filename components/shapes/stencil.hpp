@@ -4,6 +4,7 @@
 #include <array>
 #include <cstddef>
 #include <span>
+#include <type_traits>
 
 #include "components/lanes.hpp"
 #include "components/shapes/grid_block.hpp"
@@ -104,42 +105,45 @@ template <class Interpolator, int D = Interpolator::dimension, class Visit>
   });
 }
 
-/// A stencil with the weights' first moments about the particle, w[k][i] (x_i - x)_k [m], in place of their slopes. As
-/// weights reproduce linear functions, the particle is at the weighted mean of its nodes.
+/// x_i - x_p of a particle's nodes along each axis [m].
 template <int D, int Support>
-Stencil<D, Support> with_moments(Stencil<D, Support> stencil, double cell_size)
+using Arms = std::array<std::array<double, Support>, D>;
+
+/// As weights reproduce linear functions, the particle is at the weighted mean of its nodes.
+template <int D, int Support>
+[[gnu::always_inline]] inline Arms<D, Support> arms_of(const Stencil<D, Support>& stencil, double cell_size)
 {
+  Arms<D, Support> arms;
   for (std::size_t k = 0; k < D; ++k) {
-    const auto& w = stencil.weight[k];
     double place = 0;  // in cells from the first node
-    for (std::size_t i = 1; i < Support; ++i) place += static_cast<double>(i) * w[i];
-    for (std::size_t i = 0; i < Support; ++i) {
-      stencil.slope[k][i] = w[i] * (static_cast<double>(i) - place) * cell_size;
-    }
+    for (std::size_t i = 1; i < Support; ++i) place += static_cast<double>(i) * stencil.weight[k][i];
+    for (std::size_t i = 0; i < Support; ++i) arms[k][i] = (static_cast<double>(i) - place) * cell_size;
   }
-  return stencil;
+  return arms;
 }
 
-/// sum S_i (x_i - x)_k^2 of a stencil that has first moments in place of slopes: its weights' second moments about the
-/// particle along each axis [m^2]. Those of two axes are products of first moments, which are zero.
+/// Second moments of a particle's weights about it, sum S_i (x_i - x)_k^2 [m^2]. Those of two axes are products of
+/// first moments, which are zero.
 template <int D, int Support>
-Vector<D> second_moments_of(const Stencil<D, Support>& with_moments, double cell_size)
+[[gnu::always_inline]] inline Vector<D> second_moments_of(const Stencil<D, Support>& stencil,
+                                                          const std::type_identity_t<Arms<D, Support>>& arms)
 {
   Vector<D> sum = Vector<D>::Zero();
   for (std::size_t k = 0; k < D; ++k) {
-    for (std::size_t i = 1; i < Support; ++i) {
-      sum[static_cast<int>(k)] += with_moments.slope[k][i] * static_cast<double>(i) * cell_size;
+    for (std::size_t i = 0; i < Support; ++i) {
+      sum[static_cast<int>(k)] += stencil.weight[k][i] * arms[k][i] * arms[k][i];
     }
   }
   return sum;
 }
 
-/// A row of a stencil's nodes along x: the first one's place in the block, and what the other axes give to all of its
-/// weights and of their gradients. Node i has the weight w[0][i] `across`; its gradient has s[0][i] `across` along x
-/// and w[0][i] `slope_across` along the others.
+/// A row of a stencil's nodes along x: the first one's place in the block, the row's place along the other axes of the
+/// stencil, and what these give to all of its weights and of their gradients. Node i has the weight w[0][i] `across`;
+/// its gradient has s[0][i] `across` along x and w[0][i] `slope_across` along the others.
 template <int D, class Number = double>
 struct StencilRow {
   std::ptrdiff_t first;
+  std::array<std::size_t, D - 1> place;
   Number across;
   Vector<D - 1, Number> slope_across;
 };
@@ -152,7 +156,9 @@ template <int D, int Support, class Number, class Visit>
 {
   if constexpr (D == 2) {
     for (std::size_t j = 0; j < Support; ++j) {
-      visit(StencilRow<2, Number>{s.first + static_cast<std::ptrdiff_t>(j) * block.strides[1], s.weight[1][j],
+      visit(StencilRow<2, Number>{s.first + static_cast<std::ptrdiff_t>(j) * block.strides[1],
+                                  {j},
+                                  s.weight[1][j],
                                   Vector<1, Number>(s.slope[1][j])});
     }
   } else {
@@ -160,6 +166,7 @@ template <int D, int Support, class Number, class Visit>
       const std::ptrdiff_t plane = s.first + static_cast<std::ptrdiff_t>(k) * block.strides[2];
       for (std::size_t j = 0; j < Support; ++j) {
         visit(StencilRow<3, Number>{plane + static_cast<std::ptrdiff_t>(j) * block.strides[1],
+                                    {j, k},
                                     s.weight[1][j] * s.weight[2][k],
                                     Vector<2, Number>(s.slope[1][j] * s.weight[2][k], s.weight[1][j] * s.slope[2][k])});
       }
@@ -167,16 +174,28 @@ template <int D, int Support, class Number, class Visit>
   }
 }
 
-/// Calls `visit(node, weight)` for every node of a stencil, `node` being its place in the block.
+/// Calls `visit(node, weight, cells)` for every node of a stencil, `node` being its place in the block and `cells` that
+/// from the stencil's first node.
+template <int D, int Support, class Visit>
+[[gnu::always_inline]] inline void for_each_placed_weight(const GridBlock<D>& block, const Stencil<D, Support>& stencil,
+                                                          Visit&& visit)
+{
+  for_each_row<D>(block, stencil, [&](const StencilRow<D>& row) {
+    Vector<D> cells;
+    for (std::size_t k = 1; k < D; ++k) cells[static_cast<int>(k)] = static_cast<double>(row.place[k - 1]);
+    for (std::size_t i = 0; i < Support; ++i) {
+      cells[0] = static_cast<double>(i);
+      visit(row.first + static_cast<std::ptrdiff_t>(i), stencil.weight[0][i] * row.across, cells);
+    }
+  });
+}
+/// Calls `visit(node, weight)` for them.
 template <int D, int Support, class Visit>
 [[gnu::always_inline]] inline void for_each_weight(const GridBlock<D>& block, const Stencil<D, Support>& stencil,
                                                    Visit&& visit)
 {
-  for_each_row<D>(block, stencil, [&](const StencilRow<D>& row) {
-    for (std::size_t i = 0; i < Support; ++i) {
-      visit(row.first + static_cast<std::ptrdiff_t>(i), stencil.weight[0][i] * row.across);
-    }
-  });
+  for_each_placed_weight(block, stencil,
+                         [&](std::ptrdiff_t node, double weight, const Vector<D>&) { visit(node, weight); });
 }
 
 }  // namespace tamp::components

@@ -16,7 +16,12 @@
 namespace tamp::components
 {
 
-/// Particles' data for the grid; all spans of one length.
+/// The gradient that particles carry to the nodes beside their velocity: none; the gradient of velocity [1/s]; or its
+/// first moment sum S_ip v_i (x) (x_i - x_p) [m^2/s], which becomes a gradient by the second moments of
+/// the weights. Either comes from the grid, half a step behind the place, and is state.
+enum class CarriedGradient { none, gradient, moment };
+
+/// Particles' data for the grid; all spans of one length, but that nothing is carried where `carried_gradient` is none.
 template <int D>
 struct ParticleSources {
   ParticlePlaces<D> places;
@@ -26,6 +31,9 @@ struct ParticleSources {
   std::span<const SymmetricTensor<D>> stress;
   /// Pressure of artificial viscosity [Pa], compression positive.
   std::span<const double> viscous_pressure;
+  CarriedGradient carried_gradient = CarriedGradient::none;
+  /// Row: component of velocity.
+  std::span<const Matrix<D>> carried = {};
 };
 
 /// A particle's part of the sums at nodes: the first four of NodeSums times the weight, the second times its
@@ -64,21 +72,59 @@ std::array<Quad, n> in_fours(const std::array<double, n>& numbers)
   return fours;
 }
 
+/// What particle p brings of a gradient of momentum [kg/s], m_p grad v_p, or m_p B_p D_p^-1 of first moments B_p of
+/// velocities and the second moments D_p of its weights (APIC, see apic.hpp): `inverse_moments()` is D_p^-1.
+template <int D, class InverseMoments>
+[[gnu::always_inline]] inline Matrix<D> momentum_gradient(const ParticleSources<D>& from, std::size_t p,
+                                                          const InverseMoments& inverse_moments)
+{
+  if (from.carried_gradient == CarriedGradient::gradient) return from.mass[p] * from.carried[p];
+  return from.mass[p] * from.carried[p] * inverse_moments();
+}
+
+/// The columns of a gradient of momentum as they are added to the first four of NodeSums, where momenta follow the
+/// mass.
+template <int D>
+std::array<Quad, D> beside_mass(const Matrix<D>& gradient)
+{
+  std::array<Quad, D> columns;
+  for (int k = 0; k < D; ++k) {
+    columns[static_cast<std::size_t>(k)] = quad(0, gradient(0, k), gradient(1, k), D == 3 ? gradient(D - 1, k) : 0);
+  }
+  return columns;
+}
+
 /// Adds each particle's mass, momentum, internal force and surface gradient to the nodes it reaches
 /// (PAR-10021867-092020-6, eqs 9, 36, 41). `sums` is the first node of `block`. Without `with_surface` the gradient is
 /// left out, which in space is a third of what is added up.
-template <bool with_surface = true, class Interpolator, int D = Interpolator::dimension>
+///
+/// Particles that carry gradients bring m_p S_ip (v_p + grad v_p (x_i - x_p)) (Wallstedt & Guilkey, CMES 19, 2007). A
+/// rigid motion then comes to the grid as it is, where without it nodes at a surface get the velocity of the matter
+/// that they reach, which lies to one side of them. What the gradients bring sums to zero over the nodes: momentum
+/// stays what it is.
+template <bool with_surface = true, bool carries = false, class Interpolator, int D = Interpolator::dimension>
 void particles_to_grid(const Interpolator& interpolator, const GridBlock<D>& block, const ParticleSources<D>& from,
                        NodeSums<D>* sums)
 {
   for_each_stencil(interpolator, block, from.places, [&](std::size_t p, const auto& stencil) {
     const double surface = with_surface ? from.volume[p] : 0;
     const ParticleShare<D> share = share_of(from, p, surface);
+    Arms<D, Interpolator::support> arms;
+    std::array<Quad, D> columns;
+    if constexpr (carries) {
+      arms = arms_of(stencil, block.cell_size);
+      columns = beside_mass<D>(momentum_gradient(
+          from, p, [&] { return Eigen::DiagonalMatrix<double, D>(second_moments_of(stencil, arms).cwiseInverse()); }));
+    }
     // Kept in registers, which what is stored at the nodes might otherwise seem to change.
     const auto weight = in_fours(stencil.weight[0]), slope = in_fours(stencil.slope[0]);
     for_each_row<D>(block, stencil, [&, sums](const StencilRow<D>& row) {
       // Common to the nodes of the row: what goes with their weights along x, and with the slopes of those.
-      const Quad first = row.across * share.with_weight, by_slope = row.across * share.with_derivative[0];
+      Quad with_weight = share.with_weight;
+      if constexpr (carries) {
+        for (std::size_t k = 1; k < D; ++k) with_weight += arms[k][row.place[k - 1]] * columns[k];
+      }
+      const Quad first = row.across * with_weight, by_slope = row.across * share.with_derivative[0];
       Quad second = row.slope_across[0] * share.with_derivative[1], third = 0;
       if constexpr (D == 3) {
         second += row.slope_across[1] * share.with_derivative[2];
@@ -86,61 +132,15 @@ void particles_to_grid(const Interpolator& interpolator, const GridBlock<D>& blo
       }
       for (std::size_t i = 0; i < Interpolator::support; ++i) {
         NodeSums<D>& node = sums[row.first + static_cast<std::ptrdiff_t>(i)];
-        node.add(0, weight[i] * first);
+        if constexpr (carries) {
+          node.add(0, weight[i] * (first + arms[0][i] * (row.across * columns[0])));
+        } else {
+          node.add(0, weight[i] * first);
+        }
         node.add(4, weight[i] * second + slope[i] * by_slope);
         if constexpr (D == 3 && with_surface) node.add(8, weight[i] * third);
       }
     });
-  });
-}
-
-/// Adds to the momenta of the nodes of a particle m_p S_ip grad v_p (x_i - x_p): `gradient` is m_p grad v_p, and
-/// `stencil` has moments in place of slopes.
-template <int D, int Support>
-[[gnu::always_inline]] inline void add_gradient_momentum(const GridBlock<D>& block, const Stencil<D, Support>& stencil,
-                                                         const Matrix<D>& gradient, NodeSums<D>* sums)
-{
-  // Momenta follow the mass in the first four of a node, to which 0 is added.
-  std::array<Quad, D> columns;
-  for (int k = 0; k < D; ++k) {
-    columns[static_cast<std::size_t>(k)] = quad(0, gradient(0, k), gradient(1, k), D == 3 ? gradient(D - 1, k) : 0);
-  }
-  const auto weight = in_fours(stencil.weight[0]), moment = in_fours(stencil.slope[0]);
-  for_each_row<D>(block, stencil, [&, sums](const StencilRow<D>& row) {
-    Quad by_weight = row.slope_across[0] * columns[1];
-    if constexpr (D == 3) by_weight += row.slope_across[1] * columns[2];
-    const Quad by_moment = row.across * columns[0];
-    for (std::size_t i = 0; i < Support; ++i) {
-      sums[row.first + static_cast<std::ptrdiff_t>(i)].add(0, weight[i] * by_weight + moment[i] * by_moment);
-    }
-  });
-}
-
-/// Adds to the momenta of nodes the velocities there by the particles' velocity gradients,
-/// m_p S_ip grad v_p (x_i - x_p), row of grad v: component of velocity (Wallstedt & Guilkey, CMES 19, 2007). A rigid
-/// motion then comes to the grid as it is, where without it nodes at a surface get the velocity of the matter that they
-/// reach, which lies to one side of them. The sums over the nodes are zero: momentum stays what it is.
-template <class Interpolator, int D = Interpolator::dimension>
-void add_gradient_momentum(const Interpolator& interpolator, const GridBlock<D>& block, const ParticlePlaces<D>& places,
-                           std::span<const double> mass, std::span<const Matrix<D>> velocity_gradient,
-                           NodeSums<D>* sums)
-{
-  for_each_stencil(interpolator, block, places, [&](std::size_t p, const auto& stencil) {
-    add_gradient_momentum<D>(block, with_moments(stencil, block.cell_size), mass[p] * velocity_gradient[p], sums);
-  });
-}
-
-/// Adds to the momenta of nodes m_p S_ip C_p (x_i - x_p), C_p = B_p D_p^-1, where particles bring first moments B_p of
-/// velocities and the second moments D_p of their weights have no products of two axes (APIC, see apic.hpp).
-template <class Interpolator, int D = Interpolator::dimension>
-void add_affine_momentum(const Interpolator& interpolator, const GridBlock<D>& block, const ParticlePlaces<D>& places,
-                         std::span<const double> mass, std::span<const Matrix<D>> velocity_moments, NodeSums<D>* sums)
-{
-  for_each_stencil(interpolator, block, places, [&](std::size_t p, const auto& of_particle) {
-    const auto stencil = with_moments(of_particle, block.cell_size);
-    const Vector<D> of_weights = second_moments_of(stencil, block.cell_size);
-    const Matrix<D> gradient = mass[p] * velocity_moments[p] * of_weights.cwiseInverse().asDiagonal();
-    add_gradient_momentum<D>(block, stencil, gradient, sums);
   });
 }
 
@@ -150,26 +150,31 @@ void add_pressure(const Interpolator& interpolator, const GridBlock<D>& block, c
                   std::span<const ByFace<D>> pressure, PressureSums<D>* sums)
 {
   for_each_stencil(interpolator, block, places, [&](std::size_t p, const auto& stencil) {
-    for_each_row<D>(block, stencil, [&](const StencilRow<D>& row) {
-      for (std::size_t i = 0; i < Interpolator::support; ++i) {
-        sums[row.first + static_cast<std::ptrdiff_t>(i)].add(stencil.weight[0][i] * row.across * pressure[p]);
-      }
-    });
+    for_each_weight(block, stencil, [&](std::ptrdiff_t node, double weight) { sums[node].add(weight * pressure[p]); });
   });
 }
 
-/// Adds to the forces on nodes the particles' shares of forces on them, S_ip f_p [N].
+/// Adds to the nodes the particles' shares of vectors, S_ip a_p.
 template <class Interpolator, int D = Interpolator::dimension>
-void add_forces(const Interpolator& interpolator, const GridBlock<D>& block, const ParticlePlaces<D>& places,
-                std::span<const Vector<D>> force, NodeSums<D>* sums)
+void add_vectors(const Interpolator& interpolator, const GridBlock<D>& block, const ParticlePlaces<D>& places,
+                 std::span<const Vector<D>> vectors, NodeVector<D>* sums)
 {
   for_each_stencil(interpolator, block, places, [&](std::size_t p, const auto& stencil) {
-    for_each_row<D>(block, stencil, [&](const StencilRow<D>& row) {
-      const Vector<D> by_weight = row.across * force[p];
-      for (std::size_t i = 0; i < Interpolator::support; ++i) {
-        sums[row.first + static_cast<std::ptrdiff_t>(i)].add_force(stencil.weight[0][i] * by_weight);
-      }
-    });
+    const Vector<D>& a = vectors[p];
+    const Quad vector = quad(a[0], a[1], D == 3 ? a[D - 1] : 0, 0);
+    for_each_weight(block, stencil, [&](std::ptrdiff_t node, double weight) { sums[node].add(0, weight * vector); });
+  });
+}
+
+/// The vectors that nodes have where particles are, sum S_ip u_i.
+template <class Interpolator, int D = Interpolator::dimension>
+void interpolate(const Interpolator& interpolator, const GridBlock<D>& block, const ParticlePlaces<D>& places,
+                 const NodeVector<D>* nodes, std::span<Vector<D>> values)
+{
+  for_each_stencil(interpolator, block, places, [&](std::size_t p, const auto& stencil) {
+    Quad sum = 0;
+    for_each_weight(block, stencil, [&](std::ptrdiff_t node, double weight) { sum += weight * nodes[node].four(0); });
+    for (int k = 0; k < D; ++k) values[p][k] = sum[static_cast<std::size_t>(k)];
   });
 }
 
@@ -183,99 +188,127 @@ struct ParticleMotion {
   Matrix<D> velocity_gradient;
 };
 
-/// Interpolates the motion of the nodes to particles (PAR-10021867-092020-6, eqs 43, 55).
-template <class Interpolator, int D = Interpolator::dimension>
-void grid_to_particles(const Interpolator& interpolator, const GridBlock<D>& block, const ParticlePlaces<D>& places,
-                       const NodeMotion<D>* nodes, std::span<ParticleMotion<D>> motion)
+/// How stiff particles make their nodes by themselves, and so how fast they can shake: h^2 m_p sum |grad S_ip|^2 / m_i,
+/// a pure number, in units of their moduli over density and h^2. Particles smaller than half a cell count with as many
+/// of their like as lie side by side across half a cell, as one layer of them moves as one. Inside of a body it is
+/// below 1, at an edge about 5, and up to 9 an axis where a particle has its nodes to itself.
+struct OwnStiffness {
+  std::span<const double> mass;
+  /// Of nodes [1/kg], 0 at those that do not count.
+  const double* inverse_mass = nullptr;
+  std::span<double> stiffness;
+};
+
+/// What particles take from the grid: all spans of one length, or, but the first, empty where nobody asks for them.
+template <int D>
+struct ParticleTargets {
+  std::span<ParticleMotion<D>> motion;
+  /// First moments of the velocities of the nodes about particles, sum S_ip v_i (x) (x_i - x_p) [m^2/s]; row: component
+  /// of velocity.
+  std::span<Matrix<D>> velocity_moments = {};
+  OwnStiffness own_stiffness = {};
+};
+
+/// h^2 times how many particles, `n_per_axis` across a cell, count as one in own stiffness.
+template <int D>
+double stiffness_unit(int n_per_axis, double cell_size)
+{
+  const double across_half_cell = std::max(1.0, 0.5 * n_per_axis);
+  return (D == 2 ? across_half_cell : across_half_cell * across_half_cell) * cell_size * cell_size;
+}
+
+/// The matrix that has the first D numbers of each four for a column.
+template <int D>
+Matrix<D> matrix_of(const std::array<Quad, D>& columns)
+{
+  Matrix<D> matrix;
+  for (int i = 0; i < D; ++i) {
+    for (int k = 0; k < D; ++k) matrix(i, k) = columns[static_cast<std::size_t>(k)][static_cast<std::size_t>(i)];
+  }
+  return matrix;
+}
+
+/// The motion of the nodes at particle p of targets, and its moments.
+template <bool with_moments, int D, int Support>
+[[gnu::always_inline]] inline void take_motion(const GridBlock<D>& block, const Stencil<D, Support>& stencil,
+                                               const NodeMotion<D>* nodes, const ParticleTargets<D>& to, std::size_t p)
 {
   constexpr int at_change = NodeMotion<D>::at_change;
-  for_each_stencil(interpolator, block, places, [&](std::size_t p, const auto& stencil) {
-    // The changes of velocity stand beside the velocities in the plane, and in the next four in space.
-    Quad moved = 0, changed = 0;
-    std::array<Quad, D> slopes;
-    slopes.fill(0);
-    for_each_row<D>(block, stencil, [&](const StencilRow<D>& row) {
-      Quad by_weight = 0, change_by_weight = 0, by_slope = 0;
-      for (std::size_t i = 0; i < Interpolator::support; ++i) {
-        const NodeMotion<D>& node = nodes[row.first + static_cast<std::ptrdiff_t>(i)];
-        by_weight += stencil.weight[0][i] * node.four(0);
-        by_slope += stencil.slope[0][i] * node.four(0);
-        if constexpr (D == 3) change_by_weight += stencil.weight[0][i] * node.four(at_change);
-      }
-      moved += row.across * by_weight;
-      changed += row.across * change_by_weight;
-      slopes[0] += row.across * by_slope;
-      for (int k = 1; k < D; ++k) slopes[static_cast<std::size_t>(k)] += row.slope_across[k - 1] * by_weight;
-    });
-    for (int i = 0; i < D; ++i) {
-      const auto component = static_cast<std::size_t>(i);
-      motion[p].velocity[i] = moved[component];
-      motion[p].velocity_change[i] = D == 2 ? moved[component + 2] : changed[component];
-      for (int k = 0; k < D; ++k) motion[p].velocity_gradient(i, k) = slopes[static_cast<std::size_t>(k)][component];
+  Arms<D, Support> arms;
+  if constexpr (with_moments) arms = arms_of(stencil, block.cell_size);
+  // The changes of velocity stand beside the velocities in the plane, and in the next four in space.
+  Quad moved = 0, changed = 0;
+  std::array<Quad, D> slopes, moments;
+  slopes.fill(0);
+  moments.fill(0);
+  for_each_row<D>(block, stencil, [&](const StencilRow<D>& row) {
+    Quad by_weight = 0, change_by_weight = 0, by_slope = 0, by_arm = 0;
+    for (std::size_t i = 0; i < Support; ++i) {
+      const NodeMotion<D>& node = nodes[row.first + static_cast<std::ptrdiff_t>(i)];
+      by_weight += stencil.weight[0][i] * node.four(0);
+      by_slope += stencil.slope[0][i] * node.four(0);
+      if constexpr (D == 3) change_by_weight += stencil.weight[0][i] * node.four(at_change);
+      if constexpr (with_moments) by_arm += stencil.weight[0][i] * arms[0][i] * node.four(0);
+    }
+    moved += row.across * by_weight;
+    changed += row.across * change_by_weight;
+    slopes[0] += row.across * by_slope;
+    if constexpr (with_moments) moments[0] += row.across * by_arm;
+    for (std::size_t k = 1; k < D; ++k) {
+      slopes[k] += row.slope_across[static_cast<int>(k) - 1] * by_weight;
+      if constexpr (with_moments) moments[k] += row.across * arms[k][row.place[k - 1]] * by_weight;
     }
   });
+  ParticleMotion<D>& motion = to.motion[p];
+  for (int i = 0; i < D; ++i) {
+    const auto component = static_cast<std::size_t>(i);
+    motion.velocity[i] = moved[component];
+    motion.velocity_change[i] = D == 2 ? moved[component + 2] : changed[component];
+  }
+  motion.velocity_gradient = matrix_of<D>(slopes);
+  if constexpr (with_moments) to.velocity_moments[p] = matrix_of<D>(moments);
 }
 
-/// The vectors that nodes have where particles are, sum S_ip u_i.
-template <class Interpolator, int D = Interpolator::dimension>
-void interpolate(const Interpolator& interpolator, const GridBlock<D>& block, const ParticlePlaces<D>& places,
-                 const NodeVector<D>* nodes, std::span<Vector<D>> values)
+/// The own stiffness of `size` particles of targets from `first` on.
+template <int D, int Support>
+void find_stiffness(double unit, const GridBlock<D>& block, const StencilBatch<D, Support>& stencils, std::size_t size,
+                    const OwnStiffness& own, std::size_t first)
 {
-  for_each_stencil(interpolator, block, places, [&](std::size_t p, const auto& stencil) {
-    Quad sum = 0;
-    for_each_row<D>(block, stencil, [&](const StencilRow<D>& row) {
-      Quad by_weight = 0;
-      for (std::size_t i = 0; i < Interpolator::support; ++i) {
-        by_weight += stencil.weight[0][i] * nodes[row.first + static_cast<std::ptrdiff_t>(i)].four(0);
+  for (std::size_t p = 0; p < size; p += n_lanes) {
+    Lanes sum = 0.0;
+    const auto stencil = stencils.lanes(p);
+    for_each_row<D>(block, stencil, [&](const StencilRow<D, Lanes>& row) {
+      const Lanes across = row.across * row.across, slope_across = row.slope_across.squaredNorm();
+      for (std::size_t i = 0; i < Support; ++i) {
+        const Lanes weight = stencil.weight[0][i], slope = stencil.slope[0][i];
+        const std::ptrdiff_t node = row.first + static_cast<std::ptrdiff_t>(i);
+        const Lanes per_mass = each_lane([&](std::size_t l) { return own.inverse_mass[stencils.first(p + l) + node]; });
+        sum += (slope * slope * across + weight * weight * slope_across) * per_mass;
       }
-      sum += row.across * by_weight;
     });
-    for (int k = 0; k < D; ++k) values[p][k] = sum[static_cast<std::size_t>(k)];
-  });
+    for (std::size_t l = 0; l < std::min(n_lanes, size - p); ++l) {
+      own.stiffness[first + p + l] = unit * own.mass[first + p + l] * sum[l];
+    }
+  }
 }
 
-/// Adds to the nodes the particles' shares of vectors, S_ip a_p.
+/// Interpolates the motion of the nodes to particles (PAR-10021867-092020-6, eqs 43, 55), `n_per_axis` across a cell.
 template <class Interpolator, int D = Interpolator::dimension>
-void add_vectors(const Interpolator& interpolator, const GridBlock<D>& block, const ParticlePlaces<D>& places,
-                 std::span<const Vector<D>> vectors, NodeVector<D>* sums)
+void grid_to_particles(const Interpolator& interpolator, int n_per_axis, const GridBlock<D>& block,
+                       const ParticlePlaces<D>& places, const NodeMotion<D>* nodes, const ParticleTargets<D>& to)
 {
-  for_each_stencil(interpolator, block, places, [&](std::size_t p, const auto& stencil) {
-    const Vector<D>& a = vectors[p];
-    const Quad vector = quad(a[0], a[1], D == 3 ? a[D - 1] : 0, 0);
-    for_each_row<D>(block, stencil, [&](const StencilRow<D>& row) {
-      const Quad by_weight = row.across * vector;
-      for (std::size_t i = 0; i < Interpolator::support; ++i) {
-        sums[row.first + static_cast<std::ptrdiff_t>(i)].add(0, stencil.weight[0][i] * by_weight);
-      }
-    });
-  });
-}
-
-/// First moments of the velocities of the nodes about particles, sum S_ip v_i (x) (x_i - x_p) [m^2/s]; row: component
-/// of velocity.
-template <class Interpolator, int D = Interpolator::dimension>
-void velocity_moments(const Interpolator& interpolator, const GridBlock<D>& block, const ParticlePlaces<D>& places,
-                      const NodeMotion<D>* nodes, std::span<Matrix<D>> moments)
-{
-  for_each_stencil(interpolator, block, places, [&](std::size_t p, const auto& of_particle) {
-    const auto stencil = with_moments(of_particle, block.cell_size);
-    std::array<Quad, D> columns;
-    columns.fill(0);
-    for_each_row<D>(block, stencil, [&](const StencilRow<D>& row) {
-      Quad by_weight = 0, by_moment = 0;
-      for (std::size_t i = 0; i < Interpolator::support; ++i) {
-        const Quad velocity = nodes[row.first + static_cast<std::ptrdiff_t>(i)].four(0);
-        by_weight += stencil.weight[0][i] * velocity;
-        by_moment += stencil.slope[0][i] * velocity;
-      }
-      columns[0] += row.across * by_moment;
-      for (int k = 1; k < D; ++k) columns[static_cast<std::size_t>(k)] += row.slope_across[k - 1] * by_weight;
-    });
-    for (int i = 0; i < D; ++i) {
-      for (int k = 0; k < D; ++k) {
-        moments[p](i, k) = columns[static_cast<std::size_t>(k)][static_cast<std::size_t>(i)];
+  const double unit = stiffness_unit<D>(n_per_axis, block.cell_size);
+  const bool has_moments = !to.velocity_moments.empty(), has_stiffness = !to.own_stiffness.stiffness.empty();
+  for_each_stencil_batch(interpolator, block, places, [&](std::size_t first, std::size_t size, const auto& stencils) {
+    for (std::size_t p = 0; p < size; ++p) {
+      const auto stencil = stencils[p];
+      if (has_moments) {
+        take_motion<true>(block, stencil, nodes, to, first + p);
+      } else {
+        take_motion<false>(block, stencil, nodes, to, first + p);
       }
     }
+    if (has_stiffness) find_stiffness(unit, block, stencils, size, to.own_stiffness, first);
   });
 }
 
@@ -285,40 +318,7 @@ void second_moments(const Interpolator& interpolator, const GridBlock<D>& block,
                     std::span<Matrix<D>> moments)
 {
   for_each_stencil(interpolator, block, places, [&](std::size_t p, const auto& stencil) {
-    const auto with = with_moments(stencil, block.cell_size);
-    moments[p] = second_moments_of(with, block.cell_size).asDiagonal();
-  });
-}
-
-/// h^2 m_p sum |grad S_ip|^2 / m_i, a pure number: how stiff a particle makes its nodes by itself, and so how fast they
-/// can shake, in units of its modulus over density and h^2. Particles smaller than half a cell count with as many of
-/// their like as lie side by side across half a cell, `n_per_axis` across one, as one layer of them moves as one.
-/// Inside of a body it is below 1, at an edge about 5, and up to 9 an axis where a particle has its nodes to itself.
-/// `inverse_mass` of nodes is in 1/kg, 0 at those that do not count.
-template <class Interpolator, int D = Interpolator::dimension>
-void own_stiffness(const Interpolator& interpolator, int n_per_axis, const GridBlock<D>& block,
-                   const ParticlePlaces<D>& places, std::span<const double> mass, const double* inverse_mass,
-                   std::span<double> stiffness)
-{
-  const double across_half_cell = std::max(1.0, 0.5 * n_per_axis);
-  const double n_alike = D == 2 ? across_half_cell : across_half_cell * across_half_cell;
-  for_each_stencil_batch(interpolator, block, places, [&](std::size_t first, std::size_t size, const auto& stencils) {
-    for (std::size_t p = 0; p < size; p += n_lanes) {
-      Lanes sum = 0.0;
-      const auto stencil = stencils.lanes(p);
-      for_each_row<D>(block, stencil, [&](const StencilRow<D, Lanes>& row) {
-        const Lanes across = row.across * row.across, slope_across = row.slope_across.squaredNorm();
-        for (std::size_t i = 0; i < Interpolator::support; ++i) {
-          const Lanes weight = stencil.weight[0][i], slope = stencil.slope[0][i];
-          const std::ptrdiff_t node = row.first + static_cast<std::ptrdiff_t>(i);
-          const Lanes per_mass = each_lane([&](std::size_t l) { return inverse_mass[stencils.first(p + l) + node]; });
-          sum += (slope * slope * across + weight * weight * slope_across) * per_mass;
-        }
-      });
-      for (std::size_t l = 0; l < std::min(n_lanes, size - p); ++l) {
-        stiffness[first + p + l] = n_alike * block.cell_size * block.cell_size * mass[first + p + l] * sum[l];
-      }
-    }
+    moments[p] = second_moments_of(stencil, arms_of(stencil, block.cell_size)).asDiagonal();
   });
 }
 

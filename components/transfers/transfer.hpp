@@ -10,11 +10,6 @@
 namespace tamp::components
 {
 
-/// The gradient that particles carry to the nodes beside their velocity: none; the gradient of velocity [1/s]; or its
-/// first moment sum S_ip v_i (x) (x_i - x_p) [m^2/s], which becomes a gradient by the second moments of
-/// the weights. Either comes from the grid, half a step behind the place, and is state.
-enum class CarriedGradient { none, gradient, moment };
-
 /// Where passes u_j = (1 - S+ S) u_{j-1} of nodes -> particles -> nodes begin, S+ being how velocities come to the
 /// nodes: nowhere, at the nodes' velocities of the start of the step, or at those that contact and walls have left.
 enum class Passes { none, from_start, from_end };

@@ -1,4 +1,6 @@
 #include <algorithm>
+#include <array>
+#include <span>
 #include <vector>
 
 #include "tasks/labels.hpp"
@@ -9,24 +11,22 @@
 namespace tamp::tasks
 {
 
-using components::NodeSums;
+using runtime::Index;
 using runtime::TaskContext;
 
 namespace
 {
 
-/// On each of a patch's particles of one material [N], from the function of the body that it was made for; zero where
+/// The force on particle p of a patch and material [N], from the function of the body that it was made for; zero where
 /// that has none.
-template <int D>
-std::vector<Vector<D>> body_forces_on(const Scene& scene, double time, std::span<const std::int64_t> body,
-                                      std::span<const double> mass, std::span<const Vector<D>> reference)
+template <int D, class Data>
+Vector<D> body_force_on(std::size_t p, const Scene& scene, double time, const Data& data)
 {
-  std::vector<Vector<D>> forces(mass.size(), Vector<D>::Zero());
-  for (std::size_t p = 0; p < mass.size(); ++p) {
-    const auto& of_body = scene.bodies[static_cast<std::size_t>(body[p])].functions.body_force;
-    if (of_body) forces[p] = mass[p] * of_body(in_space<D>(reference[p]), time).template head<D>();
-  }
-  return forces;
+  const auto body = static_cast<std::size_t>(data[particle::body.previous()][p]);
+  const auto& of_body = scene.bodies[body].functions.body_force;
+  if (!of_body) return Vector<D>::Zero();
+  const Vector<D>& reference = data[particle::reference_position<D>.previous()][p];
+  return data[particle::mass.previous()][p] * of_body(in_space<D>(reference), time).template head<D>();
 }
 
 /// Materials of which some body has one.
@@ -40,6 +40,48 @@ std::vector<int> materials_with_body_force(const Scene& scene)
   return materials;
 }
 
+template <int D>
+runtime::TaskDeclaration gather_body_force(const Method<D>& method)
+{
+  return runtime::task("gather body force")
+      .over_patches_and_groups(materials_with_body_force(method.scene))
+      .sparse()
+      .reads(particle::body.previous(), particle::mass.previous(), particle::reference_position<D>.previous(),
+             particle::position<D>.previous(), particle::deformation_gradient<D>.previous())
+      .accumulates(node::body_force<D>.halo(method.halo))
+      .body([&method](const TaskContext& at, auto data) {
+        const auto places = places_at_start<D>(data);
+        const auto sums = data[node::body_force<D>];
+        std::array<Vector<D>, motion_batch> buffer;
+        for (std::size_t first = 0; first < places.size(); first += motion_batch) {
+          const auto batch = places.subspan(first, std::min(motion_batch, places.size() - first));
+          const auto forces = std::span(buffer).first(batch.size());
+          for (std::size_t p = 0; p < forces.size(); ++p) {
+            forces[p] = body_force_on<D>(first + p, method.scene, at.step.time, data);
+          }
+          method.interpolation(at.group).add_vectors(block_of<D>(at.layout, sums), batch, forces, sums.data());
+        }
+        for_each_wall(method, at, sums.box(), [&](const Wall<D>& wall) {
+          wall.keeps_normal_push() ? wall.image.add_image(sums.data()) : wall.image.fold(sums.data());
+        });
+      });
+}
+
+template <int D>
+runtime::TaskDeclaration push_nodes(const Method<D>& method)
+{
+  return runtime::task("push nodes")
+      .over_patches_and_groups(materials_with_body_force(method.scene))
+      .sparse()
+      .reads(node::body_force<D>.halo(method.halo))
+      .updates(node::sums<D>.halo(method.halo))
+      .body([](const TaskContext&, auto data) {
+        const auto force = data[node::body_force<D>];
+        const auto sums = data[node::sums<D>];
+        for_each(sums.box(), [&](const Index& i) { sums[i].add_force(force[i].value()); });
+      });
+}
+
 }  // namespace
 
 /// As of the start of the step, like the stress. The image behind a wall feels the image of the force.
@@ -47,27 +89,7 @@ template <int D>
 runtime::TaskList body_force(const Method<D>& method)
 {
   if (!method.scene.has_body_force()) return {};
-  return {runtime::task("body force")
-              .over_patches_and_groups()
-              .sparse()
-              .reads(particle::body.previous(), particle::mass.previous(), particle::reference_position<D>.previous(),
-                     particle::position<D>.previous(), particle::deformation_gradient<D>.previous())
-              .accumulates(node::sums<D>.halo(method.halo))
-              .body([&method, materials = materials_with_body_force(method.scene)](const TaskContext& at, auto data) {
-                const auto sums = data[node::sums<D>];
-                if (std::find(materials.begin(), materials.end(), at.group) == materials.end()) return;
-                const auto forces = body_forces_on<D>(method.scene, at.step.time, data[particle::body.previous()],
-                                                      data[particle::mass.previous()],
-                                                      data[particle::reference_position<D>.previous()]);
-                // Sums of other phases at the nodes have their images already.
-                std::vector<NodeSums<D>> own(static_cast<std::size_t>(sums.box().size()));
-                method.interpolation(at.group).add_forces(block_of<D>(at.layout, sums), places_at_start<D>(data),
-                                                          std::span(forces), own.data());
-                for_each_wall(method, at, sums.box(), [&](const Wall<D>& wall) {
-                  wall.keeps_normal_push() ? wall.image.add_image(own.data()) : wall.image.fold(own.data());
-                });
-                for (std::size_t i = 0; i < own.size(); ++i) sums.data()[i].add_force(own[i].internal_force());
-              })};
+  return {gather_body_force(method), push_nodes(method)};
 }
 
 /// Over the way that particles go, as gravity's is counted: half of it by the forces of the start of the step and half
@@ -85,17 +107,13 @@ runtime::TaskList work_of_body_force(const Method<D>& method)
               .body([&method](const TaskContext& at, auto data) {
                 const auto before = data[particle::position<D>.previous()];
                 const auto after = data[particle::position<D>];
-                const auto forces_at = [&](double time) {
-                  return body_forces_on<D>(method.scene, time, data[particle::body.previous()],
-                                           data[particle::mass.previous()],
-                                           data[particle::reference_position<D>.previous()]);
-                };
-                const auto at_start = forces_at(at.step.time), at_end = forces_at(at.step.time + at.step.size);
                 BodyForceWork& work = data[body_force_work];
-                for (std::size_t p = 0; p < at_start.size(); ++p) {
+                for (std::size_t p = 0; p < after.size(); ++p) {
                   const Vector<D> half_way = 0.5 * (after[p] - before[p]);
-                  work.value += (at_start[p] + at_end[p]).dot(half_way);
-                  work.at_end += at_end[p].dot(half_way);
+                  const Vector<D> at_start = body_force_on<D>(p, method.scene, at.step.time, data),
+                                  at_end = body_force_on<D>(p, method.scene, at.step.time + at.step.size, data);
+                  work.value += (at_start + at_end).dot(half_way);
+                  work.at_end += at_end.dot(half_way);
                 }
               })};
 }

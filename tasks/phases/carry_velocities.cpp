@@ -1,13 +1,14 @@
+#include <algorithm>
 #include <array>
+#include <span>
 #include <utility>
-#include <vector>
 
 #include "components/boundary/rough_wall.hpp"
 #include "tasks/labels.hpp"
-#include "tasks/phases/bring_gradients.hpp"
 #include "tasks/phases/deform.hpp"
 #include "tasks/phases/phases.hpp"
 #include "tasks/phases/places.hpp"
+#include "tasks/phases/scatter.hpp"
 #include "tasks/phases/walls.hpp"
 
 namespace tamp::tasks
@@ -40,16 +41,15 @@ runtime::TaskDeclaration carry(const Method<D>& method)
       .accumulates(node::carried_sums<D>.halo(method.halo))
       .body([&method](const TaskContext& at, auto data) {
         const auto sums = data[node::carried_sums<D>];
-        const auto block = block_of<D>(at.layout, sums);
-        const components::Interpolation<D>& interpolation = method.interpolation(at.group);
         const components::ParticleSources<D> sources{.places = places_at_start<D>(data),
                                                      .velocity = data[particle::velocity<D>],
                                                      .mass = data[particle::mass.previous()],
                                                      .volume = data[particle::volume.previous()],
                                                      .stress = data[particle::stress<D>.previous()],
-                                                     .viscous_pressure = data[particle::viscous_pressure.previous()]};
-        interpolation.particles_to_grid(block, sources, false, sums.data());
-        bring_gradients<D>(interpolation, block, data, sums.data());
+                                                     .viscous_pressure = data[particle::viscous_pressure.previous()],
+                                                     .carried_gradient = method.carried_gradient,
+                                                     .carried = carried_by<D>(data)};
+        method.interpolation(at.group).particles_to_grid(block_of<D>(at.layout, sums), sources, false, sums.data());
         for_each_wall(method, at, sums.box(), [&](const Wall<D>& wall) { fold(wall, at, sums); });
       });
 }
@@ -77,29 +77,20 @@ runtime::TaskDeclaration take_carried(const Method<D>& method)
       .over_patches_and_groups(method.deformable_materials)
       .sparse()
       .reads(node::carried_sums<D>.halo(method.halo))
-      .computes(node::carried_motion<D>.halo(method.halo))
+      .computes(node::carried_motion<D>.halo(method.halo), node::inverse_mass.halo(method.halo))
       .body([&method](const TaskContext& at, auto data) {
         const auto sums = data[node::carried_sums<D>];
         const auto motion = data[node::carried_motion<D>];
+        const auto inverse_mass = data[node::inverse_mass];
         for_each(sums.box(), [&](const Index& i) {
           motion[i] = {};
           const double mass = sums[i].mass();
+          inverse_mass[i] = mass > method.least_node_mass ? 1 / mass : 0;
           if (mass > 0) motion[i].set(sums[i].momentum() / mass, Vector<D>::Zero());
         });
         for_each_wall(method, at, motion.box(), [&](const Wall<D>& wall) { hold_carried(wall, at, motion); });
         for_each_wall(method, at, motion.box(), [&](const Wall<D>& wall) { wall.image.mirror(motion.data()); });
       });
-}
-
-template <int D>
-std::vector<double> inverse_masses(const Method<D>& method, const GridView<const NodeSums<D>>& sums)
-{
-  std::vector<double> inverse(static_cast<std::size_t>(sums.box().size()));
-  for (std::size_t i = 0; i < inverse.size(); ++i) {
-    const double mass = sums.data()[i].mass();
-    inverse[i] = mass > method.least_node_mass ? 1 / mass : 0;
-  }
-  return inverse;
 }
 
 /// Particles deform by them.
@@ -109,21 +100,23 @@ runtime::TaskDeclaration deform_by_carried(const Method<D>& method)
   auto task = runtime::task("deform particles")
                   .over_patches_and_groups(method.deformable_materials)
                   .sparse()
-                  .reads(node::carried_sums<D>.halo(method.halo), node::carried_motion<D>.halo(method.halo),
+                  .reads(node::carried_motion<D>.halo(method.halo), node::inverse_mass.halo(method.halo),
                          particle::mass.previous(), particle::position<D>.previous(),
                          particle::deformation_gradient<D>.previous());
   return deforming(method, std::move(task), true).body([&method](const TaskContext& at, auto data) {
     const auto nodes = data[node::carried_motion<D>];
     const auto block = block_of<D>(at.layout, nodes);
     const auto places = places_at_start<D>(data);
-    const std::vector<double> inverse_mass = inverse_masses(method, data[node::carried_sums<D>]);
+    const double* const inverse_mass = data[node::inverse_mass].data();
     clear_cells(data);
     std::array<ParticleMotion<D>, motion_batch> buffer;
     for (std::size_t first = 0; first < places.size(); first += motion_batch) {
-      const auto motion = std::span(buffer).first(std::min(motion_batch, places.size() - first));
-      method.interpolation(at.group).grid_to_particles(block, places.subspan(first, motion.size()), nodes.data(),
-                                                       motion);
-      deform_by_nodes<D>(method, at, data, block, nodes.data(), inverse_mass.data(), first, motion);
+      const auto batch = places.subspan(first, std::min(motion_batch, places.size() - first));
+      const auto motion = std::span(buffer).first(batch.size());
+      method.interpolation(at.group).grid_to_particles(
+          block, batch, nodes.data(),
+          {.motion = motion, .own_stiffness = own_stiffness_of<D>(method, data, inverse_mass, first, batch.size())});
+      take_gradients<D>(method, at, data, block, nodes.data(), inverse_mass, first, motion);
     }
   });
 }

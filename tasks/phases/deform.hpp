@@ -18,10 +18,6 @@
 namespace tamp::tasks
 {
 
-/// Particles whose motion goes through the kernels together: their numbers between two kernels stay in the first-level
-/// cache.
-inline constexpr std::size_t motion_batch = 32;
-
 /// Deforms particles by the gradient of the velocity at the middle of the step, over the shape at its start (eqs
 /// 54-58), as `g` times dt; the old stress turns with them, and what the material answers is added by the next phase.
 template <int D, class Data>
@@ -95,22 +91,17 @@ void take_gradients(const Method<D>& method, const runtime::TaskContext& at, con
   }
 }
 
-/// Deforms particles, and finds how stiff they make their nodes.
+/// How stiff a batch of particles makes its nodes, for the kernel that finds it; 0 where no rule for the step asks.
 template <int D, class Data>
-void deform_by_nodes(const Method<D>& method, const runtime::TaskContext& at, const Data& data,
-                     const components::GridBlock<D>& block, const components::NodeMotion<D>* nodes,
-                     const double* inverse_mass, std::size_t first,
-                     std::span<const components::ParticleMotion<D>> motion)
+components::OwnStiffness own_stiffness_of(const Method<D>& method, const Data& data, const double* inverse_mass,
+                                          std::size_t first, std::size_t size)
 {
-  take_gradients<D>(method, at, data, block, nodes, inverse_mass, first, motion);
-  const auto own_stiffness = data[particle::own_stiffness].subspan(first, motion.size());
+  const auto stiffness = data[particle::own_stiffness].subspan(first, size);
   if (method.time_step_rule == StepRule::viscous) {
-    const auto places = places_at_start<D>(data).subspan(first, motion.size());
-    const auto mass = data[particle::mass.previous()].subspan(first, motion.size());
-    method.interpolation(at.group).own_stiffness(block, places, mass, inverse_mass, own_stiffness);
-  } else {
-    std::ranges::fill(own_stiffness, 0.0);
+    return {data[particle::mass.previous()].subspan(first, size), inverse_mass, stiffness};
   }
+  std::ranges::fill(stiffness, 0.0);
+  return {};
 }
 
 /// Where particles deform as their cells do, these begin empty.
@@ -121,7 +112,8 @@ void clear_cells(const Data& data)
   for_each(cells.box(), [&](const runtime::Index& i) { cells[i] = {}; });
 }
 
-/// The task with what `deform_by_nodes` asks for beside places and masses, where it is this one that deforms particles.
+/// The task with what `take_gradients` and `own_stiffness_of` ask for beside places and masses, where it is this one
+/// that deforms particles.
 template <int D, class Task>
 auto deforming(const Method<D>& method, Task task, bool deforms)
 {

@@ -119,6 +119,7 @@ runtime::TaskList grid_to_particles(const Method<D>& method)
     const auto nodes = data[node::motion<D>];
     const auto terms = data[node::velocity_terms<D>];
     const auto moments = data[particle::velocity_moment<D>];
+    const double* const inverse_mass = data[node::inverse_mass].data();
     const auto block = block_of<D>(at.layout, nodes);
     const auto places = places_at_start<D>(data);
     const components::Interpolation<D>& interpolation = method.interpolation(at.group);
@@ -130,16 +131,16 @@ runtime::TaskList grid_to_particles(const Method<D>& method)
       const std::size_t size = std::min(motion_batch, places.size() - first);
       const auto batch = places.subspan(first, size);
       const auto motion = std::span(buffer).first(size);
-      interpolation.grid_to_particles(block, batch, nodes.data(), motion);
+      components::ParticleTargets<D> to{.motion = motion};
+      if (!moments.empty()) to.velocity_moments = moments.subspan(first, size);
+      if (deforms) to.own_stiffness = own_stiffness_of<D>(method, data, inverse_mass, first, size);
+      interpolation.grid_to_particles(block, batch, nodes.data(), to);
       if (restores) interpolation.interpolate(block, batch, terms.data(), restored);
       move<D>(method, at.step.size, data, first, motion, restored);
       data[grid_totals].gained_by_particles += gained<D>(data, first, size);
       count_gravity<D>(method, at.step.size, data, first, size);
       if (filters) add_filtered_momentum<D>(data, first, motion);
-      if (!moments.empty()) interpolation.velocity_moments(block, batch, nodes.data(), moments.subspan(first, size));
-      if (deforms) {
-        deform_by_nodes<D>(method, at, data, block, nodes.data(), data[node::inverse_mass].data(), first, motion);
-      }
+      if (deforms) take_gradients<D>(method, at, data, block, nodes.data(), inverse_mass, first, motion);
     }
   })};
 }

@@ -3,9 +3,9 @@
 #include <vector>
 
 #include "tasks/labels.hpp"
-#include "tasks/phases/bring_gradients.hpp"
 #include "tasks/phases/phases.hpp"
 #include "tasks/phases/places.hpp"
+#include "tasks/phases/scatter.hpp"
 #include "tasks/phases/walls.hpp"
 
 namespace tamp::tasks
@@ -34,17 +34,18 @@ runtime::TaskDeclaration gather(const Method<D>& method, const std::string& name
       .accumulates(node::sums<D>.halo(method.halo))
       .body([&method, shares_stress](const TaskContext& at, auto data) {
         const auto sums = data[node::sums<D>];
-        const auto block = block_of<D>(at.layout, sums);
-        const components::Interpolation<D>& interpolation = method.interpolation(at.group);
+        const bool is_rigid = method.rigid_body(at.group) != nullptr;
         const components::ParticleSources<D> sources{
             .places = places_at_start<D>(data),
             .velocity = data[particle::velocity<D>.previous()],
             .mass = data[particle::mass.previous()],
             .volume = data[particle::volume],
             .stress = shares_stress ? data[particle::shared_stress<D>] : data[particle::stress<D>],
-            .viscous_pressure = data[particle::viscous_pressure]};
-        interpolation.particles_to_grid(block, sources, method.needs_surface_of(at.group), sums.data());
-        if (method.rigid_body(at.group) == nullptr) bring_gradients<D>(interpolation, block, data, sums.data());
+            .viscous_pressure = data[particle::viscous_pressure],
+            .carried_gradient = is_rigid ? components::CarriedGradient::none : method.carried_gradient,
+            .carried = carried_by<D>(data)};
+        method.interpolation(at.group).particles_to_grid(block_of<D>(at.layout, sums), sources,
+                                                         method.needs_surface_of(at.group), sums.data());
         for_each_wall(method, at, sums.box(), [&](const Wall<D>& wall) { fold(wall, at, sums); });
       });
 }

@@ -1,6 +1,8 @@
+#include <algorithm>
+#include <array>
+#include <span>
 #include <string>
 #include <utility>
-#include <vector>
 
 #include "tasks/labels.hpp"
 #include "tasks/phases/phases.hpp"
@@ -72,10 +74,14 @@ runtime::TaskDeclaration return_term(const Method<D>& method, int pass)
         const auto block = block_of<D>(at.layout, term);
         const auto places = places_at_start<D>(data);
         const components::Interpolation<D>& interpolation = method.interpolation(at.group);
-        std::vector<Vector<D>> momentum(places.size());
-        interpolation.interpolate(block, places, term.data(), momentum);
-        for (std::size_t p = 0; p < momentum.size(); ++p) momentum[p] *= mass[p];
-        interpolation.add_vectors(block, places, momentum, returned.data());
+        std::array<Vector<D>, motion_batch> buffer;
+        for (std::size_t first = 0; first < places.size(); first += motion_batch) {
+          const auto batch = places.subspan(first, std::min(motion_batch, places.size() - first));
+          const auto momentum = std::span(buffer).first(batch.size());
+          interpolation.interpolate(block, batch, term.data(), momentum);
+          for (std::size_t p = 0; p < momentum.size(); ++p) momentum[p] *= mass[first + p];
+          interpolation.add_vectors(block, batch, momentum, returned.data());
+        }
         for_each_wall(method, at, returned.box(), [&](const Wall<D>& wall) {
           wall.keeps_normal_push() ? wall.image.add_image(returned.data()) : wall.image.fold(returned.data());
         });

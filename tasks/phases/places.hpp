@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 
 #include "components/shapes/particle_places.hpp"
 #include "runtime/graph/declaration.hpp"
@@ -9,6 +10,10 @@
 
 namespace tamp::tasks
 {
+
+/// Particles whose motion goes through the kernels together: their numbers between two kernels stay in the first-level
+/// cache.
+inline constexpr std::size_t motion_batch = 32;
 
 /// The particles of a task as they are at the start of the step, which all weights of the step follow from. The task
 /// reads their previous positions and deformation gradients.

@@ -7,7 +7,6 @@
 #include "components/loads/time_step.hpp"
 #include "components/shapes/interpolation.hpp"
 #include "components/shapes/transfer.hpp"
-#include "components/transfers/apic.hpp"
 #include "tests/components/shapes/shape_reference.hpp"
 
 namespace test_transfer
@@ -117,25 +116,30 @@ TEMPLATE_TEST_CASE_SIG("with their velocity gradients, particles bring a linear 
   }
   const std::vector<Matrix<D>> gradients(cloud.mass.size(), gradient);
   const Gimp<D> interpolator(n_per_axis);
-  std::vector<NodeSums<D>> sums(static_cast<std::size_t>(n_nodes_of(block)));
+  std::vector<NodeSums<D>> without(static_cast<std::size_t>(n_nodes_of(block))), with = without;
+  ParticleSources<D> sources = cloud.sources();
 
-  particles_to_grid(interpolator, block, cloud.sources(), sums.data());
+  particles_to_grid(interpolator, block, sources, without.data());
+  sources.carried_gradient = CarriedGradient::gradient;
+  sources.carried = gradients;
+  particles_to_grid<true, true>(interpolator, block, sources, with.data());
+
   double error_without = 0;
-  const auto error_at = [&](std::size_t i) {
+  const auto error_at = [&](std::size_t i, const NodeSums<D>& sums) {
     const Vector<D> node = node_position(block, static_cast<std::ptrdiff_t>(i));
     const Vector<D> expected = cloud.velocity[0] + gradient * (node - cloud.position[0]);
-    return (sums[i].momentum() / sums[i].mass() - expected).norm();
+    return (sums.momentum() / sums.mass() - expected).norm();
   };
-  for (std::size_t i = 0; i < sums.size(); ++i) {
-    if (sums[i].mass() > 1e-9) error_without = std::max(error_without, error_at(i));
+  for (std::size_t i = 0; i < with.size(); ++i) {
+    momentum -= with[i].momentum();
+    REQUIRE(with[i].mass() == without[i].mass());
+    REQUIRE(with[i].internal_force() == without[i].internal_force());
+    REQUIRE(with[i].surface_gradient() == without[i].surface_gradient());
+    if (with[i].mass() < 1e-9) continue;
+    REQUIRE(error_at(i, with[i]) < 1e-6);
+    error_without = std::max(error_without, error_at(i, without[i]));
   }
-  add_gradient_momentum<Gimp<D>, D>(interpolator, block, {cloud.position}, cloud.mass, gradients, sums.data());
-
   CHECK(error_without > 0.1);
-  for (std::size_t i = 0; i < sums.size(); ++i) {
-    momentum -= sums[i].momentum();
-    if (sums[i].mass() > 1e-9) REQUIRE(error_at(i) < 1e-6);
-  }
   CHECK(momentum.norm() < 1e-11);
 }
 
@@ -206,30 +210,6 @@ TEMPLATE_TEST_CASE_SIG("the grid receives all mass and momentum, and no net forc
   CHECK(force.norm() * cell_size < 1e-11);
 }
 
-TEMPLATE_TEST_CASE_SIG("forces on particles come to the nodes by their weights, and to nothing else there", "",
-                       ((int D), D), 2, 3)
-{
-  const int n_per_axis = GENERATE(1, 2, 4);
-  const auto block = block_of_nodes<D>(5, cell_size);
-  std::mt19937 random(11);
-  const Cloud<D> cloud(block, 20, random);
-  std::vector<NodeSums<D>> sums(static_cast<std::size_t>(n_nodes_of(block)));
-
-  // Any vectors of the particles will do.
-  add_forces<Gimp<D>, D>(Gimp<D>(n_per_axis), block, {cloud.position}, cloud.velocity, sums.data());
-
-  for (std::size_t i = 0; i < sums.size(); ++i) {
-    Vector<D> plain = Vector<D>::Zero();
-    for (std::size_t p = 0; p < cloud.position.size(); ++p) {
-      const Vector<D> node = node_position(block, static_cast<std::ptrdiff_t>(i));
-      plain += PlainShape<D>(cloud.position[p], node, 0.5 / n_per_axis, cell_size).weight * cloud.velocity[p];
-    }
-    REQUIRE((sums[i].internal_force() - plain).norm() < 1e-14);
-    REQUIRE(sums[i].mass() == 0);
-    REQUIRE(sums[i].momentum().norm() + sums[i].surface_gradient().norm() == 0);
-  }
-}
-
 TEMPLATE_TEST_CASE_SIG("particles take from the grid what plain loops over all nodes give", "", ((int D), D), 2, 3)
 {
   const int n_per_axis = GENERATE(1, 2, 4);
@@ -242,7 +222,7 @@ TEMPLATE_TEST_CASE_SIG("particles take from the grid what plain loops over all n
   for (int sample = 0; sample < n_samples; ++sample) position.push_back(random_place(block, random));
   std::vector<ParticleMotion<D>> motions(position.size());
 
-  grid_to_particles<Gimp<D>, D>(Gimp<D>(n_per_axis), block, {position}, nodes.data(), motions);
+  grid_to_particles<Gimp<D>, D>(Gimp<D>(n_per_axis), n_per_axis, block, {position}, nodes.data(), {motions});
 
   for (std::size_t p = 0; p < position.size(); ++p) {
     const Vector<D>& x = position[p];
@@ -303,10 +283,11 @@ TEMPLATE_TEST_CASE_SIG(
   const Cloud<D> cloud(block, 30, random);
   auto nodes = random_motion<D>(n_nodes_of(block), random);
   std::vector<Matrix<D>> of_weights(cloud.position.size()), of_velocities = of_weights, of_linear = of_weights;
+  std::vector<ParticleMotion<D>> motion(cloud.position.size());
   const auto interpolation = Interpolation<D>::make(Interpolator("gimp"), n_per_axis);
 
   interpolation->second_moments(block, {cloud.position}, of_weights);
-  interpolation->velocity_moments(block, {cloud.position}, nodes.data(), of_velocities);
+  interpolation->grid_to_particles(block, {cloud.position}, nodes.data(), {motion, of_velocities});
 
   for (std::size_t p = 0; p < of_weights.size(); ++p) {
     Matrix<D> weights = Matrix<D>::Zero(), velocities = weights;
@@ -324,7 +305,7 @@ TEMPLATE_TEST_CASE_SIG(
   for (std::size_t i = 0; i < nodes.size(); ++i) {
     nodes[i].set(gradient * node_position(block, static_cast<std::ptrdiff_t>(i)), Vector<D>::Zero());
   }
-  interpolation->velocity_moments(block, {cloud.position}, nodes.data(), of_linear);
+  interpolation->grid_to_particles(block, {cloud.position}, nodes.data(), {motion, of_linear});
   for (std::size_t p = 0; p < of_linear.size(); ++p) {
     REQUIRE((of_linear[p] * of_weights[p].inverse() - gradient).norm() < 1e-11);
   }
@@ -340,9 +321,12 @@ TEMPLATE_TEST_CASE_SIG("a particle's own stiffness is its share in that of its n
   std::vector<NodeSums<D>> sums(static_cast<std::size_t>(n_nodes_of(block)));
   particles_to_grid(Gimp<D>(n_per_axis), block, cloud.sources(), sums.data());
   std::vector<double> stiffness(cloud.position.size());
+  const std::vector<double> inverse_mass = inverse_masses(sums);
+  const std::vector<NodeMotion<D>> nodes(sums.size());
+  std::vector<ParticleMotion<D>> motion(stiffness.size());
 
-  own_stiffness<Gimp<D>, D>(Gimp<D>(n_per_axis), n_per_axis, block, {cloud.position}, cloud.mass,
-                            inverse_masses(sums).data(), stiffness);
+  grid_to_particles<Gimp<D>, D>(Gimp<D>(n_per_axis), n_per_axis, block, {cloud.position}, nodes.data(),
+                                {.motion = motion, .own_stiffness = {cloud.mass, inverse_mass.data(), stiffness}});
 
   for (std::size_t p = 0; p < cloud.mass.size(); ++p) {
     double plain = 0;
@@ -373,8 +357,12 @@ TEMPLATE_TEST_CASE_SIG("no place of a particle alone is stiffer than the greates
     const std::vector<double> one{1};
     const std::vector<SymmetricTensor<D>> stress{SymmetricTensor<D>::Zero()};
     particles_to_grid(interpolator, block, {{position}, velocity, one, one, stress, one}, sums.data());
+    const std::vector<double> inverse_mass = inverse_masses(sums);
+    const std::vector<NodeMotion<D>> nodes(sums.size());
+    std::vector<ParticleMotion<D>> motion(1);
     std::vector<double> stiffness(1);
-    own_stiffness<Gimp<D>, D>(interpolator, n_per_axis, block, {position}, one, inverse_masses(sums).data(), stiffness);
+    grid_to_particles<Gimp<D>, D>(interpolator, n_per_axis, block, {position}, nodes.data(),
+                                  {.motion = motion, .own_stiffness = {one, inverse_mass.data(), stiffness}});
     return stiffness[0];
   };
 
