@@ -61,10 +61,12 @@ Migration::Migration(Warehouse& warehouse, const TaskDeclaration& declaration)
       position_(*declaration.accesses.front().label),
       laps_(laps_label(declaration)),
       outboxes_(static_cast<std::size_t>(warehouse.layout().size() * warehouse.n_groups())),
-      arrivals_(outboxes_.size())
+      arrivals_(outboxes_.size()),
+      fields_(outboxes_.size())
 {
   for (const Patch& patch : warehouse.layout()) {
     for (int g = 0; g < warehouse.n_groups(); ++g) {
+      fields_[place(patch.id, g)] = state_fields(warehouse, patch.id, g);
       auto& parcels = arrivals_[place(patch.id, g)];
       parcels.resize(patch.neighbours.size());
       for (std::size_t k = 0; k < parcels.size(); ++k) box(patch.neighbours[k], g).to_patch[patch.id] = &parcels[k];
@@ -147,13 +149,12 @@ void Migration::send(int patch, int group)
   Index uncounted{0, 0, 0};
   Index* const laps =
       laps_ == nullptr ? nullptr : reinterpret_cast<Index*>(value(warehouse_.field(*laps_, patch, group), 0));
-  std::vector<Field*> fields;
+  const std::vector<Field*>& fields = fields_[place(patch, group)];
   const IndexBox& cells = warehouse_.layout()[patch].cells;
   for (std::size_t p = 0; p < n; ++p) {
     if (stays(cells, value(positions, p))) continue;
     const int to = destination(value(positions, p), laps == nullptr ? uncounted : laps[p]);
     if (to == patch) continue;
-    if (fields.empty()) fields = state_fields(warehouse_, patch, group);
     out.leavers.push_back(p);
     if (to < 0) continue;
     if (const auto parcel = out.to_patch.find(to); parcel != out.to_patch.end()) {
@@ -175,7 +176,7 @@ void Migration::receive(int patch, int group)
   if (n_arrivals == 0) return;
   std::size_t n = warehouse_.n_particles(patch, group);
   warehouse_.set_n_particles(patch, group, n + n_arrivals);
-  const std::vector<Field*> fields = state_fields(warehouse_, patch, group);
+  const std::vector<Field*>& fields = fields_[place(patch, group)];
   for (const ParticleParcel& parcel : parcels) {
     if (parcel.n_particles == 0) continue;
     for (std::size_t k = 0; k < fields.size(); ++k) {
@@ -200,7 +201,7 @@ const std::byte* Migration::read_parcel(const MessagePart& part, const std::byte
   std::memcpy(&parcel.n_particles, from, sizeof parcel.n_particles);
   from += sizeof parcel.n_particles;
   if (parcel.n_particles == 0) return from;
-  const std::vector<Field*> fields = state_fields(warehouse_, part.to_patch, part.group);
+  const std::vector<Field*>& fields = fields_[place(part.to_patch, part.group)];
   parcel.fields.resize(fields.size());
   for (std::size_t k = 0; k < fields.size(); ++k) {
     const std::byte* end = from + parcel.n_particles * fields[k]->label->value_bytes();

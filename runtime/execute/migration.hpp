@@ -60,6 +60,8 @@ class Migration
   std::vector<Outbox> outboxes_;
   /// Arrivals at each patch and group from each of its neighbours, together in memory: most often there are none.
   std::vector<std::vector<ParticleParcel>> arrivals_;
+  /// The state of the particles of each patch and group.
+  std::vector<std::vector<Field*>> fields_;
 };
 
 }  // namespace tamp::runtime

@@ -1,4 +1,5 @@
-#include <algorithm>
+#include <array>
+#include <cstddef>
 
 #include "tasks/labels.hpp"
 #include "tasks/phases/phases.hpp"
@@ -11,15 +12,16 @@ using runtime::TaskContext;
 namespace
 {
 
-/// Axes along which particles of a patch can leave the grid: a step takes them no further than to a neighbour.
-std::vector<std::size_t> open_axes(const runtime::Grid& grid, const runtime::Patch& patch)
+/// Along which axes particles of a patch can leave the grid: a step takes them no further than to a neighbour.
+template <int D>
+std::array<bool, D> open_axes(const runtime::Grid& grid, const runtime::Patch& patch)
 {
-  std::vector<std::size_t> axes;
-  for (std::size_t k = 0; k < static_cast<std::size_t>(grid.dimension); ++k) {
+  std::array<bool, D> open;
+  for (std::size_t k = 0; k < D; ++k) {
     const bool at_end = patch.cells.lower[k] == 0 || patch.cells.upper[k] == grid.n_cells[k];
-    if (at_end && !grid.periodic[k]) axes.push_back(k);
+    open[k] = at_end && !grid.periodic[k];
   }
-  return axes;
+  return open;
 }
 
 }  // namespace
@@ -38,10 +40,11 @@ runtime::TaskList count_lost(const Method<D>&)
                 const auto velocity = data[particle::velocity<D>];
                 LostParticles& lost = data[lost_particles];
                 const runtime::Grid& grid = at.layout.grid();
-                const std::vector<std::size_t> axes = open_axes(grid, at.patch);
+                const std::array<bool, D> open = open_axes<D>(grid, at.patch);
                 const auto stays = [&](const Vector<D>& x) {
-                  return std::all_of(axes.begin(), axes.end(),
-                                     [&](std::size_t k) { return grid.spans(k, x[static_cast<int>(k)]); });
+                  bool is_inside = true;
+                  for (std::size_t k = 0; k < D; ++k) is_inside &= !open[k] || grid.spans(k, x[static_cast<int>(k)]);
+                  return is_inside;
                 };
                 for (std::size_t p = 0; p < mass.size(); ++p) {
                   if (stays(position[p])) continue;

@@ -1,4 +1,8 @@
-#include <functional>
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
 
 #include "tasks/labels.hpp"
 #include "tasks/phases/phases.hpp"
@@ -16,43 +20,46 @@ using runtime::TaskContext;
 namespace
 {
 
-/// The pressure loads of the bodies in one step, as their particles bring them to the grid.
+/// The pressure loads of a material's bodies in one step, as their particles bring them to the grid. Particles of a
+/// body stand together, so that its load is found once for many of them.
 template <int D>
 class Pressures
 {
  public:
   Pressures(const Method<D>& method, int material, double time)
-      : time_(time),
+      : bodies_(method.scene.bodies),
+        time_(time),
         size_(method.cell_size / method.scene.particles_per_axis_of(material)),
         depth_(method.scene.pressed_depth(material))
   {
-    for (const SceneBody& body : method.scene.bodies) {
-      const bool is_pressed = body.pressure.has_value();
-      loads_.push_back({is_pressed ? body.pressure->curve.at(time) : 0,
-                        is_pressed ? body.pressure->template box_of<D>() : components::PressedBox<D>{},
-                        body.functions.pressure});
-    }
   }
 
   /// The pressure on a particle that started at `reference`, that of the scene and that of the problem [Pa].
-  components::ByFace<D> at(std::int64_t body, const Vector<D>& reference) const
+  components::ByFace<D> at(std::int64_t body, const Vector<D>& reference)
   {
-    const Load& load = loads_[static_cast<std::size_t>(body)];
-    components::ByFace<D> pressure = load.pressure * load.box.part_of(reference, size_, depth_);
-    if (!load.of_problem) return pressure;
-    return pressure.array() + load.of_problem(in_space<D>(reference), time_);
+    if (body != body_) take(body);
+    components::ByFace<D> pressure = pressure_ * box_.part_of(reference, size_, depth_);
+    const auto& of_problem = bodies_[static_cast<std::size_t>(body)].functions.pressure;
+    if (!of_problem) return pressure;
+    return pressure.array() + of_problem(in_space<D>(reference), time_);
   }
 
  private:
-  struct Load {
-    double pressure;
-    components::PressedBox<D> box;
-    std::function<double(const Vector<3>&, double)> of_problem;
-  };
-  std::vector<Load> loads_;
+  void take(std::int64_t body)
+  {
+    const auto& load = bodies_[static_cast<std::size_t>(body)].pressure;
+    body_ = body;
+    pressure_ = load.has_value() ? load->curve.at(time_) : 0;
+    box_ = load.has_value() ? load->template box_of<D>() : components::PressedBox<D>{};
+  }
+
+  const std::vector<SceneBody>& bodies_;
   double time_;
   double size_;
   double depth_;
+  std::int64_t body_ = -1;
+  double pressure_ = 0;
+  components::PressedBox<D> box_;
 };
 
 /// Gathers the pressure on nodes, weighted by the mass of their particles.
@@ -70,11 +77,17 @@ runtime::TaskDeclaration gather_pressure(const Method<D>& method)
         const auto reference = data[particle::reference_position<D>.previous()];
         const auto mass = data[particle::mass.previous()];
         const auto sums = data[node::pressure_sums<D>];
-        const Pressures<D> pressures(method, at.group, at.step.time);
-        std::vector<components::ByFace<D>> pressure(mass.size());
-        for (std::size_t p = 0; p < mass.size(); ++p) pressure[p] = mass[p] * pressures.at(body[p], reference[p]);
-        method.interpolation(at.group).add_pressure(block_of<D>(at.layout, sums), places_at_start<D>(data), pressure,
-                                                    sums.data());
+        Pressures<D> pressures(method, at.group, at.step.time);
+        const auto places = places_at_start<D>(data);
+        std::array<components::ByFace<D>, motion_batch> buffer;
+        for (std::size_t first = 0; first < places.size(); first += motion_batch) {
+          const auto batch = places.subspan(first, std::min(motion_batch, places.size() - first));
+          const auto pressure = std::span(buffer).first(batch.size());
+          for (std::size_t p = 0; p < pressure.size(); ++p) {
+            pressure[p] = mass[first + p] * pressures.at(body[first + p], reference[first + p]);
+          }
+          method.interpolation(at.group).add_pressure(block_of<D>(at.layout, sums), batch, pressure, sums.data());
+        }
         for_each_wall(method, at, sums.box(), [&](const Wall<D>& wall) { wall.image.add_image(sums.data()); });
       });
 }
