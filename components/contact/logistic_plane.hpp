@@ -75,8 +75,9 @@ struct RegressionSums : NodeValues<D, D == 2 ? 12 : 16, 1> {
     Vector<n, Number> z;
     z << particle.x, Number(1.0);
     const Number w = sqrt(particle.shape);
-    // The fit's probability that the particle lies on the other side.
-    const Number other_side = 1.0 / (1.0 + portable::exp(Number(particle.side * z.dot(particle.coefficients))));
+    const Number odds = particle.side * z.dot(particle.coefficients);
+    // The fit's probability that the particle lies on the other side: even where there is no plane yet.
+    const Number other_side = any(odds != 0.0) ? Number(1.0 / (1.0 + portable::exp(odds))) : Number(0.5);
     const Number slope = w * particle.side * other_side, curvature = w * other_side * (1.0 - other_side);
     Share<Number> share;
     share[0] = w;

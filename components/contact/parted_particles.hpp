@@ -54,43 +54,51 @@ class PartedPairs
 {
  public:
   bool has_room_for(std::size_t n) const { return n_ + n <= capacity; }
-  void add(std::ptrdiff_t node, double shape, const Vector<D>& place)
+  /// Without a branch, as whether it counts is hard to foretell.
+  void add_if(bool counts, std::ptrdiff_t node, double shape, const Vector<D>& x)
   {
     node_[n_] = node;
     shape_[n_] = shape;
-    for (std::size_t k = 0; k < D; ++k) place_[k][n_] = place[static_cast<int>(k)];
-    ++n_;
+    for (std::size_t k = 0; k < D; ++k) x_[k][n_] = x[static_cast<int>(k)];
+    n_ += std::size_t{counts};
   }
 
   /// Calls `visit(nodes, n, particles)` for n of them at once, and forgets them.
   template <class Visit>
-  void take(const GridBlock<D>& block, const ContactPlane<D>* planes, const Visit& visit)
+  void take(const ContactPlane<D>* planes, const Visit& visit)
   {
+    if (n_ > 0) repeat_last();
     for (std::size_t first = 0; first < n_; first += n_lanes) {
-      const std::size_t n = std::min(n_lanes, n_ - first);
-      // Lanes left over repeat the last pair.
-      const auto at = [&](std::size_t l) { return first + std::min(l, n - 1); };
-      const auto plane = [&](std::size_t l) -> const ContactPlane<D>& { return planes[node_[at(l)]]; };
+      const auto plane = [&](std::size_t l) -> const ContactPlane<D>& { return planes[node_[first + l]]; };
+      const auto in_lanes = [&](const auto& numbers) {
+        return Lanes(&numbers[first], std::experimental::element_aligned);
+      };
       PartedParticle<D, Lanes> particles;
       particles.side = each_lane([&](std::size_t l) { return static_cast<double>(plane(l).side); });
       for (int k = 0; k <= D; ++k) {
         particles.coefficients[k] = each_lane([&](std::size_t l) { return plane(l).coefficients[k]; });
       }
-      particles.shape = each_lane([&](std::size_t l) { return shape_[at(l)]; });
-      const auto cells = block.cells_to(each_lane([&](std::size_t l) { return static_cast<double>(node_[at(l)]); }));
-      for (int k = 0; k < D; ++k) {
-        const auto& place = place_[static_cast<std::size_t>(k)];
-        particles.x[k] = each_lane([&](std::size_t l) { return place[at(l)]; }) - cells[k];
-      }
-      visit(&node_[first], n, particles);
+      particles.shape = in_lanes(shape_);
+      for (std::size_t k = 0; k < D; ++k) particles.x[static_cast<int>(k)] = in_lanes(x_[k]);
+      visit(&node_[first], std::min(n_lanes, n_ - first), particles);
     }
     n_ = 0;
   }
 
  private:
-  std::array<std::ptrdiff_t, capacity> node_;
-  std::array<double, capacity> shape_;
-  std::array<std::array<double, capacity>, D> place_;
+  static constexpr std::size_t with_rest = capacity + n_lanes;
+
+  /// For the lanes that are left over.
+  void repeat_last()
+  {
+    std::fill_n(&node_[n_], n_lanes, node_[n_ - 1]);
+    std::fill_n(&shape_[n_], n_lanes, shape_[n_ - 1]);
+    for (auto& along : x_) std::fill_n(&along[n_], n_lanes, along[n_ - 1]);
+  }
+
+  std::array<std::ptrdiff_t, with_rest> node_;
+  std::array<double, with_rest> shape_;
+  std::array<std::array<double, with_rest>, D> x_;
   std::size_t n_ = 0;
 };
 
@@ -131,10 +139,10 @@ void for_each_parted(const Interpolator& interpolator, const GridBlock<D>& block
   const auto pair_up = [&] {
     const ParticlePlaces<D> near_places = near.places();
     for_each_stencil(interpolator, block, near_places, [&](std::size_t p, const auto& stencil) {
-      if (!pairs.has_room_for(n_nodes)) pairs.take(block, planes, visit);
-      const Vector<D> place = block.in_cells(near_places.position[p]);
-      for_each_weight(block, stencil, [&](std::ptrdiff_t node, double shape) {
-        if (planes[node].side != 0 && shape > 0) pairs.add(node, shape, place);
+      if (!pairs.has_room_for(n_nodes)) pairs.take(planes, visit);
+      const Vector<D> x = block.in_cells(near_places.position[p]) - block.cells_to(stencil.first);
+      for_each_placed_weight(block, stencil, [&](std::ptrdiff_t node, double shape, const Vector<D>& cells) {
+        pairs.add_if(planes[node].side != 0 && shape > 0, node, shape, x - cells);
       });
     });
     near.clear();
@@ -144,7 +152,7 @@ void for_each_parted(const Interpolator& interpolator, const GridBlock<D>& block
     near.add(places, p);
   });
   pair_up();
-  pairs.take(block, planes, visit);
+  pairs.take(planes, visit);
 }
 
 /// Adds the particles' shares to the regression sums of nodes.

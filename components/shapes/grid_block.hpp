@@ -21,17 +21,7 @@ struct GridBlock {
 
   /// Position in cells from the first node.
   Vector<D> in_cells(const Vector<D>& x) const { return (x - origin) * (1 / cell_size); }
-  /// Cells from the first node to the one that lies `node` values after it; also of whole numbers in Lanes.
-  Vector<D, Lanes> cells_to(Lanes node) const
-  {
-    Vector<D, Lanes> cells;
-    for (int k = D - 1; k >= 0; --k) {
-      const auto stride = static_cast<double>(strides[static_cast<std::size_t>(k)]);
-      cells[k] = floor(node / stride);
-      node -= cells[k] * stride;
-    }
-    return cells;
-  }
+  /// Cells from the first node to the one that lies `node` values after it.
   Vector<D> cells_to(std::ptrdiff_t node) const
   {
     Vector<D> cells;
