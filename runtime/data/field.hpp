@@ -3,6 +3,7 @@
 #include <array>
 #include <cstddef>
 #include <cstring>
+#include <vector>
 
 #include "runtime/data/buffer.hpp"
 #include "runtime/data/label.hpp"
@@ -56,11 +57,40 @@ struct Field {
   void make_zero(FieldBuffer which)
   {
     if (is_zero(which)) return;
-    std::memset(buffer(which).data(), 0, n_bytes());
+    std::byte* const first = buffer(which).data();
+    const std::vector<bool>& rows = written_rows_[static_cast<std::size_t>(which)];
+    if (rows.empty()) std::memset(first, 0, n_bytes());
+    for (std::size_t row = 0; row < rows.size(); ++row) {
+      if (rows[row]) std::memset(first + row * row_bytes(), 0, row_bytes());
+    }
     written_[static_cast<std::size_t>(which)] = false;
   }
   /// To be called by whoever writes into a buffer.
-  void note_written(FieldBuffer which) { written_[static_cast<std::size_t>(which)] = true; }
+  void note_written(FieldBuffer which)
+  {
+    written_[static_cast<std::size_t>(which)] = true;
+    written_rows_[static_cast<std::size_t>(which)].clear();
+  }
+  /// The rows of a written buffer that may not be zero, from who knows all of them: none at first, to be set.
+  std::vector<bool>& only_written_rows(FieldBuffer which)
+  {
+    std::vector<bool>& rows = written_rows_[static_cast<std::size_t>(which)];
+    rows.assign(n_rows(), false);
+    return rows;
+  }
+
+  /// Makes room for what `only_written_rows` gives, once the box is known, so that no step asks for it.
+  void reserve_rows()
+  {
+    for (std::vector<bool>& rows : written_rows_) rows.reserve(n_rows());
+  }
+
+  /// Rows of nodes or cells along the first axis, as they lie in a buffer.
+  std::size_t n_rows() const
+  {
+    return static_cast<std::size_t>(box.extent(1)) * static_cast<std::size_t>(box.extent(2));
+  }
+  std::size_t row_bytes() const { return static_cast<std::size_t>(box.extent(0)) * label->value_bytes(); }
 
   std::size_t n_values() const
   {
@@ -71,6 +101,8 @@ struct Field {
 
  private:
   std::array<bool, 3> written_{};
+  /// Empty where any row may have been.
+  std::array<std::vector<bool>, 3> written_rows_;
 };
 
 }  // namespace tamp::runtime

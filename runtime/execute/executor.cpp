@@ -43,8 +43,9 @@ class Executor::Workers
     /// For the watchdog: the instance that runs, -1 if none, and since which tick.
     std::atomic<int> running{-1};
     std::atomic<std::uint64_t> since{0};
-    /// Room for what `Work::poll` brings.
+    /// Room for what `Work::poll` brings, and for the ways through the other workers' lists.
     std::vector<int> arrived;
+    std::vector<OthersWalk> others;
   };
 
   void work(int worker);
@@ -118,7 +119,8 @@ void Executor::Workers::work(int worker)
   const auto self = static_cast<std::size_t>(worker);
   if (self >= lists.size()) return;
   OwnWalk own(*schedule_, lists[self], options_.window, alone);
-  std::vector<OthersWalk> others;
+  std::vector<OthersWalk>& others = workers_[self].others;
+  others.clear();
   for (std::size_t k = 1; k < lists.size(); ++k) {
     others.emplace_back(*schedule_, lists[(self + k) % lists.size()], options_.window);
   }

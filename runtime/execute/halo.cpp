@@ -64,6 +64,20 @@ std::vector<IndexBox> difference(IndexBox a, const IndexBox& b)
   return pieces;
 }
 
+/// Whether all bits are zero.
+bool is_zero(const std::byte* bytes, std::size_t n)
+{
+  constexpr std::size_t block = 64;
+  std::byte any{0};
+  while (n >= block && any == std::byte{0}) {
+    for (std::size_t k = 0; k < block; ++k) any |= bytes[k];
+    bytes += block;
+    n -= block;
+  }
+  for (std::size_t k = 0; k < n; ++k) any |= bytes[k];
+  return any == std::byte{0};
+}
+
 IndexBox patch_box(const Label& label, const Patch& patch)
 {
   return label.centring() == Centring::node ? patch.nodes : patch.cells;
@@ -85,20 +99,29 @@ BoundHalo bind_halo_sum(Warehouse& warehouse, const Label& label, int patch, int
 
 bool sum_halo(const BoundHalo& halo)
 {
-  halo.to->make_zero(FieldBuffer::current);
-  std::byte* const sums = halo.to->current_buffer.data();
-  const AddValues add = halo.to->label->add();
-  bool any = false;
+  Field& to = *halo.to;
+  to.make_zero(FieldBuffer::current);
+  std::byte* const sums = to.current_buffer.data();
+  const AddValues add = to.label->add();
+  std::vector<bool>* rows = nullptr;
   for (const BoundHalo::Part& part : halo.parts) {
     if (part.from->is_zero(FieldBuffer::part)) continue;
-    any = true;
+    if (rows == nullptr) {
+      to.note_written(FieldBuffer::current);
+      rows = &to.only_written_rows(FieldBuffer::current);
+    }
+    // This patch's own part, if all of it passes by here.
+    const bool is_own = part.from == &to && part.box == to.box && part.shift == Index{0, 0, 0};
+    std::vector<bool>* const own_rows = is_own ? &to.only_written_rows(FieldBuffer::part) : nullptr;
     const std::byte* const values = part.from->part_buffer.data();
-    for_each_row(*halo.to, part, [&](std::size_t to_offset, std::size_t from_offset, std::size_t bytes) {
+    for_each_row(to, part, [&](std::size_t to_offset, std::size_t from_offset, std::size_t bytes) {
+      if (is_zero(values + from_offset, bytes)) return;
       add(sums + to_offset, values + from_offset, bytes);
+      (*rows)[to_offset / to.row_bytes()] = true;
+      if (own_rows != nullptr) (*own_rows)[from_offset / to.row_bytes()] = true;
     });
   }
-  if (any) halo.to->note_written(FieldBuffer::current);
-  return any;
+  return rows != nullptr;
 }
 
 BoundHalo bind_halo_fill(Warehouse& warehouse, const Label& label, int patch, int group, int halo)

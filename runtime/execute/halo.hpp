@@ -24,7 +24,7 @@ struct BoundHalo {
 BoundHalo bind_halo_sum(Warehouse& warehouse, const Label& label, int patch, int group, int halo);
 
 /// Adds all parts into the current values: the same sums on both sides of every seam, bit for bit. Parts known to be
-/// zero are left out, which changes no bit of a sum that starts at zero; false if that was all of them.
+/// zero, and rows that are, are left out, which changes no bit of a sum that starts at zero; false if no part was left.
 bool sum_halo(const BoundHalo& halo);
 
 /// For the `halo` layers around a patch: the neighbours' values.

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
-#include <string>
+#include <utility>
 
 namespace tamp::runtime
 {
@@ -23,17 +23,18 @@ std::byte* value(Field& field, std::size_t particle)
   return field.buffer(FieldBuffer::current).data() + particle * field.label->value_bytes();
 }
 
-/// Moves the values of all but `leavers` (ascending) together, keeping their order.
-void close_gaps(Field& field, const std::vector<std::size_t>& leavers, std::size_t n_particles)
+/// Moves the values of particles from `first` to `end` down to `to`.
+void move_down(const std::vector<Field*>& fields, std::size_t to, std::size_t first, std::size_t end)
 {
-  const std::size_t size = field.label->value_bytes();
-  std::size_t kept = leavers.front();
-  for (std::size_t k = 0; k < leavers.size(); ++k) {
-    const std::size_t first = leavers[k] + 1;
-    const std::size_t last = k + 1 < leavers.size() ? leavers[k + 1] : n_particles;
-    std::memmove(value(field, kept), value(field, first), (last - first) * size);
-    kept += last - first;
-  }
+  if (to == first) return;
+  for (Field* f : fields) std::memmove(value(*f, to), value(*f, first), (end - first) * f->label->value_bytes());
+}
+
+std::size_t bytes_of_particle(const std::vector<Field*>& fields)
+{
+  std::size_t n = 0;
+  for (const Field* f : fields) n += f->label->value_bytes();
+  return n;
 }
 
 const Label* laps_label(const TaskDeclaration& migration)
@@ -48,13 +49,15 @@ double cell_along(const Grid& grid, std::size_t axis, double x)
   return std::floor(grid.cells_from_lower(axis, x));
 }
 
-void clear(ParticleParcel& parcel)
-{
-  parcel.n_particles = 0;
-  for (auto& bytes : parcel.fields) bytes.clear();
-}
-
 }  // namespace
+
+void ParticleParcel::add(const std::byte* bytes, std::size_t n)
+{
+  // To twice the size at once, as a parcel grows by a particle at a time.
+  if (n_bytes + n > buffer.capacity()) buffer.reserve(2 * (n_bytes + n));
+  std::memcpy(buffer.data() + n_bytes, bytes, n);
+  n_bytes += n;
+}
 
 Migration::Migration(Warehouse& warehouse, const TaskDeclaration& declaration)
     : warehouse_(warehouse),
@@ -64,12 +67,16 @@ Migration::Migration(Warehouse& warehouse, const TaskDeclaration& declaration)
       arrivals_(outboxes_.size()),
       fields_(outboxes_.size())
 {
+  LedgerEntry& entry = warehouse.ledger().entry("particles that change patches");
   for (const Patch& patch : warehouse.layout()) {
     for (int g = 0; g < warehouse.n_groups(); ++g) {
       fields_[place(patch.id, g)] = state_fields(warehouse, patch.id, g);
       auto& parcels = arrivals_[place(patch.id, g)];
       parcels.resize(patch.neighbours.size());
-      for (std::size_t k = 0; k < parcels.size(); ++k) box(patch.neighbours[k], g).to_patch[patch.id] = &parcels[k];
+      for (std::size_t k = 0; k < parcels.size(); ++k) {
+        parcels[k].buffer = Buffer(warehouse.ledger(), entry);
+        box(patch.neighbours[k], g).to_patch[patch.id] = &parcels[k];
+      }
     }
   }
 }
@@ -128,20 +135,15 @@ double Migration::put_back(std::size_t axis, std::byte* coordinate, Index& laps)
 
 void Migration::pack(ParticleParcel& parcel, std::size_t particle, const std::vector<Field*>& fields) const
 {
-  parcel.fields.resize(fields.size());
-  for (std::size_t k = 0; k < fields.size(); ++k) {
-    const std::byte* first = value(*fields[k], particle);
-    parcel.fields[k].insert(parcel.fields[k].end(), first, first + fields[k]->label->value_bytes());
-  }
+  for (Field* f : fields) parcel.add(value(*f, particle), f->label->value_bytes());
   ++parcel.n_particles;
 }
 
 void Migration::send(int patch, int group)
 {
   Outbox& out = box(patch, group);
-  if (!out.leavers.empty()) {
-    for (auto& [destination_patch, parcel] : out.to_patch) clear(*parcel);
-    out.leavers.clear();
+  if (std::exchange(out.used, false)) {
+    for (auto& [destination_patch, parcel] : out.to_patch) parcel->clear();
   }
   const std::size_t n = warehouse_.n_particles(patch, group);
   if (n == 0) return;
@@ -151,21 +153,25 @@ void Migration::send(int patch, int group)
       laps_ == nullptr ? nullptr : reinterpret_cast<Index*>(value(warehouse_.field(*laps_, patch, group), 0));
   const std::vector<Field*>& fields = fields_[place(patch, group)];
   const IndexBox& cells = warehouse_.layout()[patch].cells;
+  // Of the particles before `first`, behind the last that left, `n_kept` stay.
+  std::size_t n_kept = 0, first = 0;
   for (std::size_t p = 0; p < n; ++p) {
     if (stays(cells, value(positions, p))) continue;
     const int to = destination(value(positions, p), laps == nullptr ? uncounted : laps[p]);
     if (to == patch) continue;
-    out.leavers.push_back(p);
-    if (to < 0) continue;
-    if (const auto parcel = out.to_patch.find(to); parcel != out.to_patch.end()) {
+    if (to >= 0) {
+      const auto parcel = out.to_patch.find(to);
+      if (parcel == out.to_patch.end()) throw std::runtime_error("a particle moved past a whole patch in one step");
       pack(*parcel->second, p, fields);
-    } else {
-      throw std::runtime_error("a particle moved past a whole patch in one step");
+      out.used = true;
     }
+    move_down(fields, n_kept, first, p);
+    n_kept += p - first;
+    first = p + 1;
   }
-  if (out.leavers.empty()) return;
-  for (Field* f : fields) close_gaps(*f, out.leavers, n);
-  warehouse_.set_n_particles(patch, group, n - out.leavers.size());
+  if (first == 0) return;
+  move_down(fields, n_kept, first, n);
+  warehouse_.set_n_particles(patch, group, n_kept + n - first);
 }
 
 void Migration::receive(int patch, int group)
@@ -178,11 +184,13 @@ void Migration::receive(int patch, int group)
   warehouse_.set_n_particles(patch, group, n + n_arrivals);
   const std::vector<Field*>& fields = fields_[place(patch, group)];
   for (const ParticleParcel& parcel : parcels) {
-    if (parcel.n_particles == 0) continue;
-    for (std::size_t k = 0; k < fields.size(); ++k) {
-      std::memcpy(value(*fields[k], n), parcel.fields[k].data(), parcel.fields[k].size());
+    const std::byte* from = parcel.buffer.data();
+    for (std::size_t end = n + parcel.n_particles; n < end; ++n) {
+      for (Field* f : fields) {
+        std::memcpy(value(*f, n), from, f->label->value_bytes());
+        from += f->label->value_bytes();
+      }
     }
-    n += parcel.n_particles;
   }
 }
 
@@ -191,24 +199,19 @@ void Migration::write_parcel(const MessagePart& part, std::vector<std::byte>& me
   const ParticleParcel& parcel = *box(part.from_patch, part.group).to_patch.at(part.to_patch);
   const auto* n = reinterpret_cast<const std::byte*>(&parcel.n_particles);
   message.insert(message.end(), n, n + sizeof parcel.n_particles);
-  if (parcel.n_particles == 0) return;
-  for (const auto& bytes : parcel.fields) message.insert(message.end(), bytes.begin(), bytes.end());
+  message.insert(message.end(), parcel.buffer.data(), parcel.buffer.data() + parcel.n_bytes);
 }
 
 const std::byte* Migration::read_parcel(const MessagePart& part, const std::byte* from)
 {
   ParticleParcel& parcel = *box(part.from_patch, part.group).to_patch.at(part.to_patch);
+  parcel.clear();
   std::memcpy(&parcel.n_particles, from, sizeof parcel.n_particles);
   from += sizeof parcel.n_particles;
   if (parcel.n_particles == 0) return from;
-  const std::vector<Field*>& fields = fields_[place(part.to_patch, part.group)];
-  parcel.fields.resize(fields.size());
-  for (std::size_t k = 0; k < fields.size(); ++k) {
-    const std::byte* end = from + parcel.n_particles * fields[k]->label->value_bytes();
-    parcel.fields[k].assign(from, end);
-    from = end;
-  }
-  return from;
+  const std::size_t n_bytes = parcel.n_particles * bytes_of_particle(fields_[place(part.to_patch, part.group)]);
+  parcel.add(from, n_bytes);
+  return from + n_bytes;
 }
 
 }  // namespace tamp::runtime

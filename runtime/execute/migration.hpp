@@ -10,10 +10,14 @@
 namespace tamp::runtime
 {
 
-/// Particles on their way to another patch: the bytes of each state field, one field after the other.
+/// Particles on their way to another patch, each with the bytes of all its state fields.
 struct ParticleParcel {
   std::size_t n_particles = 0;
-  std::vector<std::vector<std::byte>> fields;
+  std::size_t n_bytes = 0;
+  Buffer buffer;
+
+  void add(const std::byte* bytes, std::size_t n);
+  void clear() { n_particles = n_bytes = 0; }
 };
 
 /// Moves particles to the patch whose cells they are in. Stayers keep their order; arrivals are appended in the order
@@ -40,7 +44,8 @@ class Migration
  private:
   struct Outbox {
     std::map<int, ParticleParcel*> to_patch;
-    std::vector<std::size_t> leavers;
+    /// Whether particles left in the last step.
+    bool used = false;
   };
 
   bool stays(const IndexBox& cells, const std::byte* position) const;

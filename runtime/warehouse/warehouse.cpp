@@ -96,6 +96,7 @@ void Warehouse::add_field(const LabelUse& use, int patch, int halo)
     if (is_on_grid(centring)) {
       const Patch& p = (*layout_)[patch];
       f.box = grown(centring == Centring::node ? p.nodes : p.cells, halo, layout_->grid().dimension);
+      f.reserve_rows();
     }
     const bool reduction = centring == Centring::reduction;
     const bool local = patch < 0 || is_local((*layout_)[patch]);

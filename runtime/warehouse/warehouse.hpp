@@ -30,6 +30,7 @@ class Warehouse
   const PatchLayout& layout() const { return *layout_; }
   int n_groups() const { return n_groups_; }
   bool is_local(const Patch& patch) const { return patch.rank == rank_; }
+  MemoryLedger& ledger() { return ledger_; }
   const MemoryLedger& ledger() const { return ledger_; }
   /// Bytes that the fields need for the particles there are, before any growth by migration.
   std::size_t forecast_bytes() const;
