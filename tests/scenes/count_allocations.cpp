@@ -34,10 +34,12 @@ long n_allocations()
 
 extern "C" {
 
+// NOLINTBEGIN(bugprone-reserved-identifier): glibc names them so.
 void* __libc_malloc(std::size_t size);
 void* __libc_calloc(std::size_t n, std::size_t size);
 void* __libc_realloc(void* block, std::size_t size);
 void* __libc_memalign(std::size_t alignment, std::size_t size);
+// NOLINTEND(bugprone-reserved-identifier)
 
 void* malloc(std::size_t size) noexcept
 {

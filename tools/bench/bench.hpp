@@ -35,6 +35,17 @@ Result windows(const std::string& name, const WindowOptions& options);
 /// against its multiplications and additions at the processor's best. The plain network gives K alone.
 Result moduli(const std::filesystem::path& material);
 
+struct PeerOptions {
+  int n_rounds = 5;
+  int n_steps = 50;
+  /// About, in a block that is a cube; 0: 40,000 in the plane and 64,000 in space.
+  long n_particles = 0;
+};
+
+/// A block of soil on a floor by quadratic splines, in the plane and in space, with FLIP and APIC, in turns with a
+/// plain MLS-MPM that does no more than it must: the same particles and steps on one thread, in processor time.
+Result peers(const PeerOptions& options);
+
 struct TaskOptions {
   int n_rounds = 15;
   /// After this no further round begins: where others use the cores, schedulers that spin may take very long.

@@ -29,6 +29,7 @@ struct BenchArguments {
   std::string json;
   bench::TaskOptions tasks;
   bench::WindowOptions windows;
+  bench::PeerOptions peers;
 };
 
 /// Measures a scene that comes with TAMP, unless another was given.
@@ -44,6 +45,7 @@ const std::map<std::string, Benchmark>& benchmarks()
 {
   static const std::map<std::string, Benchmark> all{
       {"moduli", [](const BenchArguments&) { return bench::moduli(shipped_input("materials/concrete-sand")); }},
+      {"peers", [](const BenchArguments& options) { return bench::peers(options.peers); }},
       {"projectile",
        [](const BenchArguments& options) { return windows_of("projectile", "uxo/quick.json", options.windows); }},
       {"punch", [](const BenchArguments& options) { return windows_of("punch", "punch/quick.json", options.windows); }},
@@ -99,9 +101,10 @@ CLI::App* add_bench_command(CLI::App& app)
   command->add_option("--json", options->json, "write the results to this file too")->type_name("FILE");
   command
       ->add_option_function<int>(
-          "--rounds", [options](int n) { options->tasks.n_rounds = options->windows.n_rounds = n; },
-          "of tasks (15, as far as a minute allows) and of windows of punch and projectile (5): how often each is "
-          "measured")
+          "--rounds",
+          [options](int n) { options->tasks.n_rounds = options->windows.n_rounds = options->peers.n_rounds = n; },
+          "of tasks (15, as far as a minute allows), windows of punch and projectile (5) and peers (5): how often each "
+          "is measured")
       ->check(is_whole_from(1));
   command
       ->add_option(
@@ -110,10 +113,15 @@ CLI::App* add_bench_command(CLI::App& app)
           "inputs/uxo/quick.json, which takes five")
       ->check(CLI::ExistingFile);
   command
-      ->add_option("--steps", options->windows.n_steps,
-                   "of punch and projectile: steps of a window, instead of a twentieth of the run, or two seconds if "
-                   "that is less")
+      ->add_option_function<int>(
+          "--steps", [options](int n) { options->windows.n_steps = options->peers.n_steps = n; },
+          "of punch and projectile: steps of a window, instead of a twentieth of the run, or two seconds if that is "
+          "less; of peers: steps of a round, instead of 50")
       ->check(is_whole_from(1));
+  command
+      ->add_option("--particles", options->peers.n_particles,
+                   "of peers: about how many, instead of 40,000 in the plane and 64,000 in space")
+      ->check(is_from_to(64, 100'000'000));
   command->add_option("--threads", options->tasks.n_threads, "of tasks: numbers of threads, as in 1,2")
       ->delimiter(',')
       ->allow_extra_args(false)
@@ -124,6 +132,7 @@ CLI::App* add_bench_command(CLI::App& app)
       ->check(is_from_to(8, 1 << 20))
       ->check(CLI::Validator(multiple_of_8, ""));
   command->footer(examples({{"tamp bench moduli", "Table, SVR and MLP by evaluation"},
+                            {"tamp bench peers", "TAMP beside a plain MLS-MPM"},
                             {"tamp bench punch --json punch.json", "windows of the quick punch"}}));
   command->callback([options] { run_benchmarks(*options); });
   return command;
