@@ -97,18 +97,24 @@ Pace extrapolated(const Trial& fine, const Trial* coarse, int dimension)
           reached.seconds * more_seconds * portable::pow(fine.factor, dimension + 1 - power)};
 }
 
+Pace extrapolated(const std::vector<Trial>& trials, int dimension)
+{
+  return extrapolated(trials.back(), trials.size() > 1 ? &trials[trials.size() - 2] : nullptr, dimension);
+}
+
 /// From coarse cells to fine ones, until the time is up or one did not come to its end.
-std::vector<Trial> trials_of(const Scene& scene, double seconds)
+std::vector<Trial> trials_of(const Scene& scene, const Effort& effort)
 {
   // More are not laid out and begun within the time.
   constexpr double most_particles = 150'000, most_bytes = 3e8;
   constexpr int greatest_factor = 32;
   double n_particles = 0;
   for (const SceneBody& body : scene.bodies) n_particles += static_cast<double>(body.n_particles);
-  const double end = processor_seconds() + seconds;
+  const double start = processor_seconds();
+  double seconds = effort.seconds;
   std::vector<Trial> trials;
   for (int factor = greatest_factor; factor >= 1; --factor) {
-    const double left = end - processor_seconds();
+    const double left = start + seconds - processor_seconds();
     if (n_particles / portable::pow(factor, scene.grid.dimension) > most_particles || left <= 0) break;
     const auto coarse = coarsened(scene, factor);
     if (!coarse || demand_of(*coarse).fields > most_bytes) continue;
@@ -117,21 +123,23 @@ std::vector<Trial> trials_of(const Scene& scene, double seconds)
     } catch (const std::exception&) {
       continue;  // too coarse for something; what is wrong with the scene itself shows in its run
     }
-    if (!trials.empty() && !trials.back().complete()) break;
+    if (trials.empty()) continue;
+    if (!trials.back().complete()) break;
+    seconds = std::min(seconds, effort.part_of_run * extrapolated(trials, scene.grid.dimension).core_seconds);
   }
   return trials;
 }
 
 }  // namespace
 
-std::optional<Pace> pace_of(const Scene& scene, double seconds)
+std::optional<Pace> pace_of(const Scene& scene, const Effort& effort)
 {
-  std::vector<Trial> trials = trials_of(scene, seconds);
+  std::vector<Trial> trials = trials_of(scene, effort);
   if (trials.empty()) return std::nullopt;
   // Less of a run tells less than a coarser one that was complete.
   constexpr double least_part = 0.1;
   if (trials.size() > 1 && trials.back().end().part < least_part) trials.pop_back();
-  return extrapolated(trials.back(), trials.size() > 1 ? &trials[trials.size() - 2] : nullptr, scene.grid.dimension);
+  return extrapolated(trials, scene.grid.dimension);
 }
 
 }  // namespace tamp::tasks

@@ -14,9 +14,16 @@ struct Pace {
   double core_seconds = 0;
 };
 
-/// Runs the scene on coarse cells, then on finer ones, for `seconds` of processor time in all, on one thread. Nothing
-/// if no coarser grid holds the bodies. The cost of sand, which is highest where it flows, is known only as far as the
-/// finest of these runs comes.
-std::optional<Pace> pace_of(const Scene& scene, double seconds);
+/// What a forecast may cost at most, on one thread.
+struct Effort {
+  /// Processor time [s].
+  double seconds = 0.7;
+  /// Part of what the run itself is expected to take.
+  double part_of_run = 1;
+};
+
+/// Runs the scene on coarse cells, then on finer ones. Nothing if no coarser grid holds the bodies. The cost of sand,
+/// which is highest where it flows, is known only as far as the finest of these runs comes.
+std::optional<Pace> pace_of(const Scene& scene, const Effort& effort);
 
 }  // namespace tamp::tasks

@@ -68,7 +68,7 @@ void check(const CheckArguments& options)
   Forecast forecast = tools::forecast(scene);
   expect_room(checked, forecast);
   add_copies(forecast);
-  add_pace(scene, forecast);
+  add_pace(scene, {}, forecast);
   print_err("  {}\n", description(forecast));
 }
 

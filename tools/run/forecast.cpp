@@ -65,10 +65,9 @@ void add_copies(Forecast& forecast, int n_ranks, int ranks_here)
   if (forecast.in_background) forecast.memory += forecast.copies;
 }
 
-void add_pace(const tasks::Scene& scene, Forecast& forecast)
+void add_pace(const tasks::Scene& scene, const tasks::Effort& effort, Forecast& forecast)
 {
-  constexpr double seconds = 0.7;
-  forecast.pace = tasks::pace_of(scene, seconds);
+  forecast.pace = tasks::pace_of(scene, effort);
 }
 
 std::string description(const Forecast& forecast)

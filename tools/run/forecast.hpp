@@ -35,8 +35,8 @@ void expect_room(const CheckedScene& checked, const Forecast& forecast, int n_ra
 /// for which there is room.
 void add_copies(Forecast& forecast, int n_ranks = 1, int ranks_here = 1);
 
-/// Tries for less than a second how fast the scene, or a coarser one, goes.
-void add_pace(const tasks::Scene& scene, Forecast& forecast);
+/// Tries how fast the scene, or a coarser one, goes.
+void add_pace(const tasks::Scene& scene, const tasks::Effort& effort, Forecast& forecast);
 
 /// One line for a person.
 std::string description(const Forecast& forecast);

@@ -442,7 +442,7 @@ void run(const CheckedScene& scene, const RunOptions& options)
                 in_bytes(free));
     }
     if (options.quiet) return;
-    add_pace(scene.scene, expected);
+    add_pace(scene.scene, {.part_of_run = 0.02}, expected);
     print_out("{}\n", description(expected));
     for (const std::string& line : compiled_moduli(scene)) print_out("{}\n", line);
     flush_out();
