@@ -105,6 +105,15 @@ function(tamp_compile_fast target)
   target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O1>)
 endfunction()
 
+# Kernels are made of many small functions on registers. gcc's own limits leave some of them calls, which keep no
+# register: a step then takes a sixth longer (docs/benchmarks.md).
+function(tamp_inline_kernels target)
+  set(limits inline-unit-growth=300 large-unit-insns=100000 large-function-growth=1000 large-function-insns=20000
+             large-stack-frame-growth=4000 max-inline-insns-single=1000 max-inline-insns-auto=100)
+  list(TRANSFORM limits PREPEND --param=)
+  target_compile_options(${target} PRIVATE $<$<AND:$<CXX_COMPILER_ID:GNU>,$<CONFIG:Release>>:${limits}>)
+endfunction()
+
 # Headers of what is borrowed give no warnings of ours.
 foreach(borrowed TBB::tbb Eigen3::Eigen MPI::MPI_C hdf5::hdf5 fmt::fmt nlohmann_json::nlohmann_json CLI11::CLI11
                  Catch2::Catch2)
