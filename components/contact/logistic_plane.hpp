@@ -152,7 +152,11 @@ struct EdgeSums {
   }
   /// Exact for layers of particles up to the edge. An edge that cuts through the layers seems to be 0.22 sizes further
   /// out, as the particles along it reach out by up to half their size.
-  double edge(double size) const { return moment / weight + 0.5 * size / portable::tanh(0.5 * sharpness); }
+  double edge(double size) const
+  {
+    static const double from_centre = portable::tanh(0.5 * sharpness);
+    return moment / weight + 0.5 * size / from_centre;
+  }
 
   EdgeSums& operator+=(const EdgeSums& other)
   {

@@ -101,7 +101,7 @@ runtime::TaskList contact(const Method<D>& method)
                 const runtime::IndexBox counted = counted_nodes(method, at);
                 NodeOfMaterials<D> node;
                 for_each(sums[0].box(), [&](const Index& i) {
-                  if (node.gather(method, sums, motions, i) < 2) return;
+                  if (!node.gather(method, sums, motions, i)) return;
                   const RigidBody* rigid = node.rigid_body(method, at_step_start);
                   if (rigid != nullptr) {
                     node.mass[static_cast<std::size_t>(rigid->material)] = std::numeric_limits<double>::infinity();

@@ -28,20 +28,22 @@ struct NodeOfMaterials {
   std::array<Vector<D>, max_groups> surface_gradient;
   std::array<Vector<D>, max_groups> velocity;
 
-  /// How many of the groups have mass here.
+  /// Whether at least two of the groups have mass here: only then all of them are gathered.
   template <class Motions>
-  int gather(const Method<D>& method, const runtime::PerGroup<runtime::GridView<const components::NodeSums<D>>>& sums,
-             const Motions& motions, const runtime::Index& i)
+  bool gather(const Method<D>& method, const runtime::PerGroup<runtime::GridView<const components::NodeSums<D>>>& sums,
+              const Motions& motions, const runtime::Index& i)
   {
     int n_present = 0;
     for (std::size_t g = 0; g < sums.size(); ++g) {
-      const components::NodeSums<D>& node = sums[g][i];
-      mass[g] = node.mass();
+      mass[g] = sums[g][i].mass();
       if (mass[g] > method.least_node_mass) ++n_present;
-      surface_gradient[g] = node.surface_gradient();
+    }
+    if (n_present < 2) return false;
+    for (std::size_t g = 0; g < sums.size(); ++g) {
+      surface_gradient[g] = sums[g][i].surface_gradient();
       velocity[g] = motions[g][i].velocity();
     }
-    return n_present;
+    return true;
   }
 
   /// The rigid body here, or null. Throws SimulationError where two meet, whose impulse no node can tell.

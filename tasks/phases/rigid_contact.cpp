@@ -94,7 +94,7 @@ runtime::TaskList gather_rigid_contact(const Method<D>& method)
                 RigidCouplings& couplings = data[rigid_couplings];
                 NodeOfMaterials<D> node;
                 for_each(at.layout.owned_nodes(at.patch), [&](const Index& i) {
-                  if (node.gather(method, sums, motions, i) < 2) return;
+                  if (!node.gather(method, sums, motions, i)) return;
                   if (const RigidBody* body = node.rigid_body(method, states)) {
                     add_node(method, *body, states, node, node_position<D>(at.layout.grid(), i), couplings);
                   }
