@@ -37,7 +37,7 @@ runtime::TaskList accelerate_nodes(const Method<D>& method)
                     return;
                   }
                   const Vector<D> velocity = node.momentum() / mass;
-                  const Vector<D> change = kicked(method, at, i, node).damped;
+                  const Vector<D> change = kicked(method, at, i, node);
                   motion[i].set(velocity + change, change);
                 });
               })};

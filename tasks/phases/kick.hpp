@@ -2,7 +2,6 @@
 
 #include <array>
 
-#include "components/loads/local_damping.hpp"
 #include "components/shapes/node_sums.hpp"
 #include "tasks/method.hpp"
 
@@ -42,24 +41,15 @@ Vector<D> velocity_change(const Method<D>& method, const runtime::TaskContext& a
   return kick * acceleration;
 }
 
-/// The change of a node's velocity by a kick, without local damping and with it.
+/// The change of a node's velocity by the kick of this step. Velocities live at the middle of the steps: a kick spans
+/// half of the step before and half of this one.
 template <int D>
-struct Kicked {
-  Vector<D> undamped, damped;
-};
-
-/// Velocities live at the middle of the steps: a kick spans half of the step before and half of this one.
-template <int D>
-Kicked<D> kicked(const Method<D>& method, const runtime::TaskContext& at, const runtime::Index& i,
+Vector<D> kicked(const Method<D>& method, const runtime::TaskContext& at, const runtime::Index& i,
                  const components::NodeSums<D>& node)
 {
   const double mass = node.mass(), kick = 0.5 * (at.step.previous_size + at.step.size);
-  const Vector<D> velocity = node.momentum() / mass;
-  const Vector<D> by_force = node.internal_force() / mass;
-  Vector<D> change = Vector<D>::Zero();
-  if (mass > method.least_node_mass) change = velocity_change(method, at, i, velocity, by_force, kick);
-  if (!(method.damping > 0)) return {change, change};
-  return {change, components::damped_change<D>(velocity, change, method.damping)};
+  if (!(mass > method.least_node_mass)) return Vector<D>::Zero();
+  return velocity_change<D>(method, at, i, node.momentum() / mass, node.internal_force() / mass, kick);
 }
 
 }  // namespace tamp::tasks

@@ -1,6 +1,7 @@
 #include "tasks/phases/walls.hpp"
 
 #include "components/boundary/rough_wall.hpp"
+#include "components/loads/local_damping.hpp"
 #include "tasks/labels.hpp"
 #include "tasks/phases/kick.hpp"
 #include "tasks/phases/phases.hpp"
@@ -38,21 +39,6 @@ void add_taken(const Method<D>& method, const TaskContext& at, const GridView<co
   });
 }
 
-/// The energy that local damping took from the nodes that this patch counts: its impulse times the mean of the
-/// velocities before and after the step, which contact and walls have a part in.
-template <int D>
-void add_damping(const Method<D>& method, const TaskContext& at, const GridView<const NodeSums<D>>& sums,
-                 const GridView<NodeMotion<D>>& motion, GridTotals& totals)
-{
-  for_each(counted_nodes(method, at), [&](const Index& i) {
-    const double mass = sums[i].mass();
-    if (!(mass > method.least_node_mass)) return;
-    const Kicked<D> change = kicked(method, at, i, sums[i]);
-    const Vector<D> at_start = sums[i].momentum() / mass;
-    totals.taken_by_damping += 0.5 * mass * (change.undamped - change.damped).dot(at_start + motion[i].velocity());
-  });
-}
-
 /// Applies a wall that is no mirror to the motion of its nodes, and counts the energy that it takes: each impulse times
 /// the mean of the velocities before and after the step, as the energies of leapfrog are counted.
 template <int D>
@@ -71,6 +57,32 @@ void hold(const Method<D>& method, const TaskContext& at, const Wall<D>& wall, c
     motion[i].set(left, motion[i].velocity_change() + left - arriving);
     const Vector<D> at_start = sums[i].momentum() / mass;
     if (counted.contains(i)) totals.taken_by_walls += 0.5 * mass * (arriving - left).dot(at_start + left);
+  });
+}
+
+/// Local damping of what forces, contact and walls together leave unbalanced, where they have not brought the node to
+/// rest. The energy that it takes is its impulse
+/// times the mean of the velocities before and after the step. Contact and walls have counted theirs with the velocity
+/// that they left, so that what damping changes in theirs counts here.
+template <int D>
+void damp(const Method<D>& method, const TaskContext& at, const GridView<const NodeSums<D>>& sums,
+          const GridView<NodeMotion<D>>& motion, GridTotals& totals)
+{
+  const runtime::IndexBox counted = counted_nodes(method, at);
+  for_each(motion.box(), [&](const Index& i) {
+    const double mass = sums[i].mass();
+    if (!(mass > method.least_node_mass)) return;
+    const Vector<D> at_start = sums[i].momentum() / mass, change = motion[i].velocity_change();
+    Vector<D> damped = components::damped_change<D>(at_start, change, method.damping), at_end = at_start + damped;
+    for (int k = 0; k < D; ++k) {
+      if (motion[i].velocity()[k] != 0) continue;
+      damped[k] = change[k];
+      at_end[k] = 0;
+    }
+    motion[i].set(at_end, damped);
+    if (!counted.contains(i)) return;
+    const Vector<D> held = change - kicked(method, at, i, sums[i]);
+    totals.taken_by_damping += 0.5 * mass * (change - damped).dot(at_start + motion[i].velocity() + held);
   });
 }
 
@@ -100,12 +112,12 @@ runtime::TaskList walls(const Method<D>& method)
                   for_each_wall(method, at, motion.box(), [&](const Wall<D>& wall) {
                     if (wall.face != Face::symmetry) hold(method, at, wall, sums[g], motion, data[grid_totals]);
                   });
+                  if (method.damping > 0 && method.rigid_body(static_cast<int>(g)) == nullptr) {
+                    damp(method, at, sums[g], motion, data[grid_totals]);
+                  }
                   for_each_wall(method, at, motion.box(),
                                 [&](const Wall<D>& wall) { wall.image.mirror(motion.data()); });
                   add_taken(method, at, sums[g], motion, data[grid_totals]);
-                  if (method.damping > 0 && method.rigid_body(static_cast<int>(g)) == nullptr) {
-                    add_damping(method, at, sums[g], motion, data[grid_totals]);
-                  }
                 }
               })};
 }

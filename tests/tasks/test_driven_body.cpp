@@ -117,6 +117,25 @@ TEST_CASE("a driven body is where its motion takes it, and feels what the column
   CHECK(forces[0].force.y() == Approx(-forces[1].force.y()).epsilon(1e-10));
 }
 
+TEST_CASE("local damping leaves the force of a plate that presses gently, and its work is accounted for")
+{
+  Scene scene = pressed_column(0.05);
+  scene.local_damping = 0.3;
+  const auto simulation = Simulation::make(scene, 1);
+
+  advance_to(*simulation, 4);
+  const EnergyLedger energies = simulation->energies();
+  CHECK(worked(energies) + simulation->report().kinetic == Approx(energies.driving).epsilon(2e-3));
+  CHECK(energies.viscous < 0.01 * energies.driving);
+  simulation->take_mean_forces();
+  advance_to(*simulation, 4.1);
+
+  const std::vector<Particle> column = particles_of_material(particles_of(*simulation), 0);
+  CHECK(mean_stress_yy(column, 0, 1) == Approx(uniaxial_modulus(1e6, 0.25) * std::log(1 - 0.05)).epsilon(0.01));
+  CHECK(simulation->take_mean_forces().contact[1].force.y() ==
+        Approx(-0.4 * mean_stress_yy(column, 0.1, 0.6)).epsilon(0.01));
+}
+
 TEST_CASE("the work of driving a body goes into what it presses")
 {
   const auto simulation = Simulation::make(pressed_column(0.05), 1);

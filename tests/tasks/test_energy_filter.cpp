@@ -166,8 +166,9 @@ namespace
 double balance(Simulation& simulation, const EnergyLedger& before)
 {
   const EnergyLedger& now = simulation.energies();
-  const double ahead =
-      0.5 * (now.elastic + now.plastic + now.viscous - before.elastic - before.plastic - before.viscous);
+  // Damping is a part of the kick: no half of it is ahead.
+  const double viscous = simulation.scene().local_damping > 0 ? 0 : now.viscous - before.viscous;
+  const double ahead = 0.5 * (now.elastic + now.plastic + viscous - before.elastic - before.plastic);
   const ParticleReport report = simulation.report();
   return report.kinetic + worked(now) + now.filter - ahead - now.driving;
 }
@@ -280,7 +281,7 @@ TEST_CASE("an elastic block that is pressed onto a damped one has its energy")
   const Closing seen = closing(scene, 0.05);
 
   CAPTURE(seen.filtered / given, seen.error / given);
-  CHECK(seen.error < 0.1 * std::abs(seen.filtered));
+  CHECK(seen.error < 0.005 * std::abs(seen.filtered));
 }
 
 TEST_CASE("what is filtered out is the same, bit by bit, on any ranks and threads", "[ranks]")

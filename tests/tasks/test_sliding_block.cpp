@@ -60,6 +60,26 @@ TEST_CASE("friction stops a block after the way that Coulomb's law gives it")
   CHECK(way(*simulation) == Approx(0.5 * stop).epsilon(0.02));
 }
 
+TEST_CASE("local damping is a part of what friction leaves unbalanced, on the ground and on a wall")
+{
+  const double friction = 0.3, damping = GENERATE(0, 0.3), stop = 1 / ((1 + damping) * friction * g);
+  const bool on_wall = GENERATE(false, true);
+  Scene scene = sliding_block(friction);
+  scene.local_damping = damping;
+  if (on_wall) {
+    scene.faces[1][0] = Face::friction;
+    scene.wall_friction[1][0] = friction;
+    scene.bodies[0].solid = components::Solid<2>(components::Box<2>{{0.9, 0}, {1, 0.1}});  // out of the way
+    scene.bodies[1].solid = components::Solid<2>(components::Box<2>{{0.2, 0}, {0.6, 0.1}});
+  }
+  const auto simulation = Simulation::make(scene, 2);
+
+  advance_to(*simulation, stop);
+
+  CAPTURE(damping, on_wall);
+  CHECK(way(*simulation) == Approx(0.5 * stop).epsilon(0.03));
+}
+
 TEST_CASE("a block that friction has stopped stays where it is")
 {
   const auto simulation = Simulation::make(sliding_block(0.3), 2);

@@ -178,12 +178,9 @@ std::vector<Key> load_keys()
            Number{{.lower = 0, .upper = 1, .holds_upper = false}},
            "",
            {scene.local_damping},
-           "part of the unbalanced force of every node of the grid that works against its motion, from 0 to below "
-           "1: "
-           "for scenes that are to come to rest under pressure loads or their own weight, not for bodies driven "
-           "into "
-           "others or for impact; what it "
-           "takes counts as `viscous[J]`"}};
+           "part of what forces, contact and walls leave unbalanced at every node of the grid, which works against "
+           "its motion, from 0 to below 1: for scenes that are to come to rest, or are pressed slowly, not for "
+           "flight, sliding or impact; what it takes counts as `viscous[J]`"}};
 }
 
 std::vector<Key> content_keys()
