@@ -30,8 +30,11 @@ class Linear : public ProductShape<Linear<D>, D, 2>
   Number along(const Number& place, const Number& /*cell*/, const Number& /*stretch*/, double per_cell,
                std::array<Number, 2>& w, std::array<Number, 2>& s) const
   {
+    // On a node there is a next one still, whose mass is too little to be moved by forces: that it goes with the
+    // particle keeps an edge of a body from being stretched towards a node at rest.
+    constexpr double hardly = 1e-30;
     const Number node = floor(place);
-    w[1] = place - node;
+    w[1] = greater_of(place - node, Number(hardly));
     w[0] = 1.0 - w[1];
     s[0] = -per_cell;
     s[1] = per_cell;
