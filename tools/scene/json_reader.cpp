@@ -322,6 +322,13 @@ std::string JsonReader::name(const std::string& key, const std::vector<std::stri
   return one_of(key, words);
 }
 
+std::string JsonReader::name(const std::string& key, const std::vector<std::string>& names,
+                             const std::string& default_value)
+{
+  if (!has(key)) write(key, default_value);
+  return name(key, names);
+}
+
 std::vector<std::string> JsonReader::names(const std::string& key, const std::vector<std::string>& names)
 {
   const std::size_t n = count(declared_as<Names>(key).length);

@@ -55,6 +55,8 @@ class JsonReader
   std::string type();
   /// One of `names`, or of the words that may stand there instead; empty if it is none.
   std::string name(const std::string& key, const std::vector<std::string>& names);
+  /// With a default that only the reader knows.
+  std::string name(const std::string& key, const std::vector<std::string>& names, const std::string& default_value);
   /// A list of some of `names`; empty if it is none.
   std::vector<std::string> names(const std::string& key, const std::vector<std::string>& names);
   /// The path of a file that exists, made absolute in the document too.

@@ -320,12 +320,9 @@ class SceneReader
       reader.finish();
       if (names.empty()) continue;
       const int a = material_number(names[0]), b = material_number(names[1]);
-      const auto same_pair = [&](const tasks::SceneContact& c) {
-        return std::minmax(c.material_a, c.material_b) == std::minmax(a, b);
-      };
       if (a == b) {
         reader.add_problem("materials", fmt::format("\"{}\" twice", names[0]), "expected two different materials");
-      } else if (std::any_of(scene_.contacts.begin(), scene_.contacts.end(), same_pair)) {
+      } else if (is_listed(a, b)) {
         reader.add_problem("materials", "a pair that is listed before", "expected every pair once");
       }
       const int normal_of = normal == flatter      ? components::ContactTable::flatter
@@ -333,13 +330,32 @@ class SceneReader
                                                    : material_number(normal);
       scene_.contacts.push_back({a, b, friction, normal_of});
     }
+    if (!scene_.is_periodic()) add_other_contacts();
     return document_.problems.size() == n_before && scene_.materials.size() == material_names_.size();
+  }
+
+  bool is_listed(int a, int b) const
+  {
+    return std::any_of(scene_.contacts.begin(), scene_.contacts.end(), [&](const tasks::SceneContact& c) {
+      return std::minmax(c.material_a, c.material_b) == std::minmax(a, b);
+    });
+  }
+
+  /// Pairs that are not listed slide freely, with normals like those of others.
+  void add_other_contacts()
+  {
+    const int n = static_cast<int>(scene_.materials.size());
+    for (int a = 0; a < n; ++a) {
+      for (int b = a + 1; b < n; ++b) {
+        if (!is_listed(a, b)) scene_.contacts.push_back({a, b, 0, components::ContactTable::regression});
+      }
+    }
   }
 
   /// The word for the flatter surface or for regression, or one of the two materials.
   std::string read_normal(JsonReader& reader, const std::vector<std::string>& materials) const
   {
-    const std::string normal = reader.name("normal", materials);
+    const std::string normal = reader.name("normal", materials, scene_.is_periodic() ? flatter : regression);
     if (normal == regression && scene_.is_periodic()) {
       reader.add_problem("normal", "regression, whose planes have one place each, between periodic boundaries",
                          "expected another normal");

@@ -238,12 +238,13 @@ const ObjectKeys& contact_keys()
        {"normal",
         Name{{flatter, regression}},
         "",
-        {flatter},
-        "whose surface gives the normal that both share: `\"flatter\"` takes the flatter one at each node, so that the "
-        "edges of a block do not plough into the ground it slides on; A or B takes that material's, as suits a stiff "
-        "body that is driven into a soft one; `\"regression\"` parts their particles by a plane at each node, whose "
-        "normal jitters less, and lets them push each other only where they touch. Where three materials meet at a "
-        "node, that of the flatter surface is taken there"}}};
+        {nullptr, "`\"regression\"`, or `\"flatter\"` between periodic boundaries"},
+        "whose surface gives the normal that both share: `\"regression\"` parts their particles by a plane at each "
+        "node, whose normal jitters less, and lets them push each other only where they touch; `\"flatter\"` takes the "
+        "flatter surface at each node, and may push before bodies touch; A or B takes that material's, as suits a "
+        "stiff "
+        "body that is driven into a soft one. Where three materials meet at a node, that of the flatter surface is "
+        "taken there"}}};
   return keys;
 }
 
