@@ -65,6 +65,7 @@ void check(const CheckArguments& options)
   print_notes(checked.notes);
   for (const std::string& line : plausibility_warnings(checked)) print_err("tamp: warning: {}\n", line);
   for (const std::string& line : material_warnings(checked)) print_err("tamp: warning: {}\n", line);
+  for (const std::string& line : contact_warnings(checked)) print_err("tamp: warning: {}\n", line);
   Forecast forecast = tools::forecast(scene);
   expect_room(checked, forecast);
   add_copies(forecast);

@@ -5,6 +5,7 @@
 #include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
 #include <variant>
 
@@ -40,10 +41,29 @@ void check_table(const InputFile& input, Warnings& warnings)
   }
 }
 
+/// Soil in the units of other programs: kPa, radians and t/m3. Hardly any soil is below these bounds.
+void check_soil(const std::string& place, const tasks::SceneMaterial& material, Warnings& warnings)
+{
+  constexpr double lightest = 200, softest = 1e5, flattest = 2;
+  const auto warn = [&](const char* key, double value, const char* unit, const char* what) {
+    warnings.push_back(fmt::format("{}/{}: {:.4g} {} looks like {}", place, key, value, unit, what));
+  };
+  const auto* soil = std::get_if<components::DruckerPrager>(&material.model);
+  if (soil == nullptr && !std::holds_alternative<components::TabularCap>(material.model)) return;
+  if (material.density >= 1 && material.density < lightest) warn("density", material.density, "kg/m3", "t/m3");
+  if (soil == nullptr) return;
+  if (soil->bulk_modulus < softest) warn("bulk_modulus", soil->bulk_modulus, "Pa", "kPa or MPa");
+  if (soil->shear_modulus < softest) warn("shear_modulus", soil->shear_modulus, "Pa", "kPa or MPa");
+  if (soil->friction_angle > 0 && soil->friction_angle < flattest) {
+    warn("friction_angle", soil->friction_angle, "degrees", "radians");
+  }
+}
+
 void check_material(const CheckedScene& checked, std::size_t m, Warnings& warnings)
 {
   const tasks::SceneMaterial& material = checked.scene.materials[m];
   const std::string place = fmt::format("/materials/{}", material.name);
+  check_soil(place, material, warnings);
   if (material.density < 1 || material.density > 3e4) {
     warnings.push_back(fmt::format("{}/density: {} kg/m3 is that of no known matter", place, material.density));
   }
@@ -83,6 +103,75 @@ void check_contact(const tasks::Scene& scene, Warnings& warnings)
         fmt::format("/contact/{}/normal: with \"flatter\" and splines the sides of a body catch on what it "
                     "slides over; with \"regression\", or the flatter material's name, they do not",
                     i));
+  }
+}
+
+/// A pressure from one moment on strains the outermost particles in the first step by about its part of their
+/// stiffness: no bound on that step knows the load.
+void check_pressure(const tasks::Scene& scene, const tasks::SceneBody& body, Warnings& warnings)
+{
+  if (!body.pressure) return;
+  const tasks::SceneMaterial& material = scene.materials[static_cast<std::size_t>(body.material)];
+  const auto [K, G] = tasks::initial_moduli(material);
+  const double pressure = body.pressure->curve.at(0), stiffness = K + 4 * G / 3;
+  if (pressure <= 0.2 * stiffness) return;
+  warnings.push_back(fmt::format(
+      "/bodies/{}/pressure: {:.4g} Pa from the start is {:.2g} times the stiffness of {}, {:.4g} Pa, and may "
+      "turn particles inside out in the first step; let it rise from 0",
+      body.name, pressure, pressure / stiffness, material.name, stiffness));
+}
+
+/// Which way a body goes in a scene; zero if it rests.
+Eigen::Vector3d way_of(const tasks::Scene& scene, const tasks::SceneBody& body)
+{
+  if (body.drive) return body.drive->motion.way(0, scene.time.end);
+  return Eigen::Vector3d(body.velocity.data());
+}
+
+/// How far the foremost particle of a body ends behind the body's tip [m].
+template <int D>
+double behind_tip(const tasks::Scene& scene, const tasks::SceneBody& body, const Vector<D>& direction)
+{
+  const double spacing = scene.grid.cell_size / scene.particles_per_axis_of(body.material);
+  double foremost = -std::numeric_limits<double>::infinity();
+  for (const Vector<D>& site : tasks::sites_of<D>(scene, body)) foremost = std::max(foremost, site.dot(direction));
+  const double ends = foremost + 0.5 * spacing * direction.cwiseAbs().sum();
+  return std::get<components::Solid<D>>(body.solid).reach(direction) - ends;
+}
+
+void check_tip(const tasks::Scene& scene, const tasks::SceneBody& body, Warnings& warnings)
+{
+  const Eigen::Vector3d way = way_of(scene, body);
+  if (!(way.norm() > 0)) return;
+  const Eigen::Vector3d direction = way.normalized();
+  const double behind = scene.grid.dimension == 2 ? behind_tip<2>(scene, body, direction.head<2>().normalized())
+                                                  : behind_tip<3>(scene, body, direction);
+  const double spacing = scene.grid.cell_size / scene.particles_per_axis_of(body.material);
+  if (behind <= 0.5 * spacing) return;
+  warnings.push_back(fmt::format(
+      "/bodies/{}/geometry: its foremost particle ends {:.2g} m behind its tip, and meets what lies before it "
+      "that much later; finer cells, or more particles in each, come closer",
+      body.name, behind));
+}
+
+void check_approach(const tasks::Scene& scene, Warnings& warnings)
+{
+  for (std::size_t i = 0; i < scene.contacts.size(); ++i) {
+    const tasks::SceneContact& contact = scene.contacts[i];
+    if (contact.normal_of == components::ContactTable::regression) continue;
+    const bool moves = std::any_of(scene.bodies.begin(), scene.bodies.end(), [&](const tasks::SceneBody& body) {
+      return (body.material == contact.material_a || body.material == contact.material_b) &&
+             way_of(scene, body).norm() > 0;
+    });
+    if (!moves) continue;
+    const auto beyond = [&](int material) {
+      return scene.reach_of(material) - 0.5 / scene.particles_per_axis_of(material);
+    };
+    const double cells = beyond(contact.material_a) + beyond(contact.material_b);
+    warnings.push_back(fmt::format(
+        "/contact/{}/normal: bodies push each other as soon as particles of both reach a node, up to {:.2g} "
+        "m before they touch; by \"regression\" only where they touch",
+        i, cells * scene.grid.cell_size));
   }
 }
 
@@ -137,6 +226,14 @@ std::vector<std::string> material_warnings(const CheckedScene& checked)
   return warnings;
 }
 
+std::vector<std::string> contact_warnings(const CheckedScene& checked)
+{
+  Warnings warnings;
+  check_approach(checked.scene, warnings);
+  for (const tasks::SceneBody& body : checked.scene.bodies) check_tip(checked.scene, body, warnings);
+  return warnings;
+}
+
 std::vector<std::string> plausibility_warnings(const CheckedScene& checked)
 {
   const tasks::Scene& scene = checked.scene;
@@ -151,6 +248,7 @@ std::vector<std::string> plausibility_warnings(const CheckedScene& checked)
   check_contact(scene, warnings);
   for (const tasks::SceneBody& body : scene.bodies) {
     check_speed(body, fastest_wave, warnings);
+    check_pressure(scene, body, warnings);
     check_mass(scene, body, warnings);
   }
   return warnings;

@@ -111,6 +111,49 @@ TEST_CASE("what is hardly ever meant is warned of")
   CHECK_FALSE(warns(as_tested, ""));
 }
 
+TEST_CASE("soil in kPa, radians and t/m3 is warned of, number by number")
+{
+  const TemporaryFolder folder;
+  const auto scene = folder.write("soil.json", R"({
+    "dimension": 2, "grid": { "upper": [1, 1], "cell_size": 0.125 }, "time": { "end": 0.01 }, "gravity": [0, -9.81],
+    "boundaries": { "y+": "open" },
+    "materials": { "soil": { "type": "drucker_prager", "density": 1420, "bulk_modulus": 42e6, "shear_modulus": 19e6,
+                             "friction_angle": 30, "dilation_angle": 0.17, "cohesion": 5 } },
+    "bodies": { "soil": { "material": "soil", "geometry": { "type": "box", "lower": [0, 0], "upper": [1, 0.5] } } }
+  })");
+  const auto checked = [&](const std::string& assignments) {
+    return tamp_with("check " + scene.string() + assignments).err;
+  };
+  const std::string right = checked("");
+  const std::string wrong = checked(
+      " --set /materials/soil/density=1.42 --set /materials/soil/bulk_modulus=42e3 --set "
+      "/materials/soil/shear_modulus=19e3"
+      " --set /materials/soil/friction_angle=0.52");
+  const std::string pressed = checked(" --set '/bodies/soil/pressure={\"value\":1e9}'");
+
+  CHECK_THAT(right, !Catch::Contains("warning"));
+  CHECK_THAT(wrong, Catch::Contains("/materials/soil/density: 1.42 kg/m3 looks like t/m3"));
+  CHECK_THAT(wrong, Catch::Contains("/materials/soil/bulk_modulus: 4.2e+04 Pa looks like kPa or MPa"));
+  CHECK_THAT(wrong, Catch::Contains("/materials/soil/shear_modulus: 1.9e+04 Pa looks like kPa or MPa"));
+  CHECK_THAT(wrong, Catch::Contains("/materials/soil/friction_angle: 0.52 degrees looks like radians"));
+  CHECK_THAT(pressed,
+             Catch::Contains("/bodies/soil/pressure: 1e+09 Pa from the start is 15 times the stiffness of soil"));
+}
+
+TEST_CASE("the check warns of contact ahead of touch, and of tips that hold no particle")
+{
+  const auto checked = [](const std::string& assignments) {
+    return tamp_with("check " TAMP_SOURCE_DIR "/inputs/cone/quick.json" + assignments).err;
+  };
+  const std::string as_shipped = checked(""),
+                    blunt = checked(
+                        " --set /contact/0/normal=regression --set /bodies/cone/geometry/of/1/of/0/first_radius=0.015");
+
+  CHECK_THAT(as_shipped, Catch::Contains("/contact/0/normal: bodies push each other as soon as"));
+  CHECK_THAT(as_shipped, Catch::Contains("/bodies/cone/geometry: its foremost particle ends"));
+  CHECK_THAT(blunt, !Catch::Contains("warning"));
+}
+
 TEST_CASE("a sand that is taken for another one than was tested is warned of by the check, and not by the run")
 {
   CHECK(warns("/materials/sand/density=1700",
