@@ -191,6 +191,8 @@ struct SceneLimits {
   /// Error of the total energy, relative to what the run has been given: its initial kinetic energy and the work of
   /// gravity.
   double energy_error = 0.2;
+  /// Part of the materials' substeps that miss their tolerance; a run in which more do ends with a warning.
+  double missed_substeps = 0.05;
 };
 
 /// Cells that a patch needs along an axis that is cut. Its particles reach layers of nodes beyond each end; where

@@ -341,11 +341,24 @@ class Runner
   {
     const components::UpdateCounts& updates = simulation_->updates();
     if (updates.failures > 0) warn(fmt::format("{} stress updates have failed", updates.failures));
+    warn_of_missed_substeps(updates);
     const bool warned = common_warnings() > 0;
     finish(warned ? "completed with warnings" : "completed", "");
     if (!warned || !options_.strict) return;
     const std::string reason = "completed with warnings, which --strict does not take";
     throw tasks::SimulationError(reason, "", -1, {});
+  }
+
+  void warn_of_missed_substeps(const components::UpdateCounts& updates)
+  {
+    const double limit = checked_.scene.limits.missed_substeps;
+    const auto n = static_cast<double>(updates.substeps), missed = static_cast<double>(updates.limited_substeps);
+    if (missed <= limit * n) return;
+    warn(
+        fmt::format("{:.2g} % of the {:.3g} substeps of the materials missed their tolerance, more than "
+                    "/limits/missed_substeps, {:.2g} %: stress is less exact than it was asked for; a smaller "
+                    "/time/multiplier makes the strains of a step smaller",
+                    100 * missed / n, n, 100 * limit));
   }
 
   /// Those of files are the first rank's alone.

@@ -116,7 +116,13 @@ const ObjectKeys& limit_keys()
         {tasks::SceneLimits{}.energy_error},
         "a run whose total energy is wrong by more than this part of what it has been given (its initial energy and "
         "the work of gravity, of loads and of driving bodies) ends with exit code 3; every step is judged, unless a "
-        "centrifuge speeds up; `\"off\"`: no limit"}}};
+        "centrifuge speeds up; `\"off\"`: no limit"},
+       {"missed_substeps",
+        Number{{.lower = 0, .upper = 1}},
+        "",
+        {tasks::SceneLimits{}.missed_substeps},
+        "a run in which a larger part of the materials' substeps misses its tolerance ends with a warning, from 0 to "
+        "1"}}};
   return keys;
 }
 

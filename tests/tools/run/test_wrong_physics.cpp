@@ -111,6 +111,18 @@ TEST_CASE("what is hardly ever meant is warned of")
   CHECK_FALSE(warns(as_tested, ""));
 }
 
+TEST_CASE("a run whose substeps miss their tolerance ends with a warning that says how many do")
+{
+  const std::string rough = "--steps 200 --set /materials/sand/tolerance=1e-9 --set /materials/sand/max_substeps=1";
+
+  const Run warned = run_with(rough), allowed = run_with(rough + " --set /limits/missed_substeps=1");
+
+  CHECK(warned.summary["status"] == "completed with warnings");
+  CHECK_THAT(warned.outcome.err, Catch::Contains("substeps of the materials missed their tolerance, more than "
+                                                 "/limits/missed_substeps, 5 %"));
+  CHECK(allowed.summary["status"] == "completed");
+}
+
 TEST_CASE("soil in kPa, radians and t/m3 is warned of, number by number")
 {
   const TemporaryFolder folder;
