@@ -122,7 +122,7 @@ const ObjectKeys& limit_keys()
         "",
         {tasks::SceneLimits{}.missed_substeps},
         "a run in which a larger part of the materials' substeps misses its tolerance ends with a warning, from 0 to "
-        "1"}}};
+        "1; judged from 100 substeps a particle on"}}};
   return keys;
 }
 
