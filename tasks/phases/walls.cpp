@@ -91,7 +91,7 @@ void damp(const Method<D>& method, const TaskContext& at, const GridView<const N
 /// The image of a particle takes as much normal momentum to the nodes of the wall as the particle brings: there the
 /// normal velocity is zero before and after the step, and the nodes behind the wall mirror those before it. A wall with
 /// friction pushes back what runs into its nodes, and no more than friction times that push along it; one without slip
-/// stops them.
+/// stops them. Local damping comes here too, as it acts on what walls leave and the mirrored nodes are to have it.
 template <int D>
 runtime::TaskList walls(const Method<D>& method)
 {
