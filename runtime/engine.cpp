@@ -7,6 +7,7 @@
 
 #include "runtime/execute/move_patches.hpp"
 #include "runtime/execute/on_workers.hpp"
+#include "runtime/graph/step_verdict.hpp"
 #include "runtime/ranks/common_failure.hpp"
 
 namespace tamp::runtime
@@ -33,10 +34,17 @@ TaskDeclaration gather_requests()
   });
 }
 
+bool may_refuse(const TaskList& step)
+{
+  return std::any_of(step.begin(), step.end(),
+                     [](const TaskDeclaration& task) { return task.uses(Mode::compute, step_verdict); });
+}
+
 /// With what the engine itself has in a step.
 std::vector<GraphTasks> with_own(std::vector<GraphTasks> graphs)
 {
   auto& [tasks, host] = graphs.front();
+  if (may_refuse(tasks)) host.results.push_back(&step_verdict);
   tasks.insert(tasks.begin(), gather_requests());
   host.state.push_back(&progress_label);
   host.results.push_back(&requests_label);
@@ -72,17 +80,25 @@ const Progress& Engine::progress() const
   return now();
 }
 
-void Engine::advance(double size, double end)
+bool Engine::advance(double size, double end)
 {
   balance_if_due();
   const auto [n_steps, time, last_size] = progress();
   size = std::min(size, end - time);
-  run_step({n_steps, time, size, last_size, std::exchange(requests_, 0U)});
+  run_step({n_steps, time, size, last_size, requests_});
+  if (was_refused()) return false;
+  requests_ = 0;
   warehouse().advance();
   if (schedule().recording) profiler_.add_step();
   asked_ = warehouse().result(requests_label).bits;
   constexpr double round_off = 1e-14;
   now() = {n_steps + 1, time + size >= end * (1 - round_off) ? end : time + size, size};
+  return true;
+}
+
+bool Engine::was_refused()
+{
+  return may_refuse(tasks_.front().tasks) && warehouse().result(step_verdict).refused;
 }
 
 /// An error of one rank becomes the same error on all.

@@ -35,12 +35,13 @@ class Engine
   Engine(const PatchLayout& layout, std::vector<std::string> group_names, std::vector<GraphTasks> graphs,
          Executor& executor, const Communicator& communicator = {});
 
-  /// One step of `size` [s], or as much less as it takes to end at `end`.
+  /// One step of `size` [s], or as much less as it takes to end at `end`. False if its tasks refuse it (step_verdict):
+  /// the state is then that of before, on all ranks, and another step may be tried.
   ///
   /// A StepError that a task throws is thrown on all ranks, and the state is then still that of before, unless
   /// particles migrate without waiting for a check. What else goes wrong comes as TaskError, or as std::runtime_error
   /// on several ranks, which cannot go on then.
-  void advance(double size, double end = std::numeric_limits<double>::infinity());
+  bool advance(double size, double end = std::numeric_limits<double>::infinity());
   /// Runs another graph, for its results.
   void run(std::size_t graph);
 
@@ -88,6 +89,7 @@ class Engine
   Progress& now() const;
   std::unique_ptr<PlacedGraphs> placed_on(const PatchLayout& layout) const;
   void run_step(const Step& step);
+  bool was_refused();
   void balance_if_due();
   void deal_to(const std::vector<int>& ranks);
   CheckpointHeader header(const std::string& fingerprint) const;

@@ -72,12 +72,15 @@ struct SceneTime {
   double multiplier = 0.8;
   double minimum_step = 1e-12;
   double maximum_step = std::numeric_limits<double>::infinity();
+  /// A step that goes wrong is tried so many times again, each as much of the time before.
+  int redos = 8;
+  double redo_factor = 0.5;
 
   /// All but the rule.
-  static constexpr std::array<components::Parameter<SceneTime>, 4> parameters();
+  static constexpr std::array<components::Parameter<SceneTime>, 6> parameters();
 };
 
-constexpr std::array<components::Parameter<SceneTime>, 4> SceneTime::parameters()
+constexpr std::array<components::Parameter<SceneTime>, 6> SceneTime::parameters()
 {
   using components::above_zero;
   return {{{"end", "s", above_zero, &SceneTime::end, "simulated time"},
@@ -89,7 +92,19 @@ constexpr std::array<components::Parameter<SceneTime>, 4> SceneTime::parameters(
             true},
            {"minimum_step", "s", above_zero, &SceneTime::minimum_step,
             "the run stops as unstable if its time step has to be shorter", true},
-           {"maximum_step", "s", above_zero, &SceneTime::maximum_step, "longest time step", true}}};
+           {"maximum_step", "s", above_zero, &SceneTime::maximum_step, "longest time step", true},
+           {"redos",
+            "",
+            {.lower = 0, .upper = 100},
+            &SceneTime::redos,
+            "a step that goes wrong is tried again, shorter, at most so many times, see failures.md; 0: the run ends",
+            true},
+           {"redo_factor",
+            "",
+            {.lower = 0, .upper = 1, .holds_lower = false, .holds_upper = false},
+            &SceneTime::redo_factor,
+            "the length of a step that is tried again, as a part of the one that went wrong",
+            true}}};
 }
 
 using components::MaterialModel;
@@ -191,6 +206,9 @@ struct SceneLimits {
   /// Error of the total energy, relative to what the run has been given: its initial kinetic energy and the work of
   /// gravity.
   double energy_error = 0.2;
+  /// Cells that waves may cross in a step, as fast as they are at its end, before the step is refused. (Where the
+  /// `multiplier` is above 1, times that.)
+  double courant_number = 1;
   /// Part of the materials' substeps that miss their tolerance; a run in which more do ends with a warning.
   double missed_substeps = 0.05;
 };

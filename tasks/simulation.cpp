@@ -13,6 +13,7 @@
 #include "tasks/set_up/fill_bodies.hpp"
 #include "tasks/set_up/initial_step.hpp"
 #include "tasks/simulation_error.hpp"
+#include "tasks/step_refusal.hpp"
 
 namespace tamp::tasks
 {
@@ -106,10 +107,37 @@ double Simulation::next_step_size() const
       {});
 }
 
+/// Length of another try after a step that was refused; throws its reason if there is none.
+double Simulation::shorter_step(double refused_size, int n_tries) const
+{
+  const double size = scene_.time.redo_factor * refused_size;
+  if (n_tries <= scene_.time.redos && size >= scene_.time.minimum_step) return size;
+  throw SimulationError(
+      *refusal(scene_, warehouse().total(step_totals), warehouse().result(step_totals), refused_size));
+}
+
+/// The state is that before the step, but for this.
+void Simulation::note_refusal()
+{
+  const StepTotals& step = warehouse().result(step_totals);
+  Sightings& seen = warehouse().global_state(refused_steps);
+  seen.add(n_steps(), time());
+  if (seen.count > 1) return;
+  if (step.bad_motion.particle >= 0) {
+    seen.blame(step.bad_motion.particle, step.bad_motion.material, step.bad_motion.position);
+  } else if (step.failed.particle >= 0) {
+    seen.blame(step.failed.particle, step.failed.material, step.failed.position);
+  }
+}
+
 void Simulation::advance(double end)
 {
   try {
-    engine_->advance(next_step_size(), end);
+    double size = std::min(next_step_size(), end - time());
+    for (int n_tries = 1; !engine_->advance(size, end); ++n_tries) {
+      note_refusal();
+      size = shorter_step(size, n_tries);
+    }
   } catch (const SimulationError&) {
     throw;
   } catch (const runtime::StepError& of_other_rank) {

@@ -73,9 +73,13 @@ class Simulation
   /// Since the start.
   const LostParticles& lost() const { return warehouse().total(lost_particles); }
 
-  /// One step, as long as stability allows and not past `end` [s]. Throws SimulationError when a particle inverts, a
-  /// state is not finite, a material cannot be updated, or the time step falls below the scene's minimum; the state of
-  /// the last good step is then still there. An error on one rank is thrown on all.
+  /// Tries of steps that were refused since the start.
+  const Sightings& refused() const { return warehouse().global_state(refused_steps); }
+
+  /// One step, as long as stability allows and not past `end` [s]. In one that goes wrong, as a particle inverts, a
+  /// state is not finite, a material cannot be updated or grows too stiff, nothing has happened: a shorter one is
+  /// tried, as often as the scene allows. Then, and where the time step falls below the scene's minimum, throws
+  /// SimulationError; the state of the last good step is still there. An error on one rank is thrown on all.
   void advance(double end);
   ParticleReport report();
   /// Peaks near noses in the last report; those of no particle where the scene has no nose.
@@ -115,6 +119,8 @@ class Simulation
 
  private:
   double next_step_size() const;
+  double shorter_step(double refused_size, int n_tries) const;
+  void note_refusal();
 
   /// Last asked for.
   runtime::FieldCopy particles_;

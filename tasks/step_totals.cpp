@@ -22,6 +22,19 @@ std::string state_in_words(const Model&, std::span<const double> values)
 
 }  // namespace
 
+const char* to_string(MotionFault fault)
+{
+  switch (fault) {
+    case MotionFault::inside_out:
+      return "a particle is turned inside out";
+    case MotionFault::turned_too_far:
+      return "a particle turns or shears by more than half a turn in one step";
+    case MotionFault::not_finite:
+      return "stress or velocity is not finite";
+  }
+  return "";
+}
+
 std::string FailedUpdate::reason(const components::MaterialModel& model) const
 {
   const std::string words = std::visit([&](const auto& m) { return state_in_words(m, state); }, model);

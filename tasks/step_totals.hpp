@@ -18,6 +18,25 @@
 namespace tamp::tasks
 {
 
+/// Why particles cannot follow the motion of a step.
+enum class MotionFault { inside_out, turned_too_far, not_finite };
+
+const char* to_string(MotionFault fault);
+
+/// A particle that could not follow.
+struct BadMotion {
+  std::int64_t particle = -1;  ///< -1: none
+  int material = -1;
+  std::array<double, 3> position{};  ///< m
+  MotionFault fault{};
+
+  /// By id; none comes last.
+  bool operator<(const BadMotion& other) const
+  {
+    return static_cast<std::uint64_t>(particle) < static_cast<std::uint64_t>(other.particle);
+  }
+};
+
 /// A particle whose stress could not be updated, and the state it was left in.
 struct FailedUpdate {
   std::int64_t particle = -1;  ///< -1: none
@@ -42,6 +61,8 @@ struct FailedUpdate {
 struct StepTotals {
   /// The longest next step that is stable, before the multiplier [s].
   double stable_step = std::numeric_limits<double>::infinity();
+  /// Of waves in any particle at the end of the step [m/s].
+  double greatest_wave_speed = 0;
   /// Work stored, and work turned to heat, in this step [J].
   double elastic = 0;
   double plastic = 0;
@@ -56,8 +77,11 @@ struct StepTotals {
   components::UpdateCounts updates;
   /// The failed update with the lowest id in the first step that had any.
   FailedUpdate failed;
+  /// That with the lowest id; a step with one is refused.
+  BadMotion bad_motion;
 
   static constexpr auto fields = std::tuple{runtime::Least{&StepTotals::stable_step},
+                                            runtime::Greatest{&StepTotals::greatest_wave_speed},
                                             &StepTotals::elastic,
                                             &StepTotals::plastic,
                                             &StepTotals::viscous,
@@ -65,7 +89,8 @@ struct StepTotals {
                                             &StepTotals::driving,
                                             &StepTotals::stress_work_at_end,
                                             &StepTotals::updates,
-                                            runtime::Least{&StepTotals::failed}};
+                                            runtime::Least{&StepTotals::failed},
+                                            runtime::Least{&StepTotals::bad_motion}};
 };
 
 /// Work of body forces in one step [J].

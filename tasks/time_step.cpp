@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "runtime/graph/step_verdict.hpp"
 #include "tasks/labels.hpp"
 #include "tasks/phases/phases.hpp"
 
@@ -24,11 +25,11 @@ void add_state_of(const MaterialModel& model, runtime::HostData& data)
       model);
 }
 
-/// At the end of a step particles go to the patches that they are in by then.
+/// At the end of a step that is not refused particles go to the patches that they are in by then.
 template <int D>
 runtime::TaskDeclaration migrate(const Method<D>& method)
 {
-  return runtime::migration(particle::position<D>, energy_ledger,
+  return runtime::migration(particle::position<D>, runtime::step_verdict,
                             method.scene.is_periodic() ? &particle::laps : nullptr);
 }
 
@@ -69,12 +70,27 @@ runtime::TaskList time_step(const Method<D>& method)
 template <int D>
 runtime::HostData host_data(const Method<D>& method)
 {
-  runtime::HostData data{
-      {&particle::id, &particle::body, &particle::reference_position<D>, &particle::mass, &particle::position<D>,
-       &particle::velocity<D>, &particle::deformation_gradient<D>, &particle::volume, &particle::stress<D>,
-       &particle::viscous_pressure, &rigid_states, &step_totals, &grid_totals, &lost_particles, &contact_impulses,
-       &load_totals, &forces_taken_at, &energy_ledger, &longest_step},
-      {}};
+  runtime::HostData data{{&particle::id,
+                          &particle::body,
+                          &particle::reference_position<D>,
+                          &particle::mass,
+                          &particle::position<D>,
+                          &particle::velocity<D>,
+                          &particle::deformation_gradient<D>,
+                          &particle::volume,
+                          &particle::stress<D>,
+                          &particle::viscous_pressure,
+                          &rigid_states,
+                          &step_totals,
+                          &grid_totals,
+                          &lost_particles,
+                          &contact_impulses,
+                          &load_totals,
+                          &forces_taken_at,
+                          &energy_ledger,
+                          &longest_step,
+                          &refused_steps},
+                         {}};
   for (const SceneMaterial& material : method.materials) add_state_of(material.model, data);
   if (method.scene.is_periodic()) data.state.push_back(&particle::laps);
   if (method.brings_gradients()) data.state.push_back(&particle::velocity_gradient<D>);

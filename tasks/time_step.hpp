@@ -6,8 +6,8 @@
 namespace tamp::tasks
 {
 
-/// The phases of one time step, in order: the table of contents of the method. Where one of them throws, the state
-/// before the step is whole.
+/// The phases of one time step, in order: the table of contents of the method. Where one of them throws, or the last
+/// refuses the step, the state before the step is whole.
 template <int D>
 runtime::TaskList time_step(const Method<D>& method);
 

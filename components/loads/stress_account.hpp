@@ -44,6 +44,8 @@ struct StressAccount {
   /// Work of the stress at the end of the step in its second half, which it takes from the motion.
   std::array<double, N> stress_work_at_end;
   std::array<double, N> stable_step;
+  /// Of dilatational waves, at the end of the step [m/s].
+  std::array<double, N> wave_speed;
 };
 
 /// Artificial viscosity, energies, and the bound on the next step of `dt` [s], in lanes: vectorised code gives
@@ -81,13 +83,14 @@ void account_for_stress(const AccountRules& rules, double dt, const StressedBatc
     set_lanes(account.viscous, k, 0.5 * (lanes(batch.old_viscous_pressure) + q) * (old_volume - volume));
     set_lanes(account.stress_work_at_end, k,
               0.5 * (double_dot(stress, strain) * mid_volume + q * (old_volume - volume)));
+    const Lanes c = wave_speed(p.bulk_modulus, p.shear_modulus, p.density);
     const Lanes stable_step =
         rules.rule == StepRule::published
-            ? published_time_step<D>(rules.cell_size, wave_speed(p.bulk_modulus, p.shear_modulus, p.density),
-                                     p.velocity)
+            ? published_time_step<D>(rules.cell_size, c, p.velocity)
             : viscous_time_step<D>(rules.cell_size, p, rules.viscosity.value_or(ArtificialViscosity{0, 0}),
                                    rules.amplification);
     set_lanes(account.stable_step, k, select(stiff, stable_step, part_of_step_apart * stable_step));
+    set_lanes(account.wave_speed, k, c);
     set_lanes(viscous_pressure, k, q);
   }
 }

@@ -4,6 +4,8 @@
 #include <bitset>
 #include <cstring>
 
+#include "runtime/graph/step_verdict.hpp"
+
 namespace tamp::runtime
 {
 
@@ -33,7 +35,9 @@ BoundGraph::BoundGraph(const TaskGraph& graph, Warehouse& warehouse, const Commu
   for (const Instance& instance : graph.instances()) {
     bound_.push_back(bind(instance));
     if (instance.kind == InstanceKind::send_particles && migration_ == nullptr) {
-      migration_ = std::make_unique<Migration>(warehouse, graph.declaration(instance));
+      const TaskDeclaration& migration = graph.declaration(instance);
+      migration_ = std::make_unique<Migration>(warehouse, migration);
+      if (migration.uses(Mode::read, step_verdict)) verdict_ = &warehouse.field(step_verdict, -1, -1);
     }
   }
   if (communicator.size() > 1) {
@@ -177,7 +181,7 @@ void BoundGraph::run(int i, const Step& step)
       combine(bound);
       break;
     case InstanceKind::send_particles:
-      migration_->send(instance.patch, instance.group);
+      send_particles(instance);
       break;
     case InstanceKind::receive_particles:
       migration_->receive(instance.patch, instance.group);
@@ -188,6 +192,18 @@ void BoundGraph::run(int i, const Step& step)
     case InstanceKind::receive_message:
       exchange_->receive(instance.message);
       break;
+  }
+}
+
+/// A step that refuses itself moves no particle.
+void BoundGraph::send_particles(const Instance& instance)
+{
+  const bool refused =
+      verdict_ != nullptr && reinterpret_cast<const StepVerdict*>(verdict_->current_buffer.data())->refused;
+  if (refused) {
+    migration_->hold(instance.patch, instance.group);
+  } else {
+    migration_->send(instance.patch, instance.group);
   }
 }
 

@@ -73,6 +73,7 @@ class BoundGraph final : public Work
   Bound bind_halos(const Instance& instance);
   void bind_sparse(const Instance& instance, Bound& bound);
   void prepare(const Instance& instance, const Bound& bound);
+  void send_particles(const Instance& instance);
   static bool makes_nothing(const Bound& bound);
   void make_nothing(const Instance& instance, const Bound& bound);
   Bound bind_reduction(const Label& label);
@@ -85,6 +86,8 @@ class BoundGraph final : public Work
   std::vector<int> places_;
   int n_local_patches_ = 0;
   std::unique_ptr<Migration> migration_;
+  /// Null where the migration waits for none.
+  const Field* verdict_ = nullptr;
   std::unique_ptr<Exchange> exchange_;
   std::vector<Bound> bound_;
 };

@@ -139,12 +139,17 @@ void Migration::pack(ParticleParcel& parcel, std::size_t particle, const std::ve
   ++parcel.n_particles;
 }
 
-void Migration::send(int patch, int group)
+void Migration::hold(int patch, int group)
 {
   Outbox& out = box(patch, group);
-  if (std::exchange(out.used, false)) {
-    for (auto& [destination_patch, parcel] : out.to_patch) parcel->clear();
-  }
+  if (!std::exchange(out.used, false)) return;
+  for (auto& [destination_patch, parcel] : out.to_patch) parcel->clear();
+}
+
+void Migration::send(int patch, int group)
+{
+  hold(patch, group);
+  Outbox& out = box(patch, group);
   const std::size_t n = warehouse_.n_particles(patch, group);
   if (n == 0) return;
   Field& positions = warehouse_.field(position_, patch, group);

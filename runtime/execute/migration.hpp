@@ -33,6 +33,8 @@ class Migration
   /// Packs the particles of a patch and group that have left it and closes the gaps. Those outside of the grid are
   /// gone.
   void send(int patch, int group);
+  /// Leaves them where they are: nothing is packed.
+  void hold(int patch, int group);
   /// Takes in what the neighbours packed for this patch.
   void receive(int patch, int group);
 

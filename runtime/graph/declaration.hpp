@@ -73,6 +73,12 @@ struct TaskDeclaration {
   std::vector<Access> accesses;
   Sparsity sparsity = Sparsity::none;
   std::function<void(const TaskContext&, const BoundArgument*)> body;
+
+  bool uses(Mode mode, const Label& label) const
+  {
+    return std::any_of(accesses.begin(), accesses.end(),
+                       [&](const Access& access) { return access.mode == mode && access.label == &label; });
+  }
 };
 
 using TaskList = std::vector<TaskDeclaration>;
@@ -236,7 +242,7 @@ TaskDeclaration migration(const TypedLabel<Point, Centring::particle>& position,
 }
 
 /// A migration that waits for a reduction or a global: where a task before that throws, no particle has moved, and the
-/// state before the step is still whole.
+/// state before the step is still whole. Where that is the `step_verdict`, it moves none in a step that is refused.
 template <class Point, class T, Centring C>
 TaskDeclaration migration(const TypedLabel<Point, Centring::particle>& position, const TypedLabel<T, C>& last_check,
                           const TypedLabel<Index, Centring::particle>* laps = nullptr)

@@ -36,6 +36,7 @@ std::optional<std::vector<int>> LoadBalance::look(long step, const PatchLayout& 
                                                   const std::vector<double>& own_costs,
                                                   const Communicator& communicator)
 {
+  looked_before_ = step;
   const std::vector<double> costs = sum_over_ranks(own_costs, communicator);
   if (!rebalances_.empty() && rebalances_.back().imbalance_got == 0) {
     rebalances_.back().imbalance_got = imbalance(costs, layout.ranks(), communicator.size());

@@ -36,7 +36,8 @@ class LoadBalance
  public:
   /// Steps between two looks; 0: none.
   void look_every(long n_steps) { interval_ = n_steps; }
-  bool is_due(long step) const { return interval_ > 0 && step > 0 && step % interval_ == 0; }
+  /// Once before a step, however often that is tried.
+  bool is_due(long step) const { return interval_ > 0 && step > 0 && step % interval_ == 0 && step != looked_before_; }
   /// The ranks of a better deal before a step, if it pays. `own_costs`, by patch, are those since the last look on this
   /// rank's patches, and 0 on others. Collective.
   std::optional<std::vector<int>> look(long step, const PatchLayout& layout, const std::vector<double>& own_costs,
@@ -45,6 +46,7 @@ class LoadBalance
 
  private:
   long interval_ = 0;
+  long looked_before_ = -1;
   std::vector<Rebalance> rebalances_;
 };
 

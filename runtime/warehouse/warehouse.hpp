@@ -69,9 +69,10 @@ class Warehouse
     Field& f = field(label, patch, group);
     return {reinterpret_cast<const T*>(f.current_buffer.data()), f.box, f.box.strides()};
   }
-  template <class T>
-  const T& result(const TypedLabel<T, Centring::reduction>& label)
+  template <class T, Centring C>
+  const T& result(const TypedLabel<T, C>& label)
   {
+    static_assert(has_one_value(C));
     return *reinterpret_cast<const T*>(field(label, -1, -1).current_buffer.data());
   }
 

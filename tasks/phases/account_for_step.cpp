@@ -1,32 +1,12 @@
-#include <fmt/format.h>
-
+#include "runtime/graph/step_verdict.hpp"
 #include "tasks/labels.hpp"
 #include "tasks/phases/phases.hpp"
-#include "tasks/simulation_error.hpp"
+#include "tasks/step_refusal.hpp"
 
 namespace tamp::tasks
 {
 
 using runtime::TaskContext;
-
-namespace
-{
-
-/// Throws SimulationError if more stress updates have failed so far than the scene allows.
-template <int D>
-void check_failed_updates(const Method<D>& method, const StepTotals& before, const StepTotals& step)
-{
-  const std::size_t failures = before.updates.failures + step.updates.failures;
-  const long allowed = method.scene.failed_updates_allowed;
-  if (failures <= static_cast<std::size_t>(allowed)) return;
-  const FailedUpdate& failed = step.failed;
-  const SceneMaterial& material = method.materials[static_cast<std::size_t>(failed.material)];
-  throw SimulationError(fmt::format("{}; {} stress updates have failed, {} are allowed", failed.reason(material.model),
-                                    failures, allowed),
-                        material.name, failed.particle, {failed.position.begin(), failed.position.begin() + D});
-}
-
-}  // namespace
 
 template <int D>
 runtime::TaskList account_for_step(const Method<D>& method)
@@ -36,10 +16,11 @@ runtime::TaskList account_for_step(const Method<D>& method)
               .reads(step_totals.previous(), step_totals, grid_totals, energy_ledger.previous(),
                      load_totals.when(!method.pressed_materials.empty()),
                      body_force_work.when(method.scene.has_body_force()))
-              .computes(energy_ledger, longest_step)
-              .body([&method](const TaskContext&, auto data) {
+              .computes(energy_ledger, longest_step, runtime::step_verdict)
+              .body([&method](const TaskContext& at, auto data) {
                 const StepTotals& step = data[step_totals];
-                check_failed_updates(method, data[step_totals.previous()], step);
+                data[runtime::step_verdict].refused =
+                    refusal(method.scene, data[step_totals.previous()], step, at.step.size).has_value();
                 EnergyLedger& ledger = data[energy_ledger];
                 ledger = data[energy_ledger.previous()];
                 ledger.add(step, data[grid_totals], data[body_force_work], data[load_totals],

@@ -35,7 +35,7 @@ runtime::TaskList deform_as_cells(const Method<D>& method)
                     change[i] = cells[cell_of<D>(at, position[first + i])].mean();
                   }
                   components::set_volume_changes<D>(method.deformation_update, g, change);
-                  deform<D>(method, at, data, first, g);
+                  deform<D>(method, data, first, g);
                 }
               })};
 }

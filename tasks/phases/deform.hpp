@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <span>
 
 #include "components/anti_locking/f_bar.hpp"
@@ -13,35 +14,41 @@
 #include "tasks/labels.hpp"
 #include "tasks/method.hpp"
 #include "tasks/phases/places.hpp"
-#include "tasks/simulation_error.hpp"
 
 namespace tamp::tasks
 {
 
+/// A particle that cannot follow keeps its shape, and has no strain: the next phase sees that, and the step is refused.
+template <int D, class Data>
+void leave_undeformed(const Data& data, std::size_t p)
+{
+  data[particle::deformation_gradient<D>][p] = data[particle::deformation_gradient<D>.previous()][p];
+  data[particle::volume][p] = data[particle::volume.previous()][p];
+  data[particle::stress<D>][p] = data[particle::stress<D>.previous()][p];
+  data[particle::strain_increment<D>][p].setConstant(std::numeric_limits<double>::quiet_NaN());
+}
+
 /// Deforms particles by the gradient of the velocity at the middle of the step, over the shape at its start (eqs
 /// 54-58), as `g` times dt; the old stress turns with them, and what the material answers is added by the next phase.
 template <int D, class Data>
-void deform(const Method<D>& method, const runtime::TaskContext& at, const Data& data, std::size_t first,
-            std::span<const Matrix<D>> g)
+void deform(const Method<D>& method, const Data& data, std::size_t first, std::span<const Matrix<D>> g)
 {
-  const auto of_batch = [&](const auto& field) { return field.subspan(first, g.size()); };
-  const auto inside_out = components::deform<D>(
-      method.deformation_update, {.g = g,
-                                  .old_gradient = of_batch(data[particle::deformation_gradient<D>.previous()]),
-                                  .old_volume = of_batch(data[particle::volume.previous()]),
-                                  .old_stress = of_batch(data[particle::stress<D>.previous()]),
-                                  .deformation_gradient = of_batch(data[particle::deformation_gradient<D>]),
-                                  .volume = of_batch(data[particle::volume]),
-                                  .stress = of_batch(data[particle::stress<D>]),
-                                  .strain_increment = of_batch(data[particle::strain_increment<D>])});
-  if (!inside_out) return;
-  const std::size_t p = first + *inside_out;
-  const Vector<D>& x = data[particle::position<D>.previous()][p];
-  const bool has_limit = method.deformation_update == "exponential";
-  throw SimulationError(
-      has_limit ? "a particle turns or shears by more than half a turn in one step" : "a particle is turned inside out",
-      method.materials[static_cast<std::size_t>(at.group)].name, data[particle::id.previous()][p],
-      {x.begin(), x.end()});
+  while (!g.empty()) {
+    const auto of_batch = [&](const auto& field) { return field.subspan(first, g.size()); };
+    const auto stopped_at = components::deform<D>(
+        method.deformation_update, {.g = g,
+                                    .old_gradient = of_batch(data[particle::deformation_gradient<D>.previous()]),
+                                    .old_volume = of_batch(data[particle::volume.previous()]),
+                                    .old_stress = of_batch(data[particle::stress<D>.previous()]),
+                                    .deformation_gradient = of_batch(data[particle::deformation_gradient<D>]),
+                                    .volume = of_batch(data[particle::volume]),
+                                    .stress = of_batch(data[particle::stress<D>]),
+                                    .strain_increment = of_batch(data[particle::strain_increment<D>])});
+    if (!stopped_at) return;
+    leave_undeformed<D>(data, first + *stopped_at);
+    first += *stopped_at + 1;
+    g = g.subspan(*stopped_at + 1);
+  }
 }
 
 /// Keeps the gradients of a batch until those of the whole patch are known, and adds its changes of volume to its
@@ -87,7 +94,7 @@ void take_gradients(const Method<D>& method, const runtime::TaskContext& at, con
   if (method.deforms_as_cells()) {
     keep<D>(method, at, data, first, g);
   } else {
-    deform<D>(method, at, data, first, g);
+    deform<D>(method, data, first, g);
   }
 }
 

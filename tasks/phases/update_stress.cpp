@@ -10,7 +10,6 @@
 #include "tasks/labels.hpp"
 #include "tasks/phases/phases.hpp"
 #include "tasks/phases/places.hpp"
-#include "tasks/simulation_error.hpp"
 
 namespace tamp::tasks
 {
@@ -67,6 +66,7 @@ void add_to(StepTotals& totals, const Account& account, std::size_t n)
     // Written so that what is not a number does not pass for a bound.
     const double stable_step = account.stable_step[k];
     totals.stable_step = stable_step >= totals.stable_step ? totals.stable_step : stable_step;
+    totals.greatest_wave_speed = std::max(totals.greatest_wave_speed, account.wave_speed[k]);
   }
 }
 
@@ -96,17 +96,31 @@ void account(const Method<D>& method, double dt, const Data& data, std::size_t f
   add_to(data[step_totals], account, n);
 }
 
-/// Throws SimulationError for the first of `n` particles whose stress or velocity is not finite.
+/// A particle that could not follow the motion, see `leave_undeformed`, or has none; where it was before.
+template <int D, class Data>
+BadMotion bad_motion(const Method<D>& method, int material, std::size_t p, const Data& data)
+{
+  BadMotion bad{.particle = data[particle::id.previous()][p], .material = material, .fault = MotionFault::not_finite};
+  const Vector<D>& x = data[particle::position<D>.previous()][p];
+  std::copy(x.begin(), x.end(), bad.position.begin());
+  if (data[particle::velocity<D>][p].allFinite() && !data[particle::strain_increment<D>][p].allFinite()) {
+    const bool has_limit = method.deformation_update == "exponential";
+    bad.fault = has_limit ? MotionFault::turned_too_far : MotionFault::inside_out;
+  }
+  return bad;
+}
+
+/// Looks at `n` particles for those whose strain, stress or velocity is not finite.
 template <int D, class Data>
 void check_finite(const Method<D>& method, int material, const Data& data, std::size_t first, std::size_t n)
 {
+  const auto strain = data[particle::strain_increment<D>];
   const auto stress = data[particle::stress<D>];
   const auto velocity = data[particle::velocity<D>];
+  BadMotion& worst = data[step_totals].bad_motion;
   for (std::size_t p = first; p < first + n; ++p) {
-    if (stress[p].allFinite() && velocity[p].allFinite()) continue;
-    const Vector<D>& x = data[particle::position<D>][p];
-    throw SimulationError("stress or velocity is not finite", method.materials[static_cast<std::size_t>(material)].name,
-                          data[particle::id.previous()][p], {x.begin(), x.end()});
+    if (std::isfinite(strain[p].sum() + stress[p].sum() + velocity[p].sum())) continue;
+    worst = std::min(worst, bad_motion<D>(method, material, p, data));
   }
 }
 
@@ -131,7 +145,7 @@ FailedUpdate failed_update(const Model& model, int material, std::size_t p, comp
       failed.state[k++] = column.value(model, data[particle::state<Model>][p], stress);
     }
   }
-  const Vector<D>& x = data[particle::position<D>][p];
+  const Vector<D>& x = data[particle::position<D>.previous()][p];
   std::copy(x.begin(), x.end(), failed.position.begin());
   return failed;
 }
@@ -204,7 +218,7 @@ runtime::TaskDeclaration update_of(const Method<D>& method, int material, const 
           .over_patches_and_groups({material})
           .reads(particle::id.previous(), particle::mass.previous(), particle::deformation_gradient<D>,
                  particle::volume.previous(), particle::volume, particle::viscous_pressure.previous(),
-                 particle::own_stiffness, particle::strain_increment<D>, particle::position<D>.at(end),
+                 particle::own_stiffness, particle::strain_increment<D>, particle::position<D>.previous(),
                  particle::velocity<D>.at(end))
           .updates(particle::stress<D>, particle::velocity_gradient<D>.when(forgets_gradients(model, method.scene)))
           .computes(particle::viscous_pressure)

@@ -2,6 +2,9 @@
 
 #include <catch2/catch.hpp>
 
+#include <numeric>
+
+#include "runtime/graph/step_verdict.hpp"
 #include "runtime/step_error.hpp"
 #include "runtime/storage/temporary_folder.hpp"
 #include "tests/runtime/heat.hpp"
@@ -122,6 +125,82 @@ TEST_CASE("a step that a state does not allow is the same error on all ranks, an
 
   CHECK(engine.progress().n_steps == 3);
   CHECK(engine.warehouse().global_state(pressure) == 3);
+}
+
+TEST_CASE("a step that refuses itself moves no particle and leaves the state, on all ranks, and may be tried again",
+          "[engine][ranks]")
+{
+  using Point = std::array<double, 2>;
+  const Communicator ranks = Communicator::world();
+  const ParticleLabel<Point, "position"> position;
+  const ReductionLabel<double, "way"> way;
+  const GlobalLabel<double, "drift"> drift;
+  const auto move = task("move")
+                        .over_patches_and_groups()
+                        .reads(position.previous())
+                        .computes(position)
+                        .reduces(way)
+                        .body([&](const TaskContext& at, auto data) {
+                          const auto old = data[position.previous()];
+                          for (std::size_t p = 0; p < old.size(); ++p) {
+                            data[position][p] = {old[p][0] + at.step.size, old[p][1]};
+                            data[way] += at.step.size;
+                          }
+                        });
+  const auto judge = task("judge")
+                         .over_ranks()
+                         .reads(way, drift.previous())
+                         .computes(drift, step_verdict)
+                         .body([&](const TaskContext& at, auto data) {
+                           data[drift] = data[drift.previous()] + data[way];
+                           data[step_verdict].refused = at.step.size > 1;
+                         });
+  PatchLayout layout({2, {0, 0, 0}, 1, {8, 4, 1}}, {4, 2, 1});
+  std::vector<int> owners;
+  for (int p = 0; p < 8; ++p) owners.push_back(p % ranks.size());
+  layout.give_to_ranks(owners, ranks.size());
+  Executor executor(2, on_shared_cores());
+  Engine engine(layout, {"all"}, {{{move, judge, migration(position, step_verdict)}, {{&position, &way, &drift}, {}}}},
+                executor, ranks);
+  Warehouse& warehouse = engine.warehouse();
+  for (const Patch& patch : engine.layout()) {
+    if (!warehouse.is_local(patch)) continue;
+    warehouse.set_n_particles(patch.id, 0, 1);
+    warehouse.state(position, patch.id, 0)[0] = {patch.cells.lower[0] + 0.5, patch.cells.lower[1] + 0.5};
+  }
+  // Once a particle has gone over, what it was sent in stays in its patch's outbox.
+  for (int n = 0; n < 2; ++n) CHECK(engine.advance(0.9));
+  engine.ask(2);
+
+  CHECK_FALSE(engine.advance(1.9));
+
+  CHECK(engine.progress().n_steps == 2);
+  CHECK(warehouse.total(way) == Approx(2 * 8 * 0.9));
+  CHECK(warehouse.global_state(drift) == warehouse.total(way));
+  const auto places = [&] {
+    double sum = 0;
+    std::size_t n = 0;
+    for (const Patch& patch : engine.layout()) {
+      if (!warehouse.is_local(patch)) continue;
+      n += warehouse.n_particles(patch.id, 0);
+      for (const Point& x : warehouse.state(position, patch.id, 0)) {
+        sum += x[0];
+        CHECK(x[0] >= patch.cells.lower[0]);
+        CHECK(x[0] < patch.cells.upper[0]);
+      }
+    }
+    const std::vector<double> sums = ranks.gather_value(sum);
+    return std::pair{ranks.sum(n), std::accumulate(sums.begin(), sums.end(), 0.0)};
+  };
+  // Those of the last patches along x have left the grid.
+  CHECK(places().first == 6);
+  CHECK(places().second == Approx(2 * (0.5 + 2.5 + 4.5) + 6 * 1.8));
+
+  CHECK(engine.advance(0.1));
+
+  CHECK(engine.asked() == 2);
+  CHECK(places().first == 6);
+  CHECK(places().second == Approx(2 * (0.5 + 2.5 + 4.5) + 6 * 1.9));
 }
 
 }  // namespace tamp::test::test_engine

@@ -57,6 +57,7 @@ Scene free_body(const FreeBody& body, bool viscous)
 double growth(Scene scene, double multiplier)
 {
   scene.time.multiplier = multiplier;
+  scene.time.redos = 0;
   const auto simulation = Simulation::make(scene, 1);
   const auto inner_energy = [&] {
     const ParticleReport report = simulation->report();

@@ -48,8 +48,8 @@ class CheckpointClock
   Clock::time_point last_ = Clock::now();
 };
 
-/// Parts of a scene that must be the same for a restart, as JSON: a hash of all but its title, its end, its limits and
-/// its output, and one of each file that it reads.
+/// Parts of a scene that must be the same for a restart, as JSON: a hash of all but its title, its times, its limits
+/// and its output, and one of each file that it reads.
 std::string fingerprint(const CheckedScene& scene);
 
 /// The step of the newest checkpoint of a run by its name, if there is one: whether it is whole,

@@ -268,7 +268,9 @@ class Runner
   void expect_energy()
   {
     const std::string problem = history_.energy_problem(checked_.scene.limits.energy_error);
-    if (!problem.empty()) throw tasks::SimulationError(problem, "", -1, {});
+    if (problem.empty()) return;
+    state_is_good_ = false;
+    throw tasks::SimulationError(problem, "", -1, {});
   }
 
   void write_history()
@@ -319,6 +321,11 @@ class Runner
   {
     const bool due = checkpoint_clock_.due(simulation_->n_steps(), simulation_->time());
     if (!due && simulation_->engine().asked() == 0) return;
+    write_checkpoint_now();
+  }
+
+  void write_checkpoint_now()
+  {
     expect_own_folder();
     due_.largest = history_.largest();
     runtime::ByteWriter own;
@@ -372,20 +379,25 @@ class Runner
   /// Keeps what is good, and passes the error on with where in the run it happened.
   [[noreturn]] void fail(const tasks::SimulationError& error)
   {
+    if (state_is_good_) write_checkpoint_now();
     write_last_state();
     const std::string reason =
         fmt::format("step {}, time {:.6g} s: {}; the last state is kept in {}", simulation_->n_steps(),
                     simulation_->time(), error.what(), (options_.folder / "fields.h5").string());
     finish("unstable", reason);
-    throw tasks::SimulationError(reason + way_on(), error.material, -1, {});
+    // From a good state shorter steps may lead further.
+    const std::string shorter =
+        state_is_good_ ? fmt::format(" --set /time/multiplier={:.3g}", checked_.scene.time.multiplier / 2) : "";
+    throw tasks::SimulationError(reason + way_on(shorter), error.material, -1, {});
   }
 
-  /// After a failure, a line with the command that goes on from the newest checkpoint; nothing if there is none.
-  std::string way_on() const
+  /// After a failure, a line with the command that goes on from the newest checkpoint, with more settings; nothing if
+  /// there is none.
+  std::string way_on(const std::string& settings = "") const
   {
     const auto step = newest_step(options_.folder);
     if (!step || options_.command_to_go_on.empty()) return "";
-    return fmt::format("\nto go on from step {}: {}", *step, options_.command_to_go_on);
+    return fmt::format("\nto go on from step {}: {}{}", *step, options_.command_to_go_on, settings);
   }
 
   void finish(const std::string& status, const std::string& reason)
@@ -439,6 +451,7 @@ class Runner
   Outputs due_;
   Outputs written_;
   long restarted_at_ = -1;
+  bool state_is_good_ = true;
   double history_seconds_ = 0;
   std::vector<float> step_seconds_;
   std::vector<std::string> warnings_;

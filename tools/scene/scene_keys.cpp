@@ -117,6 +117,12 @@ const ObjectKeys& limit_keys()
         "a run whose total energy is wrong by more than this part of what it has been given (its initial energy and "
         "the work of gravity, of loads and of driving bodies) ends with exit code 3; every step is judged, unless a "
         "centrifuge speeds up; `\"off\"`: no limit"},
+       {"courant_number",
+        Number{above_zero},
+        "",
+        {tasks::SceneLimits{}.courant_number},
+        "a step in which waves, as fast as they are at its end, cross more cells than this has gone wrong: matter has "
+        "grown too stiff for it (see `/time/redos`; times the `multiplier` where that is above 1)"},
        {"missed_substeps",
         Number{{.lower = 0, .upper = 1}},
         "",

@@ -1,0 +1,17 @@
+#pragma once
+
+#include "runtime/data/label.hpp"
+
+namespace tamp::runtime
+{
+
+/// What a step says of itself once it has been worked out.
+struct StepVerdict {
+  bool refused = false;
+};
+
+/// Computed by a task over ranks, from what all of them know alike. A step that refuses itself leaves the state before
+/// it as it was: the migration that waits for the verdict moves no particle, and Engine::advance says so.
+inline const GlobalLabel<StepVerdict, "step verdict"> step_verdict;
+
+}  // namespace tamp::runtime
