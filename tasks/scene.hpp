@@ -86,9 +86,10 @@ constexpr std::array<components::Parameter<SceneTime>, 6> SceneTime::parameters(
   return {{{"end", "s", above_zero, &SceneTime::end, "simulated time"},
            {"multiplier",
             "",
-            {.lower = 0, .upper = 1, .holds_lower = false},
+            {.lower = 0, .upper = 100, .holds_lower = false},
             &SceneTime::multiplier,
-            "the part of that bound that is used, above 0 and up to 1",
+            "the part of that bound that is used, above 0 and up to 100; above 1 steps are longer than is known to be "
+            "stable",
             true},
            {"minimum_step", "s", above_zero, &SceneTime::minimum_step,
             "the run stops as unstable if its time step has to be shorter", true},

@@ -91,6 +91,14 @@ void check_gravity(const tasks::Scene& scene, Warnings& warnings)
   if (gravity > doubtful) warnings.push_back(fmt::format("/gravity: {:.4g} m/s2 is that of no test", gravity));
 }
 
+void check_multiplier(const tasks::Scene& scene, Warnings& warnings)
+{
+  if (scene.time.multiplier <= 1) return;
+  warnings.push_back(
+      fmt::format("/time/multiplier: steps of {:.4g} times the bound are longer than is known to be stable",
+                  scene.time.multiplier));
+}
+
 /// Splines reach further beyond the ground than other particles do, with a gradient shorter than that of the side of a
 /// block beside them, which then pushes the ground ahead of it.
 void check_contact(const tasks::Scene& scene, Warnings& warnings)
@@ -245,6 +253,7 @@ std::vector<std::string> plausibility_warnings(const CheckedScene& checked)
     fastest_wave = std::max(fastest_wave, tasks::initial_wave_speed(scene.materials[m]));
   }
   check_gravity(scene, warnings);
+  check_multiplier(scene, warnings);
   check_contact(scene, warnings);
   for (const tasks::SceneBody& body : scene.bodies) {
     check_speed(body, fastest_wave, warnings);

@@ -101,6 +101,7 @@ TEST_CASE("what is hardly ever meant is warned of")
   CHECK(warns("/materials/sand/density=1e-320", "no known matter"));
   CHECK(warns("/contact/0/normal=flatter", "/contact/0/normal: with \"flatter\" and splines"));
   CHECK(warns("/gravity=[0,-1e6]", "/gravity: "));
+  CHECK(warns("/time/multiplier=1.5", "/time/multiplier: steps of 1.5 times the bound"));
   CHECK(warns("/bodies/punch/velocity=[0,-20000]", "faster than the fastest wave"));
   CHECK(
       warns("'/materials/extra={\"type\":\"hypoelastic\",\"density\":7800,\"bulk_modulus\":1e9,\"shear_modulus\":1e9}'",

@@ -119,7 +119,9 @@ TEST_CASE("a grid that is no whole number of cells, or not divided by its patche
 TEST_CASE("time steps out of range are refused")
 {
   check(problems_with,
-        {{"/time/multiplier=1.5", "/time/multiplier: 1.5; expected a number above 0 and up to 1"},
+        {{"/time/multiplier=101", "/time/multiplier: 101; expected a number above 0 and up to 100"},
+         {"/time/multiplier=100", ""},
+         {"/time/multiplier=0", "/time/multiplier: 0; expected a number above 0 and up to 100"},
          {"/time/maximum_step=1e-13", "/time/maximum_step: 1e-13; expected no less than the minimum step, 1e-12"}});
 }
 

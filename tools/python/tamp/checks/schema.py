@@ -44,7 +44,7 @@ SOUND = [
     (PLANE, {"/boundaries": {"x-": "open", "y-": {"friction": 0.4}, "y+": "no_slip"}}),
     (PLANE, {"/time": {"end": 1, "rule": "published", "multiplier": 1, "minimum_step": 1e-9, "maximum_step": 0.1}}),
     (PLANE, {"/interpolator": "quadratic_spline", "/transfer": "tflip", "/local_damping": 0.5}),
-    (PLANE, {"/interpolator": "linear", "/time/rule": "published"}),
+    (PLANE, {"/interpolator": "linear", "/time/rule": "published", "/time/multiplier": 1.5}),
     (PLANE, {"/interpolator": "cpdi"}),
     (PLANE, {"/deformation_update": "first_order", "/anti_locking": "f_bar"}),
     (SPACE, {"/deformation_update": "exponential", "/anti_locking": "cell_average", "/stress_timing": "musl"}),
@@ -105,7 +105,7 @@ BROKEN = [
     # out of range
     (PLANE, {"/dimension": 4}),
     (PLANE, {"/time/end": 0}),
-    (PLANE, {"/time/multiplier": 1.5}),
+    (PLANE, {"/time/multiplier": 101}),
     (PLANE, {"/grid/patches": [0, 1]}),
     (PLANE, {"/particles_per_cell": [17, 17]}),
     (PLANE, {"/local_damping": 1}),
