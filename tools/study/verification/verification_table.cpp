@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "tools/system/markdown_table.hpp"
+
 namespace tamp::tools::verify
 {
 
@@ -44,25 +46,6 @@ std::vector<std::string> lines_of(const Json& study, const IsAskedFor& is_asked_
   return lines;
 }
 
-/// Rows as wide as their widest cells, so that they can be read as they are too.
-std::string table_text(const std::vector<Cells>& rows)
-{
-  std::vector<std::size_t> widths(rows.front().size(), 3);
-  for (const Cells& row : rows) {
-    for (std::size_t k = 0; k < row.size(); ++k) widths[k] = std::max(widths[k], row[k].size());
-  }
-  const auto line = [&](const Cells& row) {
-    std::string text = "|";
-    for (std::size_t k = 0; k < row.size(); ++k) text += fmt::format(" {:<{}} |", row[k], widths[k]);
-    return text + "\n";
-  };
-  std::string text = line(rows.front()) + "|";
-  for (const std::size_t width : widths) text += " " + std::string(width, '-') + " |";
-  text += "\n";
-  for (std::size_t r = 1; r < rows.size(); ++r) text += line(rows[r]);
-  return text;
-}
-
 /// A quantity of a study, with its points by method and refined setting.
 class QuantityTable
 {
@@ -83,7 +66,8 @@ class QuantityTable
       if (!points_of(method["name"]).empty()) rows.push_back(row(method["name"]));
     }
     return fmt::format("{}, error{}:\n\n{}", quantity_["name"].get<std::string>(),
-                       spacings_.empty() ? "" : " by " + study_["refine"]["name"].get<std::string>(), table_text(rows));
+                       spacings_.empty() ? "" : " by " + study_["refine"]["name"].get<std::string>(),
+                       markdown_table(rows));
   }
 
   void add_to(Json& list) const
