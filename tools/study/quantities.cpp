@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <fstream>
 #include <numeric>
 
 #include "runtime/file_error.hpp"
@@ -162,6 +163,17 @@ double distance_from_line(const Study& study, const Quantity& quantity, const Po
   return std::sqrt(sum / static_cast<double>(values.size()));
 }
 
+double number_of_summary(const Study& study, const Quantity& quantity, const PointResult& result)
+{
+  const Json summary = Json::parse(std::ifstream(result.folder / "summary.json"), nullptr, false);
+  if (summary.is_discarded()) throw runtime::FileError((result.folder / "summary.json").string(), "cannot be read");
+  const JsonPointer place(quantity.summary);
+  if (summary.contains(place) && summary[place].is_number()) return summary[place];
+  throw InputError({study.file.string() + "#/quantities",
+                    fmt::format("\"{}\": there is no number at {}", quantity.name, quantity.summary),
+                    "expected a JSON pointer to a number of summary.json"});
+}
+
 /// The quantity's column with those that are added to it.
 std::vector<double> summed_column(const Study& study, const Quantity& quantity, const Columns& columns)
 {
@@ -211,6 +223,7 @@ RowDistances row_distances(const Answer& reference, const Answer& other)
 
 Answer answer_of(const Study& study, const Quantity& quantity, const PointResult& result)
 {
+  if (quantity.is_of_summary()) return {number_of_summary(study, quantity, result), {}, {}};
   if (quantity.take == Take::quantile) return {quantile_of_field(study, quantity, result), {}, {}};
   if (quantity.take == Take::field_rms) return {distance_from_line(study, quantity, result), {}, {}};
   const Columns& columns = result.columns();
@@ -266,7 +279,10 @@ bool has_all(const Study& study, const PointResult& result)
     const auto size = std::filesystem::file_size(result.folder / name, missing);
     return !missing && size > 0;
   };
-  return is_there("history.csv") && (is_there("fields.h5") || !asks_for_fields(study));
+  const auto is_of_summary = [](const Quantity& quantity) { return quantity.is_of_summary(); };
+  const bool asks_for_summary = std::any_of(study.quantities.begin(), study.quantities.end(), is_of_summary);
+  return is_there("history.csv") && (is_there("fields.h5") || !asks_for_fields(study)) &&
+         (is_there("summary.json") || !asks_for_summary);
 }
 
 void expect_all(const Study& study, const PointResult& result)

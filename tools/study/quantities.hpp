@@ -14,7 +14,7 @@ struct Answer {
   std::vector<double> times, column;
 };
 
-/// Answer of a point that is done. Throws InputError if a column or field of it is missing.
+/// Answer of a point that is done. Throws InputError if a column, field or number of it is missing.
 Answer answer_of(const Study& study, const Quantity& quantity, const PointResult& result);
 
 /// How far two answers are apart: `b` less `a` for numbers, and what `Take` says of columns, `a` the reference.

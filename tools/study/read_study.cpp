@@ -139,8 +139,13 @@ class StudyReader
         reader.add_problem("name", quantity.name.empty() ? "no name" : "a name that is taken",
                            "expected a name of its own");
       }
-      quantity.take = reader.choice<Take>("take");
-      read_place(reader, quantity);
+      quantity.summary = pointer(reader, "summary");
+      if (quantity.is_of_summary()) {
+        refuse_places(reader);
+      } else {
+        quantity.take = reader.choice<Take>("take");
+        read_place(reader, quantity);
+      }
       quantity.exact = reader.optional_number("exact");
       quantity.scale = reader.optional_number("scale");
       reader.finish();
@@ -148,6 +153,14 @@ class StudyReader
     }
     if (study_.quantities.empty()) {
       root_.add_problem("quantities", "no quantity", "expected one at least: a column, and how it is taken");
+    }
+  }
+
+  /// A number of the summary is there already.
+  static void refuse_places(JsonReader& reader)
+  {
+    for (const char* key : {"take", "column", "plus", "at", "field", "component", "material", "line", "quantile"}) {
+      if (reader.has(key)) reader.add_problem(key, "given beside summary", "expected one or the other");
     }
   }
 

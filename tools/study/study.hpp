@@ -78,6 +78,8 @@ struct Quantity {
   /// Where the value is taken, or the first of those whose mean is [s].
   double time = 0;
   std::string field{}, material{};
+  /// JSON pointer to a number of the summary, which is taken instead of a column; empty for none.
+  std::string summary{};
   /// Component of a field of vectors: 0, 1 or 2; empty for a field of numbers.
   std::optional<int> component{};
   double quantile = 0.99;
@@ -92,6 +94,7 @@ struct Quantity {
   bool is_column() const { return take == Take::curve || take == Take::rows_rms || take == Take::rows_max; }
   /// Whether it is taken from particles instead of from a column.
   bool is_of_field() const { return take == Take::quantile || take == Take::field_rms; }
+  bool is_of_summary() const { return !summary.empty(); }
 };
 
 /// Reference of points where no exact answer is known: one run, or, where `refinement` has values, the limit

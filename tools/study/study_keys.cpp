@@ -63,6 +63,7 @@ const ObjectKeys& quantity_keys()
                     "how it is taken"),
        {"column", Text{}, "", {}, "of `history.csv`, or of what `tamp drive` or `tamp modulus` writes"},
        {"plus", Anything{}, "", {}, "a list of columns that are added to it"},
+       {"summary", Text{}, "", {}, "instead of a column: a JSON pointer to a number of `summary.json`"},
        {"at", Number{zero_or_above}, "s", none, "the time of a `value`, and that from which a `mean` is taken"},
        {"field", Text{}, "", {}, "of `quantile` and `field_rms`: a scalar field of the particles, such as `p`"},
        {"component", WholeNumber{0, 2}, "", none, "of a field of vectors: 0, 1 or 2 for x, y or z"},

@@ -45,6 +45,24 @@ TEST_CASE("numbers are taken of a column")
   CHECK(std::isnan(taken(depth(Take::mean, 9)).value));
 }
 
+TEST_CASE("a number of the summary is taken where a pointer says, and missed where there is none")
+{
+  const TemporaryFolder folder;
+  folder.write("summary.json",
+               R"({"energy_error": 0.25, "monitors": {"null_space": {"share": 0.5}}, "status": "done"})");
+  const auto taken_at = [&](const std::string& pointer) {
+    Quantity quantity{"number", Take::last, ""};
+    quantity.summary = pointer;
+    return answer_of(Study{}, quantity, PointResult{End::done, "", {}, 1, folder.path()}).value;
+  };
+
+  CHECK(taken_at("/energy_error") == 0.25);
+  CHECK(taken_at("/monitors/null_space/share") == 0.5);
+  CHECK_THROWS_WITH(taken_at("/monitors/fracture/share"),
+                    Catch::Contains("#/quantities: \"number\": there is no number at /monitors/fracture/share"));
+  CHECK_THROWS_WITH(taken_at("/status"), Catch::Contains("there is no number at /status"));
+}
+
 TEST_CASE("the value farthest from the exact answer may lie on either side of it")
 {
   Quantity farthest = depth(Take::farthest);

@@ -206,4 +206,18 @@ TEST_CASE("the short form is laid over the study")
   CHECK(in_short.settings == tools::study::Settings{{"/a", 3}, {"/b", 2}});
 }
 
+TEST_CASE("a number of the summary stands instead of a column")
+{
+  const auto asking = [](const std::string& quantity) {
+    return problems_of_study(R"({"quantities": [)" + quantity + "]}");
+  };
+  CHECK(asking(R"({"name": "error", "summary": "/energy_error", "exact": 0})").empty());
+  CHECK_THAT(asking(R"({"name": "error", "summary": "energy_error"})"),
+             Contains("study.json#/quantities/0/summary: \"energy_error\"; expected a JSON pointer"));
+  CHECK_THAT(asking(R"({"name": "error", "summary": "/energy_error", "column": "x"})"),
+             Contains("study.json#/quantities/0/column: given beside summary"));
+  CHECK_THAT(asking(R"({"name": "error", "summary": "/energy_error", "take": "last"})"),
+             Contains("study.json#/quantities/0/take: given beside summary"));
+}
+
 }  // namespace test_read_study
