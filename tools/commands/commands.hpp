@@ -17,6 +17,7 @@ CLI::App* add_compare_command(CLI::App& app);
 CLI::App* add_modulus_command(CLI::App& app);
 CLI::App* add_study_command(CLI::App& app);
 CLI::App* add_verify_command(CLI::App& app);
+CLI::App* add_stability_command(CLI::App& app);
 CLI::App* add_bench_command(CLI::App& app);
 CLI::App* add_help_command(CLI::App& app);
 CLI::App* add_version_command(CLI::App& app);

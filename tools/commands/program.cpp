@@ -44,6 +44,7 @@ int run_program(int argc, char** argv, const runtime::Communicator& ranks)
   add_modulus_command(app);
   add_study_command(app);
   add_verify_command(app);
+  add_stability_command(app);
   add_bench_command(app);
   add_help_command(app);
   add_version_command(app);

@@ -61,6 +61,7 @@ class StudyReader
     read_reference();
     read_budget();
     read_expectations();
+    read_stability();
     read_limits();
     root_.finish();
     expect_answers();
@@ -346,6 +347,50 @@ class StudyReader
     }
   }
 
+  void read_stability()
+  {
+    auto reader = root_.optional_object("stability");
+    if (!reader) return;
+    Stability stability;
+    stability.quantity = needed_text(*reader, "quantity");
+    stability.threshold = reader->number("threshold");
+    stability.fails = method_with_one_point(*reader, "fails");
+    stability.survives = method_with_one_point(*reader, "survives");
+    stability.symptom = needed_text(*reader, "symptom");
+    stability.monitor = needed_text(*reader, "monitor");
+    if (!stability.quantity.empty() && !has_error(stability.quantity)) {
+      reader->add_problem("quantity", fmt::format("\"{}\"", stability.quantity),
+                          "expected the name of a quantity with an exact answer, or of a study with a reference");
+    }
+    if (!stability.fails.empty() && stability.fails == stability.survives) {
+      reader->add_problem("survives", fmt::format("\"{}\", which fails", stability.survives),
+                          "expected another method");
+    }
+    reader->finish();
+    study_.stability = std::move(stability);
+  }
+
+  static std::string needed_text(JsonReader& reader, const std::string& key)
+  {
+    std::string text = reader.text(key, "");
+    if (text.empty()) reader.add_problem(key, "missing", "expected a text");
+    return text;
+  }
+
+  /// One number is judged.
+  std::string method_with_one_point(JsonReader& reader, const std::string& key)
+  {
+    std::string name = needed_text(reader, key);
+    if (name.empty()) return name;
+    const Method* method = find_method(name);
+    if (method == nullptr) {
+      reader.add_problem(key, fmt::format("\"{}\"", name), "expected the name of a method");
+    } else if (!method->sweep.empty() || method->listed.size() > 1) {
+      reader.add_problem(key, fmt::format("\"{}\", of several points", name), "expected a method with one");
+    }
+    return name;
+  }
+
   void read_limits()
   {
     study_.repeat = root_.whole_number("repeat");
@@ -525,6 +570,11 @@ class StudyReader
   {
     return std::any_of(study_.quantities.begin(), study_.quantities.end(),
                        [&](const Quantity& quantity) { return quantity.name == name; });
+  }
+
+  bool has_error(const std::string& name) const
+  {
+    return has_exact_answer(name) || (find_quantity(name) && study_.reference);
   }
 
   bool has_exact_answer(const std::string& name) const

@@ -154,6 +154,17 @@ struct Expectation {
   std::map<std::string, std::string> missed{};
 };
 
+/// A failure that a study shows: one method that has it, and one that has not.
+struct Stability {
+  std::string quantity;
+  /// An error that is clearly none of accuracy any more. The method that fails is three times as far off or becomes
+  /// unstable, the one that survives is within a third of it.
+  double threshold = 0;
+  std::string fails, survives;
+  /// For people: what is seen, and the number by which a run can tell.
+  std::string symptom, monitor;
+};
+
 struct Study {
   std::filesystem::path file;
   std::string title, about, takes;
@@ -166,6 +177,8 @@ struct Study {
   std::optional<ReferenceRuns> reference;
   std::optional<Budget> budget;
   std::vector<Expectation> expectations;
+  /// Of entries of the failure catalogue.
+  std::optional<Stability> stability{};
   /// Timings of each point; of one that takes longer than `repeat_below` [s] only one.
   int repeat = 3;
   double repeat_below = 60;

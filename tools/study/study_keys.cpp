@@ -150,6 +150,20 @@ const ObjectKeys& expectation_keys()
   return keys;
 }
 
+const ObjectKeys& stability_keys()
+{
+  static const ObjectKeys keys{
+      "",
+      {{"quantity", Text{}, "", compulsory, "whose error is judged"},
+       {"threshold", Number{above_zero}, "", compulsory, "an error that is clearly none of accuracy any more"},
+       {"fails", Text{}, "", compulsory, "the method that becomes unstable, or has an error of 3 thresholds at least"},
+       {"survives", Text{}, "", compulsory, "the method whose error is below a third of the threshold"},
+       {"symptom", Text{}, "", compulsory, "what is seen, for people"},
+       {"monitor", Text{}, "", compulsory,
+        "the number of a run that tells: of `monitors` in `summary.json`, or another"}}};
+  return keys;
+}
+
 }  // namespace
 
 const ObjectKeys& study_keys()
@@ -170,6 +184,8 @@ const ObjectKeys& study_keys()
        {"reference", Object{reference_keys}, "", none, "what points are compared with"},
        {"budget", Object{budget_keys}, "", none, "which errors are how large"},
        {"expect", Objects{expectation_keys}, "", none, "what has to hold of the results"},
+       {"stability", Object{stability_keys}, "", none,
+        "of an entry of the failure catalogue: what fails, and what survives"},
        {"repeat", WholeNumber{1, most_repeats}, "", {3}, "timings of each point"},
        {"repeat_below_s", Number{above_zero}, "s", {60.0}, "a point that takes longer is timed once"},
        {"limit_s", Number{above_zero}, "s", none, "processor time that a point may take"},

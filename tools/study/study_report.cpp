@@ -136,7 +136,8 @@ Json point_json(const StudyResults& results, std::size_t i)
             {"values", Json::object()},
             {"errors", Json::object()},
             {"front", Json::array()},
-            {"command", command_text(results.measurements[i])}};
+            {"command", command_text(results.measurements[i])},
+            {"folder", result.folder.empty() ? "" : "points/" + result.folder.filename().string()}};
   for (const auto& [pointer, value] : point.settings) json["settings"][pointer] = value;
   for (std::size_t q = 0; q < results.study.quantities.size(); ++q) {
     const std::string& name = results.study.quantities[q].name;

@@ -220,4 +220,35 @@ TEST_CASE("a number of the summary stands instead of a column")
              Contains("study.json#/quantities/0/take: given beside summary"));
 }
 
+TEST_CASE(
+    "an entry of the failure catalogue names a quantity with an exact answer, and two methods with one point each")
+{
+  const auto entry_with = [](const std::string& patch) {
+    Json entry = Json::parse(R"({
+      "methods": [{ "name": "a" }, { "name": "b" }],
+      "quantities": [{ "name": "depth", "column": "punch.depth[m]", "take": "greatest", "exact": 1 }],
+      "stability": { "quantity": "depth", "threshold": 0.1, "fails": "a", "survives": "b", "symptom": "noise",
+                     "monitor": "depth" }
+    })");
+    entry.merge_patch(Json::parse(patch));
+    return problems_of_study(entry.dump());
+  };
+  const std::string place = "study.json#/stability/";
+
+  CHECK(entry_with("{}").empty());
+  CHECK(entry_with(R"({"quantities": [{"name": "depth", "column": "x"}], "reference": {"set": {}}})").empty());
+  CHECK_THAT(entry_with(R"({"quantities": [{"name": "depth", "column": "x"}]})"),
+             Contains(place + "quantity: \"depth\"; expected the name of a quantity with an exact answer"));
+  CHECK_THAT(entry_with(R"({"stability": {"quantity": "speed"}})"), Contains(place + "quantity: \"speed\""));
+  CHECK_THAT(entry_with(R"({"stability": {"threshold": 0}})"), Contains(place + "threshold: 0"));
+  CHECK_THAT(entry_with(R"({"stability": {"threshold": null}})"), Contains(place + "threshold: missing"));
+  CHECK_THAT(entry_with(R"({"stability": {"fails": null}})"), Contains(place + "fails: missing"));
+  CHECK_THAT(entry_with(R"({"stability": {"survives": null}})"), Contains(place + "survives: missing"));
+  CHECK_THAT(entry_with(R"({"stability": {"fails": "c"}})"),
+             Contains(place + "fails: \"c\"; expected the name of a method"));
+  CHECK_THAT(entry_with(R"({"stability": {"fails": "b"}})"), Contains(place + "survives: \"b\", which fails"));
+  CHECK_THAT(entry_with(R"({"stability": {"symptom": ""}})"), Contains(place + "symptom: missing"));
+  CHECK_THAT(entry_with(R"({"sweep": {"/h": [1, 2]}})"), Contains(place + "fails: \"a\", of several points"));
+}
+
 }  // namespace test_read_study

@@ -14,8 +14,9 @@ namespace fs = std::filesystem;
 namespace
 {
 
-const std::vector<std::string> all_commands{"run",     "check", "schema", "graph", "profile", "drive",      "compare",
-                                            "modulus", "study", "bench",  "help",  "version", "completion", "man"};
+const std::vector<std::string> all_commands{"run",     "check",   "schema",     "graph",  "profile",   "drive",
+                                            "compare", "modulus", "study",      "verify", "stability", "bench",
+                                            "help",    "version", "completion", "man"};
 
 /// Words that bash offers for a line of which the last word is being typed.
 std::string bash_offers(const std::string& line)
@@ -47,6 +48,7 @@ TEST_CASE("a word that is not known is reported before what is missing, with wha
       {"completion csh", "SHELL: csh; did you mean zsh?"},
       {"completion powershell", "SHELL: powershell; expected bash or zsh"},
       {"verify bra", "bra: no study of inputs/verification; did you mean bar?"},
+      {"stability nul_space", "nul_space: no study of inputs/stability; did you mean null_space?"},
       {"compare " TAMP_SOURCE_DIR "/inputs/punch/quick.json --models tabel",
        "--models: \"tabel\"; did you mean table?"}};
   for (const auto& [arguments, said] : all) {

@@ -214,7 +214,7 @@ class Both:
 
 def is_scene(file):
     """Neither a material nor a solid, nor a study or what it names; but for the scenes of studies."""
-    if "studies" in file.parts or file.parent.name == "verification":
+    if "studies" in file.parts or file.parent.name in ("verification", "stability"):
         return file.parent.name == "scenes"
     return "materials" not in file.parts and not file.name.startswith("projectile")
 

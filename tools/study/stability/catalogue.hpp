@@ -1,0 +1,55 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "tools/scene/document.hpp"
+#include "tools/study/study.hpp"
+
+/// The failure catalogue: what was told of methods, and whether they did it.
+namespace tamp::tools::stability
+{
+
+/// How far errors have to be from the threshold, on either side: what is near it is neither failure nor cure.
+inline constexpr double clearly = 3;
+
+/// How a method ended, and how far it was off.
+struct Outcome {
+  /// As the study has it: "done", "unstable", "limit", "refused".
+  std::string ended;
+  /// Empty where it came to none.
+  std::optional<double> error;
+  /// The command line that remakes it.
+  std::string command;
+};
+
+/// An entry of the catalogue with what its study has found.
+struct Entry {
+  std::string name, title;
+  study::Stability told;
+  Outcome failing, surviving;
+  /// The count of its monitor in the run that fails, where that has one.
+  std::optional<double> first_count;
+
+  /// Unstable, or three times as far off as the threshold or more.
+  bool failed() const;
+  /// Done, and within a third of the threshold.
+  bool survived() const;
+  bool is_as_told() const { return failed() && survived(); }
+};
+
+/// `results` is the `study.json` of a study in `folder`. Throws FileError where a summary there cannot be read.
+Entry entry_of(const study::Study& study, const Json& results, const std::filesystem::path& folder);
+
+/// A table in Markdown, a row for each entry.
+std::string to_markdown(const std::vector<Entry>& entries);
+
+/// All that is known of each, with titles and commands.
+Json to_json(const std::vector<Entry>& entries);
+
+/// For each entry `{name, failing_method, symptom, failed, surviving_method, survived, monitor, first_count}`, the
+/// count null where there is none.
+Json to_list(const std::vector<Entry>& entries);
+
+}  // namespace tamp::tools::stability
