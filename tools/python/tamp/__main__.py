@@ -20,7 +20,8 @@ from tamp import failure  # noqa: E402
 COMMANDS = {
     "import": "laboratory.import_tests", "concrete-sand": "laboratory.concrete_sand", "fit": "fit.command",
     "history": "history", "picture": "picture", "projectile-mesh": "projectile_mesh",
-    "draw": "charts.draw", "look-at-page": "charts.look_at_page", "report": "report.command",
+    "draw": "charts.draw", "failure": "charts.failure", "look-at-page": "charts.look_at_page",
+    "report": "report.command",
     "cavity": "material.cavity", "companion": "material.companion", "hugoniot": "material.hugoniot",
     "material-paths": "material.material_paths", "modulus-sizes": "material.modulus_sizes",
     "return-path": "material.return_path", "smooth-sand": "material.smooth_sand",
