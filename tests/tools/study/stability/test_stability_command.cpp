@@ -78,6 +78,8 @@ TEST_CASE("an entry that fails and survives as told ends with 0, and prints the 
   CHECK(results["entries"][0]["fails"]["error"].get<double>() == Approx(0.5).epsilon(1e-3));
   CHECK_THAT(results["entries"][0]["fails"]["command"].get<std::string>(),
              Contains("tamp run inputs/stability/scenes/fall.json") && Contains("--set /local_damping=0.5"));
+  const Json point = entries.json("out/damped/study.json")["points"][0];
+  CHECK(entries.json("out/damped/" + point["folder"].get<std::string>() + "/summary.json")["status"] == "completed");
   const Json list = entries.json("list.json");
   REQUIRE(list.size() == 1);
   CHECK(list[0]["failed"] == true);
