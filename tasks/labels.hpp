@@ -77,6 +77,8 @@ namespace cell
 /// Only where particles deform as their cells do: det f - 1, and components::mean_stress [Pa].
 inline const runtime::CellLabel<components::CellMean, "volume change of cells"> volume_change;
 inline const runtime::CellLabel<components::CellMean, "mean stress of cells"> mean_stress;
+/// Compression positive [Pa]; for samples of the state.
+inline const runtime::CellLabel<components::CellMean, "pressure of cells"> pressure;
 
 }  // namespace cell
 

@@ -202,17 +202,73 @@ struct SceneOutput {
   FieldChoice fields{};
 };
 
-/// Beyond these a run has gone wrong, and ends.
+/// Beyond these a run has gone wrong or is not to be trusted: beyond the first it ends, beyond the second a step is
+/// tried again, beyond the others the run ends with a warning. docs/failures.md has where they come from.
 struct SceneLimits {
-  /// Error of the total energy, relative to what the run has been given: its initial kinetic energy and the work of
-  /// gravity.
   double energy_error = 0.2;
-  /// Cells that waves may cross in a step, as fast as they are at its end, before the step is refused. (Where the
-  /// `multiplier` is above 1, times that.)
   double courant_number = 1;
-  /// Part of the materials' substeps that miss their tolerance; a run in which more do ends with a warning.
+  double redone_steps = 0.1;
   double missed_substeps = 0.05;
+  double out_of_range = 0.2;
+  double energy_drift = 0.02;
+  double momentum_error = 0.01;
+  double filtered_energy = 0.1;
+  double null_space = 0.25;
+  double uneven_pressure = 0.5;
+  double torn_apart = 0.01;
+  double lost_mass = 0.01;
+  int sampled_every = 50;
+
+  bool samples_after(long n_steps) const { return n_steps % sampled_every == 0; }
+  /// All but the first.
+  static constexpr std::array<components::Parameter<SceneLimits>, 12> parameters();
 };
+
+constexpr std::array<components::Parameter<SceneLimits>, 12> SceneLimits::parameters()
+{
+  using components::above_zero, components::zero_or_above;
+  using L = SceneLimits;
+  constexpr components::Range part{.lower = 0, .upper = 1};
+  return {
+      {{"courant_number", "", above_zero, &L::courant_number,
+        "a step in which waves, as fast as they are at its end, cross more cells than this has gone wrong: matter has "
+        "grown too stiff for it (see `/time/redos`; times the `multiplier` where that is above 1)",
+        true},
+       {"redone_steps", "", zero_or_above, &L::redone_steps,
+        "warns beyond: tries of steps that went wrong, over all steps", true},
+       {"missed_substeps", "", part, &L::missed_substeps,
+        "warns beyond: the part of the materials' substeps that missed their tolerance, from 100 substeps a particle "
+        "on",
+        true},
+       {"out_of_range", "", part, &L::out_of_range,
+        "warns beyond: the part of the updates that ended in compression outside the strains that the modulus was made "
+        "for",
+        true},
+       {"energy_drift", "", zero_or_above, &L::energy_drift,
+        "warns beyond: the error of the energy at the end, over what the run has been given", true},
+       {"momentum_error", "", zero_or_above, &L::momentum_error,
+        "warns beyond: momentum that nothing has given, over the largest sum of m v", true},
+       {"filtered_energy", "", zero_or_above, &L::filtered_energy,
+        "warns beyond: the energy that particles have filtered out of the motion, over what the run has been given",
+        true},
+       {"null_space", "", part, &L::null_space,
+        "warns beyond: the part of the kinetic and elastic energy that is of motion which no node sees, over all "
+        "samples",
+        true},
+       {"uneven_pressure", "", part, &L::uneven_pressure,
+        "warns beyond: how far the pressures of particles are from the means of their cells, V (p - p_c)^2 over V p^2, "
+        "over all samples",
+        true},
+       {"torn_apart", "", part, &L::torn_apart,
+        "warns beyond: the greatest part of elastic particles that hold tension across more than 1.2 cells", true},
+       {"lost_mass", "", part, &L::lost_mass, "warns beyond: the part of the mass that has left the grid", true},
+       {"sampled_every",
+        "",
+        {.lower = 1, .upper = 1e6},
+        &L::sampled_every,
+        "steps between the samples of `null_space`, `uneven_pressure` and `torn_apart`",
+        true}}};
+}
 
 /// Cells that a patch needs along an axis that is cut. Its particles reach layers of nodes beyond each end; where
 /// those of both ends met, some nodes would lack a part of their sums.
@@ -262,6 +318,10 @@ struct Scene {
   bool has_body_force() const
   {
     return std::any_of(bodies.begin(), bodies.end(), [](const SceneBody& body) { return body.functions.body_force; });
+  }
+  bool has_deformable() const
+  {
+    return std::any_of(bodies.begin(), bodies.end(), [](const SceneBody& body) { return !body.rigid; });
   }
   bool has_nose() const
   {

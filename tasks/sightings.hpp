@@ -1,33 +1,49 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
+
+#include "components/tensors.hpp"
 
 namespace tamp::tasks
 {
 
-/// How often something was seen that a user should know of, and where first.
-struct Sightings {
-  std::int64_t count = 0;
-  std::int64_t first_step = -1;  ///< -1: never
-  double first_time = 0;         ///< s
-  /// -1 where no single particle was to blame, or none of one material.
-  std::int64_t particle = -1;
+/// A particle, and where it is.
+struct ParticlePlace {
+  std::int64_t particle = -1;  ///< its id; -1: none
   int material = -1;
   std::array<double, 3> position{};  ///< m
 
-  /// One more, in the step after `n_steps`.
-  void add(std::int64_t n_steps, double time)
+  /// By id; none comes last.
+  bool operator<(const ParticlePlace& other) const
+  {
+    return static_cast<std::uint64_t>(particle) < static_cast<std::uint64_t>(other.particle);
+  }
+};
+
+template <int D>
+ParticlePlace place_of(std::int64_t particle, int material, const Vector<D>& x)
+{
+  ParticlePlace place{particle, material, {}};
+  std::copy(x.begin(), x.end(), place.position.begin());
+  return place;
+}
+
+/// How often something was seen that a user should know of, and where first.
+struct Sightings {
+  std::int64_t count = 0;
+  std::int64_t first_step = -1;  ///< after so many steps; -1: never
+  double first_time = 0;         ///< s
+  /// The first one to blame, if a particle is.
+  ParticlePlace first;
+
+  void add(std::int64_t n_steps, double time, const ParticlePlace& place = {})
   {
     if (count++ > 0) return;
     first_step = n_steps;
     first_time = time;
-  }
-  void blame(std::int64_t first_particle, int its_material, const std::array<double, 3>& its_position)
-  {
-    particle = first_particle;
-    material = its_material;
-    position = its_position;
+    first = place;
   }
 };
 

@@ -120,14 +120,23 @@ double Simulation::shorter_step(double refused_size, int n_tries) const
 void Simulation::note_refusal()
 {
   const StepTotals& step = warehouse().result(step_totals);
-  Sightings& seen = warehouse().global_state(refused_steps);
-  seen.add(n_steps(), time());
-  if (seen.count > 1) return;
-  if (step.bad_motion.particle >= 0) {
-    seen.blame(step.bad_motion.particle, step.bad_motion.material, step.bad_motion.position);
-  } else if (step.failed.particle >= 0) {
-    seen.blame(step.failed.particle, step.failed.material, step.failed.position);
-  }
+  const bool moved_badly = step.bad_motion.particle >= 0;
+  const ParticlePlace place = moved_badly ? ParticlePlace(step.bad_motion) : ParticlePlace(step.failed);
+  warehouse().global_state(refused_steps).add(n_steps(), time(), place);
+}
+
+void Simulation::sample_state()
+{
+  if (!scene_.has_deformable()) return;
+  engine_->run(sample_graph);
+  const StateSample& sample = warehouse().result(state_sample);
+  const SceneLimits& limits = scene_.limits;
+  MonitorRecords& records = warehouse().global_state(monitor_records);
+  Share unseen = warehouse().result(unseen_motion);
+  unseen.whole += std::max(0.0, energies().elastic);
+  records.null_space.add(unseen, limits.null_space, n_steps(), time());
+  records.uneven_pressure.add(sample.uneven_pressure, limits.uneven_pressure, n_steps(), time());
+  records.torn_apart.add(sample.torn_apart, limits.torn_apart, n_steps(), time(), sample.torn);
 }
 
 void Simulation::advance(double end)
@@ -138,6 +147,7 @@ void Simulation::advance(double end)
       note_refusal();
       size = shorter_step(size, n_tries);
     }
+    if (scene_.limits.samples_after(n_steps())) sample_state();
   } catch (const SimulationError&) {
     throw;
   } catch (const runtime::StepError& of_other_rank) {

@@ -10,6 +10,7 @@
 #include "runtime/storage/fields/field_copy.hpp"
 #include "tasks/energy_ledger.hpp"
 #include "tasks/labels.hpp"
+#include "tasks/monitors.hpp"
 #include "tasks/report/report.hpp"
 #include "tasks/scene.hpp"
 #include "tasks/step_totals.hpp"
@@ -76,6 +77,9 @@ class Simulation
   /// Tries of steps that were refused since the start.
   const Sightings& refused() const { return warehouse().global_state(refused_steps); }
 
+  /// Of the samples since the start, one every so many steps of the scene.
+  const MonitorRecords& monitors() const { return warehouse().global_state(monitor_records); }
+
   /// One step, as long as stability allows and not past `end` [s]. In one that goes wrong, as a particle inverts, a
   /// state is not finite, a material cannot be updated or grows too stiff, nothing has happened: a shorter one is
   /// tried, as often as the scene allows. Then, and where the time step falls below the scene's minimum, throws
@@ -121,6 +125,7 @@ class Simulation
   double next_step_size() const;
   double shorter_step(double refused_size, int n_tries) const;
   void note_refusal();
+  void sample_state();
 
   /// Last asked for.
   runtime::FieldCopy particles_;

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <string>
 
 namespace tamp::tasks
@@ -12,13 +11,12 @@ namespace tamp::tasks
 namespace
 {
 
-SimulationError error_at(const Scene& scene, const std::string& reason, int material, std::int64_t particle,
-                         const std::array<double, 3>& position)
+SimulationError error_at(const Scene& scene, const std::string& reason, const ParticlePlace& place)
 {
   return {reason,
-          scene.materials[static_cast<std::size_t>(material)].name,
-          particle,
-          {position.begin(), position.begin() + scene.grid.dimension}};
+          scene.materials[static_cast<std::size_t>(place.material)].name,
+          place.particle,
+          {place.position.begin(), place.position.begin() + scene.grid.dimension}};
 }
 
 SimulationError error_of(const Scene& scene, const FailedUpdate& failed, std::size_t n_failures)
@@ -27,7 +25,7 @@ SimulationError error_of(const Scene& scene, const FailedUpdate& failed, std::si
   return error_at(scene,
                   fmt::format("{}; {} stress updates have failed, {} are allowed", failed.reason(material.model),
                               n_failures, scene.failed_updates_allowed),
-                  failed.material, failed.particle, failed.position);
+                  failed);
 }
 
 }  // namespace
@@ -36,7 +34,7 @@ std::optional<SimulationError> refusal(const Scene& scene, const StepTotals& bef
                                        double size)
 {
   const BadMotion& bad = step.bad_motion;
-  if (bad.particle >= 0) return error_at(scene, to_string(bad.fault), bad.material, bad.particle, bad.position);
+  if (bad.particle >= 0) return error_at(scene, to_string(bad.fault), bad);
   const std::size_t n_failures = before.updates.failures + step.updates.failures;
   if (n_failures > static_cast<std::size_t>(scene.failed_updates_allowed)) {
     return error_of(scene, step.failed, n_failures);

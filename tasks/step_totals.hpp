@@ -14,6 +14,7 @@
 #include "components/materials/state_columns.hpp"
 #include "runtime/data/combine.hpp"
 #include "runtime/data/views.hpp"
+#include "tasks/sightings.hpp"
 
 namespace tamp::tasks
 {
@@ -24,35 +25,18 @@ enum class MotionFault { inside_out, turned_too_far, not_finite };
 const char* to_string(MotionFault fault);
 
 /// A particle that could not follow.
-struct BadMotion {
-  std::int64_t particle = -1;  ///< -1: none
-  int material = -1;
-  std::array<double, 3> position{};  ///< m
+struct BadMotion : ParticlePlace {
   MotionFault fault{};
-
-  /// By id; none comes last.
-  bool operator<(const BadMotion& other) const
-  {
-    return static_cast<std::uint64_t>(particle) < static_cast<std::uint64_t>(other.particle);
-  }
 };
 
 /// A particle whose stress could not be updated, and the state it was left in.
-struct FailedUpdate {
-  std::int64_t particle = -1;  ///< -1: none
-  int material = -1;
-  std::array<double, 3> position{};  ///< m
+struct FailedUpdate : ParticlePlace {
   components::UpdateFault fault{};
   double pressure = 0, q = 0;                                 ///< Pa, compression positive
   double volumetric_increment = 0, deviatoric_increment = 0;  ///< of strain, refused; compression positive
   /// The columns of its model's state.
   std::array<double, components::max_state_columns> state{};
 
-  /// By id; none comes last.
-  bool operator<(const FailedUpdate& other) const
-  {
-    return static_cast<std::uint64_t>(particle) < static_cast<std::uint64_t>(other.particle);
-  }
   /// With all of the above in words.
   std::string reason(const components::MaterialModel& model) const;
 };

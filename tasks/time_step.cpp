@@ -4,6 +4,7 @@
 
 #include "runtime/graph/step_verdict.hpp"
 #include "tasks/labels.hpp"
+#include "tasks/monitors.hpp"
 #include "tasks/phases/phases.hpp"
 
 namespace tamp::tasks
@@ -89,8 +90,10 @@ runtime::HostData host_data(const Method<D>& method)
                           &forces_taken_at,
                           &energy_ledger,
                           &longest_step,
-                          &refused_steps},
+                          &refused_steps,
+                          &monitor_records},
                          {}};
+  if (!method.deformable_materials.empty()) data.results.push_back(&unseen_motion);
   for (const SceneMaterial& material : method.materials) add_state_of(material.model, data);
   if (method.scene.is_periodic()) data.state.push_back(&particle::laps);
   if (method.brings_gradients()) data.state.push_back(&particle::velocity_gradient<D>);

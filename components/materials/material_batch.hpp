@@ -76,14 +76,17 @@ struct UpdateCounts {
   std::size_t split_updates = 0;        ///< that took more than one substep
   std::size_t limited_substeps = 0;     ///< accepted with an estimated error beyond the tolerance
   std::size_t modulus_evaluations = 0;  ///< of the elastic model
-  std::size_t extrapolated = 0;         ///< updates that ended outside the range that the elastic model was made for
+  std::size_t with_range = 0;           ///< updates by an elastic model that is made for a range of strains
+  std::size_t extrapolated = 0;         ///< of those, the ones that ended outside that range
+  std::size_t pulled_out = 0;           ///< of those, the ones in tension, where sand has next to no stress
   std::size_t failures = 0;             ///< updates that found no stress
   std::size_t separations = 0;          ///< particles that came apart
   std::size_t apart = 0;                ///< updates of particles that were apart and stay so, which are no work
 
   static constexpr auto fields = std::tuple{&UpdateCounts::substeps,         &UpdateCounts::split_updates,
                                             &UpdateCounts::limited_substeps, &UpdateCounts::modulus_evaluations,
-                                            &UpdateCounts::extrapolated,     &UpdateCounts::failures,
+                                            &UpdateCounts::with_range,       &UpdateCounts::extrapolated,
+                                            &UpdateCounts::pulled_out,       &UpdateCounts::failures,
                                             &UpdateCounts::separations,      &UpdateCounts::apart};
 
   void add(const UpdateCounts& other)

@@ -258,7 +258,9 @@ class CapBatch
     set_lanes(batch_.bulk_modulus, begin, now.bulk_modulus);
     set_lanes(batch_.shear_modulus, begin, sand_.shear_ratio() * now.bulk_modulus);
     set_lanes(batch_.plastic_work, begin, now.plastic_work);
+    counts_.with_range += n;
     counts_.extrapolated += count(!within && first_lanes(n));
+    counts_.pulled_out += count(!within && now.pressure < 0.0 && first_lanes(n));
     if (!may_part_ && all_of(found)) return set_states(begin, n, now);
     for (std::size_t l = 0; l < n; ++l) {
       if (found[l]) {

@@ -3,6 +3,7 @@
 
 #include "components/shapes/transfer.hpp"
 #include "tasks/labels.hpp"
+#include "tasks/monitors.hpp"
 #include "tasks/phases/deform.hpp"
 #include "tasks/phases/gravity_work.hpp"
 #include "tasks/phases/phases.hpp"
@@ -65,6 +66,20 @@ void add_filtered_momentum(const Data& data, std::size_t first, Motions<D> motio
   }
 }
 
+/// Adds the motion of particles, and what of it the nodes do not see.
+template <int D, class Data>
+void add_unseen(const Data& data, std::size_t first, Motions<D> motion)
+{
+  const auto mass = data[particle::mass.previous()];
+  const auto velocity = data[particle::velocity<D>];
+  Share& sum = data[unseen_motion];
+  for (std::size_t i = 0; i < motion.size(); ++i) {
+    const std::size_t p = first + i;
+    sum.whole += 0.5 * mass[p] * velocity[p].squaredNorm();
+    sum.part += 0.5 * mass[p] * (velocity[p] - motion[i].velocity).squaredNorm();
+  }
+}
+
 /// Kinetic energy that `n` particles from `first` on have gained [J].
 template <int D, class Data>
 double gained(const Data& data, std::size_t first, std::size_t n)
@@ -114,7 +129,7 @@ runtime::TaskList grid_to_particles(const Method<D>& method)
                   .computes(particle::position<D>, particle::velocity<D>,
                             particle::velocity_gradient<D>.when(method.brings_gradients()),
                             particle::velocity_moment<D>.when(method.brings_moments()))
-                  .reduces(grid_totals);
+                  .reduces(grid_totals, unseen_motion);
   return {deforming(method, std::move(task), deforms).body([=, &method](const TaskContext& at, auto data) {
     const auto nodes = data[node::motion<D>];
     const auto terms = data[node::velocity_terms<D>];
@@ -127,6 +142,7 @@ runtime::TaskList grid_to_particles(const Method<D>& method)
     std::array<ParticleMotion<D>, motion_batch> buffer;
     std::array<Vector<D>, motion_batch> restored;
     restored.fill(Vector<D>::Zero());
+    const bool is_sampled = method.scene.limits.samples_after(at.step.index + 1);
     for (std::size_t first = 0; first < places.size(); first += motion_batch) {
       const std::size_t size = std::min(motion_batch, places.size() - first);
       const auto batch = places.subspan(first, size);
@@ -140,6 +156,7 @@ runtime::TaskList grid_to_particles(const Method<D>& method)
       data[grid_totals].gained_by_particles += gained<D>(data, first, size);
       count_gravity<D>(method, at.step.size, data, first, size);
       if (filters) add_filtered_momentum<D>(data, first, motion);
+      if (is_sampled) add_unseen<D>(data, first, motion);
       if (deforms) take_gradients<D>(method, at, data, block, nodes.data(), inverse_mass, first, motion);
     }
   })};

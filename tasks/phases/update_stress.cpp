@@ -100,9 +100,8 @@ void account(const Method<D>& method, double dt, const Data& data, std::size_t f
 template <int D, class Data>
 BadMotion bad_motion(const Method<D>& method, int material, std::size_t p, const Data& data)
 {
-  BadMotion bad{.particle = data[particle::id.previous()][p], .material = material, .fault = MotionFault::not_finite};
-  const Vector<D>& x = data[particle::position<D>.previous()][p];
-  std::copy(x.begin(), x.end(), bad.position.begin());
+  BadMotion bad{place_of<D>(data[particle::id.previous()][p], material, data[particle::position<D>.previous()][p]),
+                MotionFault::not_finite};
   if (data[particle::velocity<D>][p].allFinite() && !data[particle::strain_increment<D>][p].allFinite()) {
     const bool has_limit = method.deformation_update == "exponential";
     bad.fault = has_limit ? MotionFault::turned_too_far : MotionFault::inside_out;
@@ -132,21 +131,18 @@ FailedUpdate failed_update(const Model& model, int material, std::size_t p, comp
   const SymmetricTensor<D>& strain = data[particle::strain_increment<D>][p];
   const SymmetricTensor<D> shape = deviator(strain);
   const components::Invariants stress = components::invariants(data[particle::stress<D>][p]);
-  FailedUpdate failed{.particle = data[particle::id.previous()][p],
-                      .material = material,
-                      .fault = fault,
-                      .pressure = stress.pressure,
-                      .q = stress.q(),
-                      .volumetric_increment = -trace(strain),
-                      .deviatoric_increment = std::sqrt(double_dot(shape, shape))};
+  FailedUpdate failed{
+      place_of<D>(data[particle::id.previous()][p], material, data[particle::position<D>.previous()][p]), fault};
+  failed.pressure = stress.pressure;
+  failed.q = stress.q();
+  failed.volumetric_increment = -trace(strain);
+  failed.deviatoric_increment = std::sqrt(double_dot(shape, shape));
   if constexpr (components::has_state<Model>) {
     std::size_t k = 0;
     for (const auto& column : components::state_columns<Model>()) {
       failed.state[k++] = column.value(model, data[particle::state<Model>][p], stress);
     }
   }
-  const Vector<D>& x = data[particle::position<D>.previous()][p];
-  std::copy(x.begin(), x.end(), failed.position.begin());
   return failed;
 }
 

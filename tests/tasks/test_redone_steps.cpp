@@ -60,10 +60,10 @@ TEST_CASE("a step that goes wrong is taken in shorter ones")
   CHECK(refused.count > 0);
   CHECK(refused.first_step == 0);
   CHECK(refused.first_time == 0);
-  CHECK(refused.material == 0);
-  CHECK(refused.particle >= 0);
+  CHECK(refused.first.material == 0);
+  CHECK(refused.first.particle >= 0);
   // Where the sand is torn.
-  CHECK(refused.position[0] == Approx(0.6).margin(0.1));
+  CHECK(refused.first.position[0] == Approx(0.6).margin(0.1));
   CHECK(simulation->n_steps() == 1);
   CHECK(simulation->last_step_size() == allowed * std::pow(0.5, static_cast<double>(refused.count)));
   CHECK(simulation->updates().failures == 0);
@@ -110,7 +110,7 @@ TEST_CASE("steps are refused and redone with the same bits on any ranks and thre
   CHECK(simulation->digest() == alone->digest());
   CHECK(simulation->time() == alone->time());
   CHECK(simulation->refused().count == alone->refused().count);
-  CHECK(simulation->refused().particle == alone->refused().particle);
+  CHECK(simulation->refused().first.particle == alone->refused().first.particle);
   CHECK(simulation->energies().plastic == alone->energies().plastic);
 }
 

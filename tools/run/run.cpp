@@ -17,6 +17,7 @@
 #include "tasks/simulation_error.hpp"
 #include "tools/run/forecast.hpp"
 #include "tools/run/machine_history.hpp"
+#include "tools/run/monitors.hpp"
 #include "tools/run/output_times.hpp"
 #include "tools/run/progress.hpp"
 #include "tools/run/run_folder.hpp"
@@ -348,29 +349,15 @@ class Runner
   {
     const components::UpdateCounts& updates = simulation_->updates();
     if (updates.failures > 0) warn(fmt::format("{} stress updates have failed", updates.failures));
-    warn_of_missed_substeps(updates);
+    history_.measure();
+    for (const Monitor& monitor : monitors_of(*simulation_, history_)) {
+      if (monitor.warns()) warn(warning_of(monitor, checked_.scene));
+    }
     const bool warned = common_warnings() > 0;
     finish(warned ? "completed with warnings" : "completed", "");
     if (!warned || !options_.strict) return;
     const std::string reason = "completed with warnings, which --strict does not take";
     throw tasks::SimulationError(reason, "", -1, {});
-  }
-
-  /// In its first steps sand has no stress yet beside which an error could be small: runs are judged once they have
-  /// taken many substeps for each particle.
-  void warn_of_missed_substeps(const components::UpdateCounts& updates)
-  {
-    constexpr std::size_t many = 100;
-    std::size_t n_particles = 0;
-    for (const tasks::SceneBody& body : checked_.scene.bodies) n_particles += body.n_particles;
-    const double limit = checked_.scene.limits.missed_substeps;
-    const auto n = static_cast<double>(updates.substeps), missed = static_cast<double>(updates.limited_substeps);
-    if (updates.substeps < many * n_particles || missed <= limit * n) return;
-    warn(
-        fmt::format("{:.2g} % of the {:.3g} substeps of the materials missed their tolerance, more than "
-                    "/limits/missed_substeps, {:.2g} %: stress is less exact than it was asked for; a smaller "
-                    "/time/multiplier makes the strains of a step smaller",
-                    100 * missed / n, n, 100 * limit));
   }
 
   /// Those of files are the first rank's alone.

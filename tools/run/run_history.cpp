@@ -263,14 +263,24 @@ std::string RunHistory::energy_problem(double limit)
 {
   const tasks::EnergyLedger& since_start = simulation_.energies();
   largest_.given_from_outside = std::max(largest_.given_from_outside, std::abs(since_start.external()));
-  const auto& frame = simulation_.scene().centrifuge;
-  if (!std::isfinite(limit) || (frame && frame->is_unsteady())) return "";
+  if (!std::isfinite(limit) || !knows_energy()) return "";
   const double error = wrong_energy();
   if (error <= limit * given_energy() || error <= negligible_energy()) return "";
   return fmt::format(
       "the energy is wrong by {:.3g} J, {:.3g} times the {:.3g} J that the run has been given, more than "
       "/limits/energy_error, {:.3g}",
       error, energy_error(), given_energy(), limit);
+}
+
+bool RunHistory::knows_energy() const
+{
+  const auto& frame = simulation_.scene().centrifuge;
+  return !frame || !frame->is_unsteady();
+}
+
+double RunHistory::known_energy_error() const
+{
+  return knows_energy() && wrong_energy() > negligible_energy() ? energy_error() : 0;
 }
 
 double RunHistory::energy_error() const

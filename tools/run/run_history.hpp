@@ -67,6 +67,10 @@ class RunHistory
   /// given to the run so far: its initial energy and the largest work from outside. Energy that particles filter out of
   /// the motion of the nodes is no error; energy that they add is. After the last step; it needs no `measure`.
   double energy_error() const;
+  /// The same; 0 where it is not known, as a centrifuge speeds up, and what is negligible beside the energy of waves.
+  double known_energy_error() const;
+  /// Energy given to the run so far [J].
+  double given_energy() const;
   /// Change of momentum that the grid has not given to the particles, over the largest sum of m |v| so far.
   double momentum_error() const { return momentum_error_; }
   /// A run that goes on has those of the run before.
@@ -112,7 +116,7 @@ class RunHistory
   /// step's middle while what it goes into is counted to its end [J].
   double negligible_energy() const;
   double wrong_energy() const;
-  double given_energy() const;
+  bool knows_energy() const;
   /// Impulse of gravity and centrifuge on all mass in a step [N s]: sand at rest moves by no more than its round-off.
   double weight_of_a_step() const;
 

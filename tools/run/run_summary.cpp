@@ -7,6 +7,7 @@
 #include <cmath>
 #include <vector>
 
+#include "tools/run/monitors.hpp"
 #include "tools/system/version.hpp"
 
 namespace tamp::tools
@@ -140,6 +141,28 @@ Json rebalances(const tasks::Simulation& simulation)
   return all;
 }
 
+/// Those with limits, the worst first, then what is only counted.
+Json monitors(const tasks::Simulation& simulation, const RunHistory& history)
+{
+  Json all;
+  for (const Monitor& monitor : monitors_of(simulation, history)) {
+    all[monitor.name] = to_json(monitor, simulation.scene());
+  }
+  const components::UpdateCounts& updates = simulation.updates();
+  const Json counts{{"lost_particles", simulation.lost().count},
+                    {"substeps", updates.substeps},
+                    {"split_updates", updates.split_updates},
+                    {"limited_substeps", updates.limited_substeps},
+                    {"modulus_evaluations", updates.modulus_evaluations},
+                    {"modulus_extrapolations", updates.extrapolated},
+                    {"modulus_extrapolations_in_tension", updates.pulled_out},
+                    {"failed_updates", updates.failures},
+                    {"separations", updates.separations},
+                    {"updates_apart", updates.apart}};
+  all.update(counts);
+  return all;
+}
+
 }  // namespace
 
 Json run_summary(tasks::Simulation& simulation, const RunHistory& history, const RunOutcome& outcome)
@@ -151,7 +174,6 @@ Json run_summary(tasks::Simulation& simulation, const RunHistory& history, const
   const OverRanks ledger =
       over_ranks(simulation, static_cast<std::size_t>(simulation.engine().warehouse().ledger().total().peak()));
   const EnergyBalance& e = history.energies();
-  const components::UpdateCounts& updates = simulation.updates();
   const double n_total = counts["total"].get<double>();
   return {{"status", outcome.status},
           {"reason", outcome.reason},
@@ -191,16 +213,7 @@ Json run_summary(tasks::Simulation& simulation, const RunHistory& history, const
           {"materials", materials(simulation, history)},
           {"greatest", greatest(history)},
           {"load_balance", rebalances(simulation)},
-          {"monitors",
-           {{"lost_particles", lost.count},
-            {"substeps", updates.substeps},
-            {"split_updates", updates.split_updates},
-            {"limited_substeps", updates.limited_substeps},
-            {"modulus_evaluations", updates.modulus_evaluations},
-            {"modulus_extrapolations", updates.extrapolated},
-            {"failed_updates", updates.failures},
-            {"separations", updates.separations},
-            {"updates_apart", updates.apart}}}};
+          {"monitors", monitors(simulation, history)}};
 }
 
 namespace
@@ -235,6 +248,19 @@ std::string body_text(const std::string& name, const Json& body)
   return text + "\n";
 }
 
+/// How far the worst of what is watched is from its limit.
+std::string monitors_text(const Json& monitors)
+{
+  std::string text = "  of their limits:";
+  int n_shown = 0;
+  for (const auto& [name, monitor] : monitors.items()) {
+    if (!monitor.is_object() || n_shown++ == 4) break;
+    text += fmt::format("{} {} {:.2g} of {:.2g}", n_shown > 1 ? "," : "", name, monitor["share"].get<double>(),
+                        monitor["limit"].get<double>());
+  }
+  return text + "\n";
+}
+
 }  // namespace
 
 std::string summary_text(const Json& summary)
@@ -260,18 +286,7 @@ std::string summary_text(const Json& summary)
       summary["energy_error"].get<double>(), summary["energies_J"]["filter"].get<double>(),
       summary["momentum_error"].get<double>(), summary["particles"]["lost"].get<std::size_t>(),
       summary["state_digest"].get<std::string>());
-  const Json& monitors = summary["monitors"];
-  const auto count = [&](const char* name) { return monitors[name].get<std::size_t>(); };
-  if (count("modulus_extrapolations") + count("limited_substeps") + count("failed_updates") > 0) {
-    text += fmt::format(
-        "  {:.2g} % of {} substeps of the materials missed the tolerance; {} updates ended outside the modulus' range, "
-        "{} "
-        "failed\n",
-        100.0 * static_cast<double>(count("limited_substeps")) /
-            static_cast<double>(std::max<std::size_t>(count("substeps"), 1)),
-        count("substeps"), count("modulus_extrapolations"), count("failed_updates"));
-  }
-  return text;
+  return text + monitors_text(summary["monitors"]);
 }
 
 }  // namespace tamp::tools

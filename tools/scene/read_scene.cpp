@@ -406,8 +406,7 @@ class SceneReader
     JsonReader reader = root_.object("limits");
     scene_.limits.energy_error =
         reader.has_word("energy_error") ? std::numeric_limits<double>::infinity() : reader.number("energy_error");
-    scene_.limits.courant_number = reader.number("courant_number");
-    scene_.limits.missed_substeps = reader.number("missed_substeps");
+    read_parameters(reader, scene_.limits);
     reader.finish();
   }
 

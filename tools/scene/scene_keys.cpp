@@ -108,27 +108,19 @@ const ObjectKeys& output_keys()
 
 const ObjectKeys& limit_keys()
 {
-  static const ObjectKeys keys{
-      "",
-      {{"energy_error",
-        Number{above_zero, "off"},
-        "",
-        {tasks::SceneLimits{}.energy_error},
-        "a run whose total energy is wrong by more than this part of what it has been given (its initial energy and "
-        "the work of gravity, of loads and of driving bodies) ends with exit code 3; every step is judged, unless a "
-        "centrifuge speeds up; `\"off\"`: no limit"},
-       {"courant_number",
-        Number{above_zero},
-        "",
-        {tasks::SceneLimits{}.courant_number},
-        "a step in which waves, as fast as they are at its end, cross more cells than this has gone wrong: matter has "
-        "grown too stiff for it (see `/time/redos`; times the `multiplier` where that is above 1)"},
-       {"missed_substeps",
-        Number{{.lower = 0, .upper = 1}},
-        "",
-        {tasks::SceneLimits{}.missed_substeps},
-        "a run in which a larger part of the materials' substeps misses its tolerance ends with a warning, from 0 to "
-        "1; judged from 100 substeps a particle on"}}};
+  static const ObjectKeys keys = [] {
+    ObjectKeys limits{"", keys_of_parameters<tasks::SceneLimits>()};
+    limits.keys.insert(
+        limits.keys.begin(),
+        {"energy_error",
+         Number{above_zero, "off"},
+         "",
+         {tasks::SceneLimits{}.energy_error},
+         "a run whose total energy is wrong by more than this part of what it has been given (its initial energy and "
+         "the work of gravity, of loads and of driving bodies) ends with exit code 3; every step is judged, unless a "
+         "centrifuge speeds up; `\"off\"`: no limit"});
+    return limits;
+  }();
   return keys;
 }
 

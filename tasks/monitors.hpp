@@ -1,0 +1,58 @@
+#pragma once
+
+#include <cstdint>
+#include <tuple>
+
+#include "runtime/data/label.hpp"
+#include "tasks/sightings.hpp"
+#include "tasks/step_totals.hpp"
+
+/// What a run looks at, every so many steps, to say how far it can be trusted.
+namespace tamp::tasks
+{
+
+/// A part of a whole, summed over particles and over the samples of a run.
+struct Share {
+  double part = 0;
+  double whole = 0;
+
+  double value() const { return whole > 0 ? part / whole : 0; }
+
+  static constexpr auto fields = std::tuple{&Share::part, &Share::whole};
+};
+
+/// Sums over the particles of a state.
+struct StateSample {
+  /// Sums of V (p - p_c)^2 and V p^2, p_c being the mean pressure of a particle's material in its cell [Pa^2 m^3].
+  Share uneven_pressure;
+  /// Particles of elastic materials: those whose neighbours are more than 1.2 cells away, and that hold tension; all.
+  Share torn_apart;
+  /// Of the torn ones that with the lowest id.
+  ParticlePlace torn;
+
+  static constexpr auto fields =
+      std::tuple{&StateSample::uneven_pressure, &StateSample::torn_apart, runtime::Least{&StateSample::torn}};
+};
+
+/// A share in the samples of a run so far.
+struct SampledShare {
+  Share all;
+  double greatest = 0;
+  /// Of samples above the scene's limit.
+  Sightings above;
+
+  void add(const Share& share, double limit, std::int64_t n_steps, double time, const ParticlePlace& place = {});
+};
+
+struct MonitorRecords {
+  SampledShare null_space, uneven_pressure, torn_apart;
+};
+
+/// Kinetic energy of deformable particles in a step, and that of what no node sees of their motion,
+/// v_p - sum S_ip v_i [J]; in steps that are sampled.
+inline const runtime::ReductionLabel<Share, "unseen motion"> unseen_motion;
+inline const runtime::ReductionLabel<StateSample, "state sample"> state_sample;
+/// Since the start.
+inline const runtime::GlobalLabel<MonitorRecords, "monitor records"> monitor_records;
+
+}  // namespace tamp::tasks

@@ -1,0 +1,122 @@
+#include <catch2/catch.hpp>
+
+#include <cmath>
+
+#include "tests/runtime/shared_cores.hpp"
+#include "tests/tasks/scenes.hpp"
+
+namespace test_monitors
+{
+
+using namespace tamp;
+using namespace tamp::test;
+
+namespace
+{
+
+/// A free block of rubber on 2 x 2 patches, 8 x 8 cells with 2 x 2 particles each.
+Scene block()
+{
+  Scene scene = empty_scene(2, {16, 16, 1}, 0.1);
+  scene.n_patches = {2, 2, 1};
+  scene.limits.sampled_every = 5;
+  add_box(scene, add_elastic(scene, 1000, 1e6, 0.3), {0.4, 0.4, 0}, {1.2, 1.2, 0});
+  return scene;
+}
+
+/// Velocities of neighbours that cancel at every node.
+double noise(const Vector<3>& x)
+{
+  const auto i = static_cast<long>(std::floor(x[0] / 0.05)), j = static_cast<long>(std::floor(x[1] / 0.05));
+  return (i + j) % 2 == 0 ? 0.01 : -0.01;
+}
+
+const MonitorRecords& records_after(Simulation& simulation, int n_steps)
+{
+  for (int n = 0; n < n_steps; ++n) simulation.advance(1e30);
+  return simulation.monitors();
+}
+
+}  // namespace
+
+TEST_CASE("motion that no node sees is all of the energy of noise with flip, and little of a wave")
+{
+  Scene noisy = block(), smooth = block();
+  noisy.bodies[0].functions.velocity = [](const Vector<3>& x) { return Vector<3>(noise(x), 0, 0); };
+  smooth.bodies[0].functions.velocity = [](const Vector<3>& x) { return Vector<3>(0.01 * std::sin(4 * x[0]), 0, 0); };
+
+  const auto with_noise = Simulation::make(noisy, 1), with_wave = Simulation::make(smooth, 1);
+  noisy.transfer = "apic";
+  const auto filtered = Simulation::make(noisy, 1);
+
+  CHECK(records_after(*with_noise, 20).null_space.all.value() > 0.9);
+  CHECK(records_after(*with_wave, 20).null_space.all.value() < 0.05);
+  CHECK(records_after(*filtered, 20).null_space.all.part == 0);
+}
+
+TEST_CASE("a share beyond its limit is counted in each sample, with the first")
+{
+  Scene scene = block();
+  scene.limits.null_space = 0.5;
+  scene.bodies[0].functions.velocity = [](const Vector<3>& x) { return Vector<3>(noise(x), 0, 0); };
+  const auto simulation = Simulation::make(scene, 1);
+
+  const Sightings& above = records_after(*simulation, 22).null_space.above;
+
+  CHECK(above.count == 4);
+  CHECK(above.first_step == 5);
+  CHECK(above.first_time > 0);
+  CHECK(above.first_time < simulation->time());
+}
+
+TEST_CASE("pressure that goes from particle to particle is told from one that cells share")
+{
+  Scene scene = block();
+  scene.materials[0].model = components::Hypoelastic{1e9, 1e5};
+  // Bends, with a Poisson's ratio of 0.49995, so that particles of linear cells cannot keep their volume.
+  scene.bodies[0].functions.velocity = [](const Vector<3>& x) { return Vector<3>(0, (x[0] - 0.8) * (x[0] - 0.8), 0); };
+  const auto locking = Simulation::make(scene, 1);
+  scene.anti_locking = AntiLocking::cell_average;
+  const auto flowing = Simulation::make(scene, 1);
+
+  CHECK(records_after(*locking, 100).uneven_pressure.all.value() > 0.5);
+  CHECK(records_after(*flowing, 100).uneven_pressure.all.value() < 0.1);
+}
+
+TEST_CASE("particles are torn where tension holds them further apart than nodes reach")
+{
+  Scene scene = block();
+  scene.materials[0].model = components::Hypoelastic{1e4, 1e4};
+  scene.bodies[0].functions.velocity = [](const Vector<3>& x) { return Vector<3>(20 * (x[0] - 0.8), 0, 0); };
+  const auto torn = Simulation::make(scene, 1);
+  scene.interpolator = "cpdi";
+  const auto stretched = Simulation::make(scene, 1);
+  advance_to(*torn, 0.09);
+  advance_to(*stretched, 0.09);
+
+  const SampledShare& seen = torn->monitors().torn_apart;
+  CHECK(seen.greatest > 0.1);
+  CHECK(seen.above.count > 0);
+  CHECK(seen.above.first.particle >= 0);
+  CHECK(seen.above.first.material == 0);
+  CHECK(stretched->monitors().torn_apart.greatest == 0);
+}
+
+TEST_CASE("samples of the state are the same on any ranks and threads", "[ranks]")
+{
+  Scene scene = block();
+  scene.bodies[0].functions.velocity = [](const Vector<3>& x) { return Vector<3>(noise(x), 20 * (x[1] - 0.8), 0); };
+  const auto alone = Simulation::make(scene, 1);
+  const MonitorRecords& expected = records_after(*alone, 30);
+
+  const auto simulation = Simulation::make(scene, std::make_shared<runtime::Executor>(2, on_shared_cores()),
+                                           runtime::Communicator::world());
+  const MonitorRecords& records = records_after(*simulation, 30);
+
+  CHECK(expected.null_space.all.part > 0);
+  CHECK(records.null_space.all.part == expected.null_space.all.part);
+  CHECK(records.uneven_pressure.all.part == expected.uneven_pressure.all.part);
+  CHECK(records.torn_apart.all.part == expected.torn_apart.all.part);
+}
+
+}  // namespace test_monitors

@@ -1,0 +1,100 @@
+#include <catch2/catch.hpp>
+#include <nlohmann/json.hpp>
+
+#include "tests/tools/program.hpp"
+
+namespace test_monitors
+{
+
+using namespace tamp::test;
+
+namespace
+{
+
+/// What is out of range in the first steps is not asked about.
+const std::string punch =
+    TAMP_SOURCE_DIR "/inputs/punch/quick.json --quiet --steps 200 --set /limits/out_of_range=1";
+
+struct Run {
+  Outcome outcome;
+  nlohmann::json summary;
+};
+
+Run run_with(const std::string& arguments)
+{
+  const TemporaryFolder folder;
+  const auto out = folder.path() / "run";
+  Outcome outcome = tamp_with("run " + punch + " --out " + out.string() + " " + arguments);
+  nlohmann::json summary;
+  if (std::filesystem::exists(out / "summary.json")) summary = nlohmann::json::parse(read_text(out / "summary.json"));
+  return {outcome, summary};
+}
+
+}  // namespace
+
+TEST_CASE("each monitor warns beyond the limit that the scene sets, and --strict ends with 3")
+{
+  const std::string name = GENERATE("out_of_range", "filtered_energy", "energy_drift", "null_space", "uneven_pressure");
+  const std::string limit = " --set /limits/" + name + "=";
+
+  const Run beyond = run_with(limit + "0"), within = run_with(limit + "1"), strict = run_with(limit + "0 --strict");
+
+  const nlohmann::json& monitor = beyond.summary["monitors"][name];
+  CAPTURE(name, monitor.dump());
+  CHECK(monitor["warns"] == true);
+  CHECK(monitor["limit"] == 0);
+  CHECK(monitor["share"].get<double>() > 0);
+  CHECK(beyond.summary["status"] == "completed with warnings");
+  CHECK(beyond.outcome.exit_code == 0);
+  CHECK_THAT(beyond.outcome.err, Catch::Contains("more than /limits/" + name + ", 0 %"));
+  CHECK(within.summary["monitors"][name]["warns"] == false);
+  CHECK(within.summary["monitors"][name]["share"] == monitor["share"]);
+  CHECK(within.summary["status"] == "completed");
+  CHECK(strict.outcome.exit_code == 3);
+}
+
+TEST_CASE("the monitor that is furthest beyond its limit comes first")
+{
+  const Run run = run_with("--set /limits/filtered_energy=1e-9 --set /limits/energy_drift=1e-3");
+
+  CHECK(run.summary["warnings"][0].get<std::string>().find("/limits/filtered_energy") != std::string::npos);
+  const std::size_t n_warnings = run.summary["warnings"].size();
+  const nlohmann::json monitors = run.summary["monitors"];
+  std::size_t n_warning = 0;
+  for (const auto& monitor : monitors) {
+    if (monitor.is_object() && monitor["warns"] == true) ++n_warning;
+  }
+  CHECK(n_warning == n_warnings);
+}
+
+TEST_CASE("what samples saw goes on after a restart")
+{
+  const TemporaryFolder folder;
+  const auto straight = folder.path() / "straight", halves = folder.path() / "halves";
+  const std::string scene = std::string("run ") + TAMP_SOURCE_DIR + "/inputs/punch/quick.json --quiet ";
+  const std::string limit = " --set /limits/null_space=1e-9 --steps ";
+  REQUIRE(tamp_with(scene + "--out " + straight.string() + limit + "200").exit_code == 0);
+  REQUIRE(tamp_with(scene + "--out " + halves.string() + limit + "120 --checkpoint-steps 120").exit_code == 0);
+
+  REQUIRE(tamp_with(scene + "--restart " + halves.string() + limit + "200").exit_code == 0);
+
+  const auto seen_in = [](const std::filesystem::path& run) {
+    return nlohmann::json::parse(read_text(run / "summary.json"))["monitors"]["null_space"];
+  };
+  CHECK(seen_in(straight)["count"] == 4);
+  CHECK(seen_in(straight)["first"]["after_step"] == 50);
+  CHECK(seen_in(halves) == seen_in(straight));
+}
+
+TEST_CASE("a limit that is negative, or of nothing that is watched, is refused with its place")
+{
+  const Outcome negative = tamp_with("run " + punch + " --set /limits/null_space=-0.1");
+  const Outcome unknown = tamp_with("run " + punch + " --set /limits/nul_space=0.1");
+
+  CHECK(negative.exit_code == 2);
+  CHECK_THAT(negative.err, Catch::Contains("/limits/null_space") && Catch::Contains("-0.1"));
+  CHECK(unknown.exit_code == 2);
+  CHECK_THAT(unknown.err, Catch::Contains("nul_space") && Catch::Contains("null_space"));
+}
+
+}  // namespace test_monitors

@@ -1,0 +1,177 @@
+#include "tools/run/monitors.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace tamp::tools
+{
+
+namespace
+{
+
+double ratio(double part, double whole)
+{
+  return whole > 0 ? part / whole : 0;
+}
+
+template <class Count>
+double number(Count count)
+{
+  return static_cast<double>(count);
+}
+
+double mass_of(const tasks::ParticleReport& report)
+{
+  double mass = 0;
+  for (const tasks::BodySums& body : report.bodies) mass += body.mass;
+  return mass;
+}
+
+/// In its first steps sand has no stress yet beside which an error could be small: runs are judged once they have
+/// taken many substeps for each particle.
+double missed_substeps(const tasks::Simulation& simulation)
+{
+  constexpr std::size_t many = 100;
+  std::size_t n_particles = 0;
+  for (const tasks::SceneBody& body : simulation.scene().bodies) n_particles += body.n_particles;
+  const components::UpdateCounts& updates = simulation.updates();
+  if (updates.substeps < many * n_particles) return 0;
+  return ratio(number(updates.limited_substeps), number(updates.substeps));
+}
+
+std::vector<Monitor> of_steps(const tasks::Simulation& simulation)
+{
+  const tasks::SceneLimits& limits = simulation.scene().limits;
+  const components::UpdateCounts& updates = simulation.updates();
+  const tasks::Sightings& refused = simulation.refused();
+  // In tension sand has next to no stress, whatever its modulus.
+  const std::size_t squeezed_out = updates.extrapolated - updates.pulled_out;
+  return {{"redone_steps", number(refused.count), ratio(number(refused.count), number(simulation.n_steps())),
+           limits.redone_steps, refused,
+           "of the steps went wrong and were tried again, shorter: a smaller /time/multiplier keeps them right"},
+          {"missed_substeps",
+           number(updates.limited_substeps),
+           missed_substeps(simulation),
+           limits.missed_substeps,
+           {},
+           "of the substeps of the materials missed their tolerance: stress is less exact than it was asked for; a "
+           "smaller /time/multiplier makes the strains of a step smaller"},
+          {"out_of_range",
+           number(squeezed_out),
+           ratio(number(squeezed_out), number(updates.with_range)),
+           limits.out_of_range,
+           {},
+           "of the updates ended in compression beyond the strains that the modulus was made for, where it is a guess: "
+           "results rest on that as far as such sand carries load; measurements to larger strains would settle it"}};
+}
+
+std::vector<Monitor> of_balances(const tasks::Simulation& simulation, const RunHistory& history)
+{
+  const tasks::SceneLimits& limits = simulation.scene().limits;
+  const tasks::LostParticles lost = simulation.lost();
+  return {
+      {"energy_drift",
+       {},
+       history.known_energy_error(),
+       limits.energy_drift,
+       {},
+       "of the energy that the run has been given is missing or too much at its end: a smaller /time/multiplier, or "
+       "another transfer or stress timing, keeps more of it"},
+      {"momentum_error",
+       {},
+       history.momentum_error(),
+       limits.momentum_error,
+       {},
+       "of the largest momentum has come from nowhere"},
+      {"filtered_energy",
+       {},
+       ratio(std::max(0.0, simulation.energies().filter), history.given_energy()),
+       limits.filtered_energy,
+       {},
+       "of the energy that the run has been given was filtered out of the motion by the transfer: it acts like a "
+       "viscosity that grows with the cells; smaller cells or a transfer that filters less (flip, tflip) keep it"},
+      {"lost_mass",
+       number(lost.count),
+       ratio(lost.mass, lost.mass + mass_of(history.report())),
+       limits.lost_mass,
+       {},
+       "of the mass has left the grid, and acts on nothing from then on: a larger grid keeps it"}};
+}
+
+/// One state that is torn is enough; the others have to last.
+std::vector<Monitor> of_samples(const tasks::Simulation& simulation)
+{
+  const tasks::SceneLimits& limits = simulation.scene().limits;
+  const tasks::MonitorRecords& seen = simulation.monitors();
+  const auto monitor = [](const char* name, const tasks::SampledShare& record, double share, double limit,
+                          const char* words) -> Monitor {
+    return {name, number(record.above.count), share, limit, record.above, words};
+  };
+  return {
+      monitor("null_space", seen.null_space, seen.null_space.all.value(), limits.null_space,
+              "of the kinetic and elastic energy is of motion that no node sees, and that nothing stops: transfers "
+              "that filter "
+              "(apic, fmpm) take it out"),
+      monitor("uneven_pressure", seen.uneven_pressure, seen.uneven_pressure.all.value(), limits.uneven_pressure,
+              "of the pressure, squared, is not that of the cells but differs from particle to particle: matter that "
+              "cannot change its volume locks; /anti_locking, or splines, let it flow"),
+      monitor("torn_apart", seen.torn_apart, seen.torn_apart.greatest, limits.torn_apart,
+              "of the elastic particles hold tension across more than 1.2 cells, where no node joins them: they break "
+              "without a cause; cpdi, or more particles a cell, keep them together")};
+}
+
+nlohmann::ordered_json first_of(const tasks::Sightings& seen, const tasks::Scene& scene)
+{
+  if (seen.first_step < 0) return nullptr;
+  nlohmann::ordered_json json{{"after_step", seen.first_step}, {"time_s", seen.first_time}};
+  if (seen.first.particle >= 0) {
+    json["particle"] = seen.first.particle;
+    json["material"] = scene.materials[static_cast<std::size_t>(seen.first.material)].name;
+    json["position_m"] = std::vector(seen.first.position.begin(), seen.first.position.begin() + scene.grid.dimension);
+  }
+  return json;
+}
+
+std::string place_of_first(const tasks::Sightings& seen, const tasks::Scene& scene)
+{
+  if (seen.first_step < 0) return "";
+  std::string words = fmt::format(", first after step {}, time {:.4g} s", seen.first_step, seen.first_time);
+  if (seen.first.particle < 0) return words;
+  const auto& x = seen.first.position;
+  return words + fmt::format(", particle {} of '{}' at ({:.4g}) m", seen.first.particle,
+                             scene.materials[static_cast<std::size_t>(seen.first.material)].name,
+                             fmt::join(x.begin(), x.begin() + scene.grid.dimension, ", "));
+}
+
+}  // namespace
+
+std::vector<Monitor> monitors_of(const tasks::Simulation& simulation, const RunHistory& history)
+{
+  std::vector<Monitor> all = of_steps(simulation);
+  for (auto&& more : {of_balances(simulation, history), of_samples(simulation)}) {
+    all.insert(all.end(), more.begin(), more.end());
+  }
+  const auto badness = [](const Monitor& m) { return m.limit > 0 ? m.share / m.limit : m.share > 0 ? HUGE_VAL : 0; };
+  std::ranges::stable_sort(all, std::greater(), badness);
+  return all;
+}
+
+std::string warning_of(const Monitor& monitor, const tasks::Scene& scene)
+{
+  return fmt::format("{:.2g} % {} (more than /limits/{}, {:.2g} %{})", 100 * monitor.share, monitor.words, monitor.name,
+                     100 * monitor.limit, place_of_first(monitor.first, scene));
+}
+
+nlohmann::ordered_json to_json(const Monitor& monitor, const tasks::Scene& scene)
+{
+  return {{"count", monitor.count ? nlohmann::ordered_json(*monitor.count) : nlohmann::ordered_json(nullptr)},
+          {"share", monitor.share},
+          {"limit", monitor.limit},
+          {"warns", monitor.warns()},
+          {"first", first_of(monitor.first, scene)}};
+}
+
+}  // namespace tamp::tools

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "tools/run/run_history.hpp"
+
+namespace tamp::tools
+{
+
+/// What a run says of one thing that can go wrong.
+struct Monitor {
+  /// That of its limit in the scene.
+  std::string name;
+  /// How often it was seen, of what there was; nothing for sums.
+  std::optional<double> count;
+  /// What is held against the limit.
+  double share = 0;
+  double limit = 0;
+  tasks::Sightings first;
+  /// What it means and what helps, for a share beyond the limit.
+  std::string words;
+
+  bool warns() const { return share > limit; }
+};
+
+/// All of them after a run so far, the worst first: by their shares over their limits.
+std::vector<Monitor> monitors_of(const tasks::Simulation& simulation, const RunHistory& history);
+
+/// A line for people.
+std::string warning_of(const Monitor& monitor, const tasks::Scene& scene);
+
+nlohmann::ordered_json to_json(const Monitor& monitor, const tasks::Scene& scene);
+
+}  // namespace tamp::tools
