@@ -119,7 +119,7 @@ CLI::App* add_compare_command(CLI::App& app)
       ->check(is_whole_from(1))
       ->default_str("no limit");
   command->add_flag("!--no-grid-error", options->with_grid_error,
-                    "do not run the first model on cells twice as large, which shows what the grid's error is");
+                    "do not run the first model on cells twice as large, which shows what the grid changes");
   command->add_flag("--force", options->comparison.force, "replace what an earlier comparison left in the folder");
   command->add_flag("--quiet", options->comparison.quiet, "print no progress and no table");
   command->footer(

@@ -21,11 +21,13 @@ double first_cost(const Study& study, const MeasuredPoint& point)
 
 /// Points of the charts for which there is an error, cheapest first, of those that are cheaper each better than all.
 std::vector<int> pareto_front(const Study& study, const std::vector<MeasuredPoint>& points,
-                              const std::map<int, double>& errors)
+                              const QuantityFindings& found)
 {
+  const std::map<int, double>& errors = found.errors;
   std::vector<const MeasuredPoint*> in_order;
   for (const MeasuredPoint& one : points) {
-    if (one.point.role == Point::Role::chart && errors.contains(one.point.id)) in_order.push_back(&one);
+    const bool has_error = errors.contains(one.point.id) && !found.differences.contains(one.point.id);
+    if (one.point.role == Point::Role::chart && has_error) in_order.push_back(&one);
   }
   const auto rank = [&](const MeasuredPoint* one) {
     return std::pair(first_cost(study, *one), errors.at(one->point.id));
@@ -59,7 +61,7 @@ void sort_from_coarse_to_fine(const Study& study, std::vector<const MeasuredPoin
   std::stable_sort(group.begin(), group.end(), [&](const auto* a, const auto* b) { return spacing(a) > spacing(b); });
 }
 
-OrderFit order_fit(const Study& study, std::vector<const MeasuredPoint*> group, const std::map<int, double>& errors)
+OrderFit order_fit(const Study& study, std::vector<const MeasuredPoint*> group, const QuantityFindings& found)
 {
   const Point& first = group.front()->point;
   const std::string others = settings_text(without(first.own, study.refine));
@@ -67,8 +69,8 @@ OrderFit order_fit(const Study& study, std::vector<const MeasuredPoint*> group, 
   std::vector<Json> values;
   std::vector<double> of_points, costs;
   for (const MeasuredPoint* one : group) {
-    const auto error = errors.find(one->point.id);
-    if (error == errors.end()) continue;
+    const auto error = found.errors.find(one->point.id);
+    if (error == found.errors.end()) continue;
     fit.points.push_back(one->point.id);
     values.push_back(one->point.setting(study.refine));
     of_points.push_back(error->second);
@@ -77,7 +79,10 @@ OrderFit order_fit(const Study& study, std::vector<const MeasuredPoint*> group, 
   const double power = fitted_order(spacings_of(values), costs, 2);
   if (std::isfinite(power)) fit.cost_power = power;
   const double order = fitted_order(spacings_of(values), of_points);
-  if (std::isnan(order)) {
+  const auto is_difference = [&](int id) { return found.differences.contains(id); };
+  if (std::any_of(fit.points.begin(), fit.points.end(), is_difference)) {
+    fit.note = "no order: differences, which are no errors";
+  } else if (std::isnan(order)) {
     fit.note = "no order: fewer than three errors above 0";
   } else if (!std::is_sorted(of_points.rbegin(), of_points.rend())) {
     fit.note = "no order: errors do not fall from each to the next";
@@ -130,6 +135,12 @@ class References
   std::map<std::string, Reference> own_;
 };
 
+bool models_something_else(const Study& study, const Point& point)
+{
+  return std::any_of(study.methods.begin(), study.methods.end(),
+                     [&](const Method& method) { return method.name == point.method && method.another_model; });
+}
+
 /// A run that is the reference itself, by whatever name, has no error that is known.
 bool is_itself(const Reference& reference, const MeasuredPoint& one, const std::vector<MeasuredPoint>& points)
 {
@@ -149,12 +160,16 @@ QuantityFindings findings_of_one(const Study& study, const Quantity& quantity, c
     if (!quantity.is_column()) found.values[one.point.id] = answer.value;
     const Reference& reference = references.of(one.point);
     const auto error = reference.error(quantity, answer);
-    if (error && std::isfinite(*error) && !is_itself(reference, one, points)) found.errors[one.point.id] = *error;
+    if (!error || !std::isfinite(*error) || is_itself(reference, one, points)) continue;
+    found.errors[one.point.id] = *error;
+    if (!reference.bound || (!quantity.exact && models_something_else(study, one.point))) {
+      found.differences.insert(one.point.id);
+    }
   }
-  found.front = pareto_front(study, points, found.errors);
+  found.front = pareto_front(study, points, found);
   if (!study.refine.empty()) {
     for (const auto& group : refined_groups(study, points)) {
-      if (group.size() > 1) found.orders.push_back(order_fit(study, group, found.errors));
+      if (group.size() > 1) found.orders.push_back(order_fit(study, group, found));
     }
   }
   return found;

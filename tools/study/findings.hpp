@@ -2,6 +2,7 @@
 
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -26,8 +27,11 @@ struct OrderFit {
 /// All that is found of one quantity.
 struct QuantityFindings {
   Reference reference;
-  /// By point id: of points that are done.
+  /// By point id: of points that are done. Errors are distances from the reference.
   std::map<int, double> values, errors;
+  /// Ids of the points of `errors` whose distance is no error, only a difference: the reference has no bound, or the
+  /// point models something else. They are on no front and have no order.
+  std::set<int> differences;
   /// Ids of points of the charts than which none is cheaper and better at once.
   std::vector<int> front;
   std::vector<OrderFit> orders;

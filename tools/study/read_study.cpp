@@ -109,6 +109,7 @@ class StudyReader
       }
       method.family = reader.text("family", method.name);
       method.dashed = reader.flag("dashed");
+      method.another_model = reader.flag("another_model");
       method.settings = settings(reader, "set");
       method.sweep = reader.has("sweep") ? axes(reader, "sweep") : sweep;
       reader.finish();

@@ -49,6 +49,8 @@ struct Method {
   /// Its points are all combinations of these, and those that are listed besides.
   std::vector<Axis> sweep;
   std::vector<Settings> listed;
+  /// Whether it models something else than the reference does, so that what it differs by is no error.
+  bool another_model = false;
 };
 
 /// How a number is taken from what a point has written.

@@ -28,6 +28,7 @@ const ObjectKeys& method_keys()
       {{"name", Text{}, "", compulsory, "what the charts call it"},
        {"family", Text{}, "", {}, "methods of one family share a colour; its name where left out"},
        {"dashed", Flag{}, "", {false}, "whether its line is dashed, as suits what others are measured by"},
+       {"another_model", Flag{}, "", {false}, "models something else than the reference: it differs, and has no error"},
        {"set", Anything{}, "", {}, "an object: JSON pointer → value, over the study's"},
        {"sweep", Anything{}, "", {}, "its own, instead of the study's"}}};
   return keys;

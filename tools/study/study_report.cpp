@@ -135,6 +135,7 @@ Json point_json(const StudyResults& results, std::size_t i)
             {"cost", cost_json(results, result)},
             {"values", Json::object()},
             {"errors", Json::object()},
+            {"differences", Json::array()},
             {"front", Json::array()},
             {"command", command_text(results.measurements[i])},
             {"folder", result.folder.empty() ? "" : "points/" + result.folder.filename().string()}};
@@ -144,6 +145,7 @@ Json point_json(const StudyResults& results, std::size_t i)
     const QuantityFindings& found = results.findings.quantities[q];
     if (found.values.contains(point.id)) json["values"][name] = found.values.at(point.id);
     if (found.errors.contains(point.id)) json["errors"][name] = found.errors.at(point.id);
+    if (found.differences.contains(point.id)) json["differences"].push_back(name);
     if (std::count(found.front.begin(), found.front.end(), point.id) > 0) json["front"].push_back(name);
   }
   return json;
@@ -245,10 +247,15 @@ std::vector<std::pair<std::string, Json>> row_of(const StudyResults& results, co
     for (const char* part : {"", "_low", "_high"}) row.emplace_back(key + part, cell(point["cost"], key + part));
   }
   for (const Quantity& quantity : results.study.quantities) {
-    const auto on_front = std::count(point["front"].begin(), point["front"].end(), Json(quantity.name)) > 0;
+    const auto is_among = [&](const Json& names) {
+      return std::count(names.begin(), names.end(), Json(quantity.name)) > 0;
+    };
+    const Json distance = cell(point["errors"], quantity.name);
+    const bool is_difference = is_among(point["differences"]);
     row.emplace_back(quantity.name, cell(point["values"], quantity.name));
-    row.emplace_back("error of " + quantity.name, cell(point["errors"], quantity.name));
-    row.emplace_back("front of " + quantity.name, on_front ? 1 : 0);
+    row.emplace_back("error of " + quantity.name, is_difference ? Json(nullptr) : distance);
+    row.emplace_back("difference in " + quantity.name, is_difference ? distance : Json(nullptr));
+    row.emplace_back("front of " + quantity.name, is_among(point["front"]) ? 1 : 0);
   }
   row.emplace_back("command", point["command"]);
   return row;
@@ -257,6 +264,21 @@ std::vector<std::pair<std::string, Json>> row_of(const StudyResults& results, co
 std::string percent_or_value(const Reference& reference, double error)
 {
   return reference.relative ? fmt::format("{:.3g} %", error * 100) : fmt::format("{:.3g}", error);
+}
+
+/// The least and the greatest of what is no error.
+std::string differences_text(const StudyResults& results, const QuantityFindings& found)
+{
+  std::vector<std::pair<double, std::string>> all;
+  for (const int id : found.differences) {
+    const Point& point = results.points[static_cast<std::size_t>(id) - 1].point;
+    if (point.role == Point::Role::chart) all.emplace_back(found.errors.at(id), point.name());
+  }
+  if (all.empty()) return "";
+  const auto [least, greatest] = std::minmax_element(all.begin(), all.end());
+  return fmt::format("    differences from it, which are no errors, of {} to {}: {}; {}\n",
+                     percent_or_value(found.reference, least->first),
+                     percent_or_value(found.reference, greatest->first), least->second, greatest->second);
 }
 
 std::string front_text(const StudyResults& results, const Quantity& quantity, const QuantityFindings& found)
@@ -269,7 +291,8 @@ std::string front_text(const StudyResults& results, const Quantity& quantity, co
     text += fmt::format("    {:<10.4g} {} for an error of {}: {}, {}\n", one.result.cost(key)->median, unit,
                         percent_or_value(found.reference, found.errors.at(id)), one.point.method, one.point.label);
   }
-  return text.empty() ? "    no errors of " + quantity.name + " are known\n" : text;
+  if (text.empty() && found.differences.empty()) return "    no errors of " + quantity.name + " are known\n";
+  return text + differences_text(results, found);
 }
 
 std::string expectations_text(const StudyResults& results)

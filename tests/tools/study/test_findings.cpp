@@ -100,6 +100,48 @@ TEST_CASE("runs whose differences do not fall bound nothing")
   CHECK_FALSE(found.reference.uncertainty);
   CHECK(found.reference.note.starts_with("no bound"));
   CHECK(found.errors.at(1) == Approx(0.3 / 1.3));
+  CHECK(found.differences == std::set<int>{1, 2, 3, 4, 5});
+  CHECK(found.front.empty());
+}
+
+TEST_CASE("differences from one run are no errors, have no order and are on no front")
+{
+  AnsweredStudy answered;
+  answered.study.methods[0].sweep[0].values = {4, 2, 1};
+  answered.study.reference = ReferenceRuns{{{"/h", 1}, {"/model", "table"}}, {}};
+
+  // As if of second order, towards a run that is as far from the truth as nobody knows.
+  const QuantityFindings found = answered.findings({0.84, 0.96, 0.99, 1}, {1, 8, 64, 64}).quantities[0];
+
+  CHECK(found.errors.at(1) == Approx(0.16));
+  CHECK(found.differences == std::set<int>{1, 2, 3});
+  CHECK(found.front.empty());
+  REQUIRE(found.orders.size() == 1);
+  CHECK_FALSE(found.orders[0].order);
+  CHECK(found.orders[0].note == "no order: differences, which are no errors");
+  CHECK(*found.orders[0].cost_power == Approx(-3));
+}
+
+TEST_CASE("another model than the reference's differs from it, and has errors only where the answer is exact")
+{
+  AnsweredStudy answered;
+  answered.study.methods.push_back(answered.study.methods[0]);
+  answered.study.methods[1].name = "b";
+  answered.study.methods[1].another_model = true;
+  answered.study.reference = ReferenceRuns{{}, {"/h", {4, 2, 1}}};
+  const std::vector<double> depths{0.84, 0.96, 0.99, 0.85, 0.97, 0.999, 0.84, 0.96, 0.99};
+  const std::vector<double> costs{1, 8, 64, 0.5, 4, 32, 1, 8, 64};
+
+  const QuantityFindings of_runs = answered.findings(depths, costs).quantities[0];
+  answered.study.quantities[0].exact = 1;
+  const QuantityFindings exact = answered.findings(depths, costs).quantities[0];
+
+  CHECK(of_runs.differences == std::set<int>{4, 5, 6});
+  CHECK(of_runs.front == std::vector<int>{1, 2, 3});
+  CHECK(*of_runs.orders[0].order == Approx(2));
+  CHECK_FALSE(of_runs.orders[1].order);
+  CHECK(exact.differences.empty());
+  CHECK(exact.front == std::vector<int>{4, 5, 6});
 }
 
 TEST_CASE("a run that is the reference has no error, whatever else it is called")

@@ -151,12 +151,39 @@ class ThePage(unittest.TestCase):
                             for name in ("greatest-depth", "depth-over-time"))
         self.assertIn("the reference itself is uncertain by 1.2 %", depth)
         self.assertNotIn("itself is uncertain", over_time)
-        self.assertIn("Errors are against the finest run. "
+        self.assertIn("Differences, which are no errors, are from the finest run. "
                       "No bound: differences do not fall from grid to grid.", self.text)
 
     def test_orders_stand_beside_the_lines(self):
         self.assertIn("flatter: order 1.02", (self.folder / "charts/greatest-depth-convergence.svg").read_text())
-        self.assertIn("flatter: no order", (self.folder / "charts/depth-over-time-convergence.svg").read_text())
+
+    def test_without_a_bound_there_is_no_error_no_order_and_no_front(self):
+        for chart in ["work-precision", "particle-steps", "convergence", "step-cost"]:
+            svg = (self.folder / f"charts/depth-over-time-{chart}.svg").read_text()
+            self.assertIn("Difference in depth over time against", svg)
+            self.assertIn("difference from the finest run, which is no error", svg)
+            for claim in ["order", "Pareto", "error of depth", "Error of", "uncertain", "-front"]:
+                self.assertNotIn(claim, svg, chart)
+        panel = re.search(r'<template id="point-6">(.*?)</template>', self.text, re.S)[1]
+        self.assertIn("<td>depth over time</td><td>–</td><td>3.05 % (difference)</td><td></td>", panel)
+
+    def test_another_model_differs_from_the_reference_and_has_no_error(self):
+        document = study()
+        for p in document["points"]:
+            p["differences"] = ["greatest depth"] if p["method"] == "steel" else []
+            p["front"] = [] if p["method"] == "steel" else p["front"]
+
+        with drawn(document) as folder:
+            text = (folder / "index.html").read_text()
+            convergence_svg = (folder / "charts/greatest-depth-convergence.svg").read_text()
+            steps = ids_of(folder, "greatest-depth-particle-steps")
+
+        self.assertIn("flatter: order 1.02", convergence_svg)
+        self.assertIn("steel: difference", convergence_svg)
+        self.assertNotIn("steel: order", convergence_svg)
+        self.assertIn("<td>steel</td><td>cell size 0.02</td><td>4.8 s</td><td>5.7 % (difference)</td><td></td>", text)
+        self.assertEqual([i for i in steps if re.search(r"-point-[5678]-front$", i)], [])
+        self.assertNotRegex(text, r"The least error, [^,]*, has steel")
 
     def test_a_part_of_a_budget_without_a_bound_is_said_and_hatched(self):
         svg = (self.folder / "charts/greatest-depth-budget.svg").read_text()

@@ -101,8 +101,7 @@ struct Change {
     if (!std::isfinite(value)) return "-";
     const std::string words = fmt::format("{:+.2g} %", 100 * value);
     if (!std::isfinite(by_grid)) return words;
-    return words +
-           (std::abs(value) <= std::abs(by_grid) ? " (within the grid's error)" : " (more than the grid's error)");
+    return words + (std::abs(value) <= std::abs(by_grid) ? " (less than by the grid)" : " (more than by the grid)");
   }
 };
 
@@ -117,7 +116,7 @@ std::string differences_text(const Comparison& comparison)
   };
   const double depth_by_grid = comparison.coarser ? change(*comparison.coarser, &depth_at) : nan,
                q_by_grid = comparison.coarser ? change(*comparison.coarser, &q_at) : nan;
-  std::string text = fmt::format("\nagainst {}:\n{:<16}{:<44}{}\n", first.name, "", "depth", "q");
+  std::string text = fmt::format("\ndifference from {}:\n{:<16}{:<44}{}\n", first.name, "", "depth", "q");
   const auto add = [&](const std::string& name, const Change& depth, const Change& q) {
     text += fmt::format("{:<16}{:<44}{}\n", name, depth.text(), q.text());
   };
@@ -127,7 +126,7 @@ std::string differences_text(const Comparison& comparison)
   if (comparison.coarser) {
     add("2 x the cells", {depth_by_grid, nan}, {q_by_grid, nan});
   } else {
-    text += "the grid's error is not known, as cells twice as large were not run\n";
+    text += "what the grid changes is not known, as cells twice as large were not run\n";
   }
   return text;
 }

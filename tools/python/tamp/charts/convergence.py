@@ -7,6 +7,8 @@ from tamp.charts.lines import lines_of_methods
 from tamp.charts.chart_spec import Across, ChartSpec
 from tamp.charts.formatting import number_text
 
+ABOUT_DIFFERENCES = """Towards the {} everything is finer. These are differences from a run of whose own error there is
+no bound, so that no order is claimed."""
 ABOUT = """Towards the {} everything is finer. An order is the slope of a line through the errors: half the {} divides
 them by two to its power."""
 
@@ -17,10 +19,12 @@ def charts(study, quantity, prefix):
     name = study.refine.get("name", study.refine.get("pointer", ""))
     lines, guides = lines_with_orders(study, quantity)
     across = Across(name, lambda p: p.refine, study.refine_text, ticks_at_values=True)
-    about = ABOUT.format("right" if rises(study, quantity) else "left", name)
-    about += "".join(f" {label}: {note}." for label, note in notes(study, quantity))
+    about = ABOUT if quantity.has_bound else ABOUT_DIFFERENCES
+    about = about.format("right" if rises(study, quantity) else "left", name)
+    if quantity.has_bound:
+        about += "".join(f" {label}: {note}." for label, note in notes(study, quantity))
     return [point_chart.make(ChartSpec(study, quantity, across, lines, None, guides), f"{prefix}-convergence",
-                             f"Error of {quantity.name} against {name}", about)]
+                             f"{point_chart.distance_of(quantity)} against {name}", about)]
 
 
 def lines_with_orders(study, quantity):
@@ -31,9 +35,8 @@ def lines_with_orders(study, quantity):
         points = [by_id[i] for i in fit.get("points", []) if i in by_id]
         if not points:
             continue
-        order = fit.get("order")
-        found = "no order" if order is None else f"order {number_text(order)}"
-        lines.append((fit["method"], f"{fit.get('label') or fit['method']}: {found}", points))
+        order = fit.get("order") if all(p.failed or p.has_error(quantity) for p in points) else None
+        lines.append((fit["method"], label_of(fit, order, points, quantity), points))
         if order is not None:
             guides += guide(fit["method"], order, points, quantity)
     fitted_methods = {fit["method"] for fit in quantity.orders}
@@ -41,6 +44,15 @@ def lines_with_orders(study, quantity):
         if method not in fitted_methods:
             lines += [(method, method, [p for p in points if p.refine]) for points in groups]
     return lines, guides
+
+
+def label_of(fit, order, points, quantity):
+    label = fit.get("label") or fit["method"]
+    if order is not None:
+        return f"{label}: order {number_text(order)}"
+    if any(p.has_error(quantity) for p in points):
+        return f"{label}: no order"
+    return f"{label}: difference" if quantity.has_bound else label
 
 
 def rises(study, quantity):

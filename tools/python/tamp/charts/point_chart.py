@@ -40,12 +40,17 @@ def draw(spec, title, layout):
     return sheet, places
 
 
+def distance_of(quantity):
+    """What a title calls the distances from a quantity's reference."""
+    return f"Error of {quantity.name}" if quantity.has_bound else f"Difference in {quantity.name}"
+
+
 def y_label(spec):
     if not spec.quantity.has_reference:
         return f"{spec.quantity.name}, without a reference"
     if not spec.quantity.has_bound:
-        which = "finest" if spec.quantity.reference["kind"] == "finest" else "one"
-        return f"distance from the {which} run: no bound of the error"
+        which = "the finest run" if spec.quantity.reference["kind"] == "finest" else "one run"
+        return f"difference from {which}, which is no error"
     return f"error of {spec.quantity.name}" + (" (of the reference)" if spec.quantity.relative else "")
 
 

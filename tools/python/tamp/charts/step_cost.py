@@ -5,8 +5,8 @@ from tamp.charts.lines import lines_of_methods
 from tamp.charts.chart_spec import Across, ChartSpec
 from tamp.charts.formatting import si_text
 
-ABOUT = """User time over steps. Where points stand one above the other, accuracy comes from more steps, not from dearer
-ones."""
+ABOUT = """User time over steps. Where points stand one above the other, what differs comes from more steps, not from
+dearer ones."""
 
 
 def charts(study, quantity, prefix):
@@ -15,4 +15,4 @@ def charts(study, quantity, prefix):
     across = Across("user time of a step", lambda p: p.step_cost, lambda value: si_text(value, "s"))
     lines = [(method, method, points) for method, groups in lines_of_methods(study) for points in groups]
     return [point_chart.make(ChartSpec(study, quantity, across, lines, None), f"{prefix}-step-cost",
-                             f"Error of {quantity.name} against the cost of a step", ABOUT)]
+                             f"{point_chart.distance_of(quantity)} against the cost of a step", ABOUT)]

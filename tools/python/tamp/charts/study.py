@@ -21,8 +21,13 @@ class Quantity(NamedTuple):
 
     @property
     def has_bound(self):
-        """Whether errors are more than distances from the runs that they are compared with."""
+        """Whether the reference is near the answer, within what is known: else distances from it are no errors."""
         return self.reference.get("bound", True)
+
+    @property
+    def distance_name(self):
+        """What distances from the reference are called."""
+        return "error" if self.has_bound else "difference"
 
     @property
     def uncertainty(self):
@@ -36,6 +41,11 @@ class Quantity(NamedTuple):
     def error_text(self, error, digits=3):
         return percent_text(error, digits) if self.relative else si_text(error, self.unit, digits)
 
+    def distance_text(self, point, digits=3):
+        """A point's distance from the reference, which says so where it is no error though others are."""
+        text = self.error_text(abs(point.error(self)), digits)
+        return f"{text} (difference)" if self.has_bound and not point.has_error(self) else text
+
 
 class Point(NamedTuple):
     id: int
@@ -48,6 +58,7 @@ class Point(NamedTuple):
     cost: dict
     values: dict
     errors: dict
+    differences: list
     front: list
     command: str
 
@@ -70,7 +81,11 @@ class Point(NamedTuple):
         return number_or_none(self.values.get(quantity.name))
 
     def error(self, quantity):
+        """The distance from the reference, be it an error or a difference."""
         return number_or_none(self.errors.get(quantity.name))
+
+    def has_error(self, quantity):
+        return quantity.has_bound and self.error(quantity) is not None and quantity.name not in self.differences
 
     def cost_of(self, key):
         return number_or_none(self.cost.get(key))
@@ -139,7 +154,8 @@ def point_of(p, place):
     return Point(
         p.get("id", place), p.get("method", ""), p.get("label", ""), p.get("settings") or {},
         number_or_none(p.get("refine")), p.get("ended", "done"), p.get("reason") or "", p.get("cost") or {},
-        p.get("values") or {}, p.get("errors") or {}, p.get("front") or [], p.get("command") or "",
+        p.get("values") or {}, p.get("errors") or {}, p.get("differences") or [], p.get("front") or [],
+        p.get("command") or "",
     )
 
 

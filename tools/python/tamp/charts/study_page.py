@@ -123,14 +123,13 @@ def reference_text(quantity):
     notes = f" {sentence(note)}" if note else ""
     if not quantity.has_reference:
         return "There is no reference, so that no error is claimed." + notes
-    text = f"Errors are against {REFERENCES.get(reference['kind'], reference['kind'])}"
+    what = "Errors are against" if quantity.has_bound else "Differences, which are no errors, are from"
+    text = f"{what} {REFERENCES.get(reference['kind'], reference['kind'])}"
     if reference.get("value") is not None:
         text += f", {quantity.value_text(reference['value'])}"
     if quantity.uncertainty:
         text += f", itself uncertain by {quantity.error_text(quantity.uncertainty)}"
-    elif reference["kind"] != "exact" and quantity.uncertainty is None and not note.startswith("no bound"):
-        text += ", of whose own error there is no bound"
-    if reference.get("order") is not None:
+    if reference.get("order") is not None and quantity.has_bound:
         text += f"; it converges with order {number_text(reference['order'])}"
     return f"{text}.{notes}"
 
@@ -160,7 +159,7 @@ def short_text(study, point):
     parts = [point.name] + ([point.why] if point.failed else [])
     for quantity in study.quantities:
         if not point.failed and point.error(quantity) is not None:
-            parts.append(f"error of {quantity.name} {error_text(quantity, point)}")
+            parts.append(f"{quantity.distance_name} of {quantity.name} {quantity.distance_text(point)}")
     for cost in study.costs[:1]:
         if point.cost_of(cost.key) is not None:
             parts.append(f"{cost.name} {cost.text(point.cost_of(cost.key))}")
@@ -168,8 +167,11 @@ def short_text(study, point):
 
 
 def error_text(quantity, point):
-    error = point.error(quantity)
-    return NO_NUMBER if error is None else quantity.error_text(abs(error))
+    """Its error, or its difference from the reference, which is called that."""
+    if point.error(quantity) is None:
+        return NO_NUMBER
+    text = quantity.distance_text(point)
+    return text if quantity.has_bound else f"{text} (difference)"
 
 
 def panel(study):
@@ -184,7 +186,9 @@ def point_text(study, point):
     rows = [[q.name, q.value_text(point.value(q)), error_text(q, point), "yes" if q.name in point.front else ""]
             for q in study.quantities]
     if not point.failed:
-        html += page.as_html(Table(["", "value", "error", "front"], rows))
+        known = [q for q in study.quantities if point.error(q) is not None]
+        distance = "error" if all(point.has_error(q) for q in known) else "error or difference"
+        html += page.as_html(Table(["", "value", distance, "front"], rows))
     return html + (f"<p>Remade by</p>\n{command(point.command)}\n" if point.command else "")
 
 
