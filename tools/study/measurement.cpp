@@ -9,6 +9,7 @@
 #include "tools/scene/print_json.hpp"
 #include "tools/scene/read_material.hpp"
 #include "tools/scene/read_scene.hpp"
+#include "tools/system/shell_word.hpp"
 
 namespace tamp::tools::study
 {
@@ -152,6 +153,18 @@ std::vector<Measurement> measurements_of(const Study& study, const std::vector<P
     measurements.push_back(at->second);
   }
   return measurements;
+}
+
+Json resolved(const Measure& measure, const Settings& settings)
+{
+  return read_measured(measure, settings).resolved;
+}
+
+std::string command_text(const Measurement& measurement)
+{
+  std::string text = "tamp";
+  for (const std::string& word : measurement.command) text += " " + shell_word(word);
+  return text;
 }
 
 std::vector<std::string> command_into(const Study& study, const Measurement& measurement,

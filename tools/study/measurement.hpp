@@ -26,6 +26,12 @@ struct Measurement {
 /// cannot be read without them, and for a pointer to a place that it does not have.
 std::vector<Measurement> measurements_of(const Study& study, const std::vector<Point>& points);
 
+/// What is measured with these settings, every default filled in. Throws InputError where they are refused.
+Json resolved(const Measure& measure, const Settings& settings);
+
+/// The command that remakes it, for people.
+std::string command_text(const Measurement& measurement);
+
 /// The measurement's command with its results in `folder`: `history.csv` and `summary.json` in this folder.
 std::vector<std::string> command_into(const Study& study, const Measurement& measurement,
                                       const std::filesystem::path& folder);

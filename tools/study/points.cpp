@@ -141,6 +141,15 @@ Settings varied_settings(const Study& study, const BudgetBase& base, const Setti
   return merged(base_settings(study, base), variation);
 }
 
+bool is_pointer(const std::string& text)
+{
+  try {
+    return !JsonPointer(text).empty();
+  } catch (const Json::exception&) {
+    return false;
+  }
+}
+
 std::string settings_text(const Settings& settings)
 {
   std::vector<std::string> texts;

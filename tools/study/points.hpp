@@ -48,6 +48,8 @@ std::vector<Point> points_of(const Study& study);
 Settings base_settings(const Study& study, const BudgetBase& base);
 Settings varied_settings(const Study& study, const BudgetBase& base, const Settings& variation);
 
+/// Whether a text is a JSON pointer, and not that to a whole document.
+bool is_pointer(const std::string& text);
 /// As a person would say them: "cell size 0.02, transfer flip".
 std::string settings_text(const Settings& settings);
 /// The last part of a pointer, with blanks for underscores.

@@ -17,15 +17,6 @@ namespace
 
 constexpr std::size_t fewest_grids = 3;
 
-bool is_pointer(const std::string& text)
-{
-  try {
-    return !JsonPointer(text).empty();
-  } catch (const Json::exception&) {
-    return false;
-  }
-}
-
 /// Numbers above 0 that fall or rise.
 bool are_spacings(const std::vector<Json>& values)
 {
@@ -62,6 +53,7 @@ class StudyReader
     read_budget();
     read_expectations();
     read_stability();
+    read_stable_if();
     read_limits();
     root_.finish();
     expect_answers();
@@ -390,6 +382,25 @@ class StudyReader
       reader.add_problem(key, fmt::format("\"{}\", of several points", name), "expected a method with one");
     }
     return name;
+  }
+
+  void read_stable_if()
+  {
+    auto reader = root_.optional_object("stable_if");
+    if (!reader) return;
+    StableIf& stable = study_.stable_if;
+    stable.energy_error = reader->optional_number("energy_error_at_most");
+    stable.quantity = reader->text("quantity", "");
+    stable.error = reader->optional_number("error_at_most");
+    if (!stable.quantity.empty() && !has_exact_answer(stable.quantity)) {
+      reader->add_problem("quantity", fmt::format("\"{}\"", stable.quantity),
+                          "expected the name of a quantity with an exact answer");
+    }
+    if (stable.quantity.empty() == stable.error.has_value()) {
+      reader->add_problem("error_at_most", stable.error ? "given without a quantity" : "missing",
+                          "expected both quantity and error_at_most, or neither");
+    }
+    reader->finish();
   }
 
   void read_limits()

@@ -167,6 +167,15 @@ struct Stability {
   std::string symptom, monitor;
 };
 
+/// What is stable where the limit of a setting is looked for: a run that comes to its end, with an error of the energy,
+/// and of a quantity whose answer is exact, that are no larger than these.
+struct StableIf {
+  std::optional<double> energy_error{};
+  /// Empty for none.
+  std::string quantity{};
+  std::optional<double> error{};
+};
+
 struct Study {
   std::filesystem::path file;
   std::string title, about, takes;
@@ -181,6 +190,7 @@ struct Study {
   std::vector<Expectation> expectations;
   /// Of entries of the failure catalogue.
   std::optional<Stability> stability{};
+  StableIf stable_if;
   /// Timings of each point; of one that takes longer than `repeat_below` [s] only one.
   int repeat = 3;
   double repeat_below = 60;

@@ -165,6 +165,16 @@ const ObjectKeys& stability_keys()
   return keys;
 }
 
+const ObjectKeys& stable_if_keys()
+{
+  static const ObjectKeys keys{
+      "",
+      {{"energy_error_at_most", Number{zero_or_above}, "", none, "relative, of what a run has been given"},
+       {"quantity", Text{}, "", {}, "the name of a quantity with an exact answer"},
+       {"error_at_most", Number{zero_or_above}, "", none, "of that quantity"}}};
+  return keys;
+}
+
 }  // namespace
 
 const ObjectKeys& study_keys()
@@ -187,6 +197,7 @@ const ObjectKeys& study_keys()
        {"expect", Objects{expectation_keys}, "", none, "what has to hold of the results"},
        {"stability", Object{stability_keys}, "", none,
         "of an entry of the failure catalogue: what fails, and what survives"},
+       {"stable_if", Object{stable_if_keys}, "", none, "what `--limit` takes for stable, besides coming to its end"},
        {"repeat", WholeNumber{1, most_repeats}, "", {3}, "timings of each point"},
        {"repeat_below_s", Number{above_zero}, "s", {60.0}, "a point that takes longer is timed once"},
        {"limit_s", Number{above_zero}, "s", none, "processor time that a point may take"},

@@ -9,7 +9,6 @@
 
 #include "tools/scene/csv_text.hpp"
 #include "tools/system/machine.hpp"
-#include "tools/system/shell_word.hpp"
 #include "tools/system/version.hpp"
 
 namespace tamp::tools::study
@@ -112,13 +111,6 @@ Json cost_json(const StudyResults& results, const PointResult& result)
     cost[key + "_high"] = spread->greatest;
   }
   return cost;
-}
-
-std::string command_text(const Measurement& measurement)
-{
-  std::string text = "tamp";
-  for (const std::string& word : measurement.command) text += " " + shell_word(word);
-  return text;
 }
 
 Json point_json(const StudyResults& results, std::size_t i)

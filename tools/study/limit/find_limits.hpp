@@ -1,0 +1,26 @@
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "tools/study/limit/limit_search.hpp"
+#include "tools/study/run_study.hpp"
+
+namespace tamp::tools::study
+{
+
+/// Of `tamp study --limit`.
+struct LimitOptions {
+  /// The setting, a JSON pointer to a number of the scene; empty where no limit is asked for.
+  std::string pointer;
+  LimitSearch search;
+  /// Over what the study says.
+  std::optional<double> energy_error{};
+};
+
+/// Looks for the value of a setting at which each method of a study, or a scene, stops being stable, and writes
+/// `limit.json` and `limit.csv`. Each method has the first values of its sweep. Throws InputError before anything runs,
+/// and after all is written where a method has no limit.
+void find_limits(const StudyOptions& options, const LimitOptions& limit);
+
+}  // namespace tamp::tools::study
