@@ -105,6 +105,20 @@ TEST_CASE("the short studies of the return mapping have smaller errors for small
   }
 }
 
+TEST_CASE("the short maps of where methods fail have a stable cell for each of their runs")
+{
+  const std::string name = GENERATE("map_bar", "map_vortex", "map_piston", "map_block", "map_punch");
+  const ShortStudy study = run_short(name);
+
+  const Json sheets = study.results["map"]["sheets"];
+  REQUIRE(sheets.size() == 1);
+  REQUIRE(sheets[0]["cells"].size() == 4);
+  for (const Json& cell : sheets[0]["cells"]) {
+    INFO(name << " " << cell);
+    CHECK(cell["verdict"] == "stable");
+  }
+}
+
 TEST_CASE("the short study of the bar finds second order, and the published bound without its factor unstable")
 {
   const ShortStudy study = run_short("bar");

@@ -54,6 +54,7 @@ class StudyReader
     read_expectations();
     read_stability();
     read_stable_if();
+    read_map();
     read_limits();
     root_.finish();
     expect_answers();
@@ -382,6 +383,57 @@ class StudyReader
       reader.add_problem(key, fmt::format("\"{}\", of several points", name), "expected a method with one");
     }
     return name;
+  }
+
+  void read_map()
+  {
+    auto reader = root_.optional_object("map");
+    if (!reader) return;
+    StudyMap map;
+    map.quantity = reader->text("quantity", "");
+    if (!find_quantity(map.quantity)) {
+      reader->add_problem("quantity", fmt::format("\"{}\"", map.quantity), "expected the name of a quantity");
+    }
+    map.noisy = reader->number("noisy");
+    map.blown = reader->number("blown");
+    if (map.noisy >= map.blown) {
+      reader->add_problem("blown", fmt::format("{}", map.blown),
+                          fmt::format("expected more than noisy, {}", map.noisy));
+    }
+    for (JsonReader& sheet : reader->objects("sheets")) map.sheets.push_back(map_sheet(sheet));
+    reader->finish();
+    study_.map = std::move(map);
+  }
+
+  MapSheet map_sheet(JsonReader& reader)
+  {
+    MapSheet sheet{reader.text("name", ""), names(reader, "methods"), pointer(reader, "rows"),
+                   pointer(reader, "columns"), reader.optional_number("bound")};
+    for (const std::string& name : sheet.methods) {
+      if (find_method(name) != nullptr) continue;
+      reader.add_problem("methods", fmt::format("\"{}\"", name), "expected names of methods");
+    }
+    for (const std::string& one : {sheet.rows, sheet.columns}) {
+      if (!one.empty() && !is_set(one, sheet.methods)) {
+        reader.add_problem(one == sheet.rows ? "rows" : "columns", one, "expected what its methods set");
+      }
+    }
+    reader.finish();
+    return sheet;
+  }
+
+  /// Whether each of these methods sets a pointer.
+  bool is_set(const std::string& pointer, const std::vector<std::string>& methods)
+  {
+    return std::all_of(methods.begin(), methods.end(), [&](const std::string& name) {
+      const Method* method = find_method(name);
+      if (method == nullptr) return true;  // told already
+      const auto is_it = [&](const auto& setting) { return setting.first == pointer; };
+      return std::any_of(study_.settings.begin(), study_.settings.end(), is_it) ||
+             std::any_of(method->settings.begin(), method->settings.end(), is_it) ||
+             std::any_of(method->sweep.begin(), method->sweep.end(),
+                         [&](const Axis& axis) { return axis.pointer == pointer; });
+    });
   }
 
   void read_stable_if()

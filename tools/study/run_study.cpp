@@ -9,6 +9,7 @@
 #include "tools/scene/print_json.hpp"
 #include "tools/study/run_points.hpp"
 #include "tools/study/study_folder.hpp"
+#include "tools/study/study_map_report.hpp"
 #include "tools/study/study_report.hpp"
 #include "tools/system/charts.hpp"
 #include "tools/system/console.hpp"
@@ -54,6 +55,7 @@ StudyResults measure_all(const Study& study, const StudyOptions& options, const 
   const auto measured = run_points(study, points, results.measurements, cache, options.quiet);
   for (std::size_t i = 0; i < points.size(); ++i) results.points.push_back({points[i], measured[i]});
   results.findings = findings_of(study, results.points);
+  results.map = map_of(study, results.points, results.findings);
   results.expectations = judge_expectations(study, results.points, results.findings);
   return results;
 }
@@ -61,13 +63,14 @@ StudyResults measure_all(const Study& study, const StudyOptions& options, const 
 /// Before hours of runs, not after them.
 void expect_writable_results(const std::filesystem::path& folder)
 {
-  for (const char* name : {"points.csv", "study.json", "gates.csv"}) runtime::expect_writable(folder / name);
+  for (const char* name : {"points.csv", "study.json", "gates.csv", "map.csv"}) runtime::expect_writable(folder / name);
 }
 
 void write(const StudyResults& results, const std::filesystem::path& folder)
 {
   runtime::write_whole_file(folder / "points.csv", to_csv(results));
   runtime::write_whole_file(folder / "study.json", json_text(to_json(results), 1) + "\n");
+  if (results.study.map) runtime::write_whole_file(folder / "map.csv", map_to_csv(results));
   if (!results.expectations.empty()) runtime::write_whole_file(folder / "gates.csv", expectations_to_csv(results));
 }
 

@@ -167,6 +167,23 @@ struct Stability {
   std::string symptom, monitor;
 };
 
+/// A sheet of a map: methods whose points have a row by one setting and a column by another.
+struct MapSheet {
+  std::string name;
+  std::vector<std::string> methods;
+  std::string rows, columns;
+  /// The greatest value of the columns that theory allows.
+  std::optional<double> bound{};
+};
+
+/// Where runs are stable, noisy or blown, by their distance from the reference.
+struct StudyMap {
+  std::string quantity;
+  /// The least distances of each.
+  double noisy = 0, blown = 0;
+  std::vector<MapSheet> sheets;
+};
+
 /// What is stable where the limit of a setting is looked for: a run that comes to its end, with an error of the energy,
 /// and of a quantity whose answer is exact, that are no larger than these.
 struct StableIf {
@@ -191,6 +208,7 @@ struct Study {
   /// Of entries of the failure catalogue.
   std::optional<Stability> stability{};
   StableIf stable_if;
+  std::optional<StudyMap> map;
   /// Timings of each point; of one that takes longer than `repeat_below` [s] only one.
   int repeat = 3;
   double repeat_below = 60;

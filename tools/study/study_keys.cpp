@@ -175,6 +175,29 @@ const ObjectKeys& stable_if_keys()
   return keys;
 }
 
+const ObjectKeys& map_sheet_keys()
+{
+  static const ObjectKeys keys{
+      "",
+      {{"name", Text{}, "", compulsory, "its title"},
+       {"methods", Anything{}, "", compulsory, "a list of names of methods, whose points are its cells"},
+       {"rows", Text{}, "", compulsory, "a JSON pointer that these set: a row for each value"},
+       {"columns", Text{}, "", compulsory, "the same of its columns"},
+       {"bound", Number{}, "", none, "the greatest value of the columns that theory allows"}}};
+  return keys;
+}
+
+const ObjectKeys& map_keys()
+{
+  static const ObjectKeys keys{
+      "",
+      {{"quantity", Text{}, "", compulsory, "the name of a quantity"},
+       {"noisy", Number{above_zero}, "", compulsory, "the least distance from the reference that counts as noisy"},
+       {"blown", Number{above_zero}, "", compulsory, "the same of blown, as which runs without a result count too"},
+       {"sheets", Objects{map_sheet_keys}, "", compulsory, "each by two settings"}}};
+  return keys;
+}
+
 }  // namespace
 
 const ObjectKeys& study_keys()
@@ -197,6 +220,7 @@ const ObjectKeys& study_keys()
        {"expect", Objects{expectation_keys}, "", none, "what has to hold of the results"},
        {"stability", Object{stability_keys}, "", none,
         "of an entry of the failure catalogue: what fails, and what survives"},
+       {"map", Object{map_keys}, "", none, "where runs are stable, noisy or blown"},
        {"stable_if", Object{stable_if_keys}, "", none, "what `--limit` takes for stable, besides coming to its end"},
        {"repeat", WholeNumber{1, most_repeats}, "", {3}, "timings of each point"},
        {"repeat_below_s", Number{above_zero}, "s", {60.0}, "a point that takes longer is timed once"},

@@ -8,6 +8,7 @@
 #include <set>
 
 #include "tools/scene/csv_text.hpp"
+#include "tools/study/study_map_report.hpp"
 #include "tools/system/machine.hpp"
 #include "tools/system/version.hpp"
 
@@ -318,7 +319,8 @@ Json to_json(const StudyResults& results)
           {"quantities", quantities_json(results)},
           {"points", points_json(results)},
           {"budgets", budgets_json(results)},
-          {"gates", expectations_json(results)}};
+          {"gates", expectations_json(results)},
+          {"map", map_to_json(results)}};
 }
 
 std::string to_csv(const StudyResults& results)
@@ -360,7 +362,9 @@ std::string to_text(const StudyResults& results)
     if (found.reference.uncertainty && found.reference.kind != Reference::Kind::exact) {
       text += fmt::format("; reference known to {}", percent_or_value(found.reference, *found.reference.uncertainty));
     }
-    text += "\n" + front_text(results, quantity, found);
+    text += "\n";
+    const bool has_map = results.study.map && results.study.map->quantity == quantity.name;
+    if (!has_map) text += front_text(results, quantity, found);
   }
   for (const ErrorBudget& budget : results.findings.budgets) {
     text += fmt::format("  error of {}, {}:\n", budget.quantity, budget.base);
@@ -369,7 +373,7 @@ std::string to_text(const StudyResults& results)
       text += fmt::format("    {:<24} {:>9}  {}\n", part.name, amount, part.note);
     }
   }
-  return text + expectations_text(results);
+  return text + map_to_text(results) + expectations_text(results);
 }
 
 }  // namespace tamp::tools::study

@@ -7,6 +7,7 @@
 #include "tools/study/expectation_results.hpp"
 #include "tools/study/findings.hpp"
 #include "tools/study/measurement.hpp"
+#include "tools/study/study_map.hpp"
 
 namespace tamp::tools::study
 {
@@ -21,6 +22,7 @@ struct StudyResults {
   std::vector<Measurement> measurements;
   Findings findings;
   std::vector<ExpectationResult> expectations;
+  std::vector<MapOfSheet> map{};
 };
 
 /// `study.json`, which the page is drawn from, see docs/study.md.

@@ -2,7 +2,7 @@
 
 import re
 
-from tamp.charts import budget, convergence, page, picture, step_cost, work_precision
+from tamp.charts import budget, convergence, page, picture, stability_map, step_cost, work_precision
 from tamp.charts.chart import Table
 from tamp.charts.page import HERE, escaped
 from tamp.charts.study import setting_text
@@ -31,7 +31,8 @@ def write(study, folder):
 
 
 def make_charts(study, quantity, prefix):
-    makers = [work_precision, convergence, step_cost, budget]
+    # Of a map's many methods lines of cost and error would be a tangle.
+    makers = [stability_map] if study.document.get("map") else [work_precision, convergence, step_cost, budget]
     return [chart for maker in makers for chart in maker.charts(study, quantity, prefix)]
 
 
