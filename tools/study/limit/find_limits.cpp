@@ -51,17 +51,26 @@ void expect_runs(const Study& study)
   throw InputError({study.file.string() + "#/measure", "what is no run of a scene", "expected the key run"});
 }
 
-/// The first of each method, the setting itself not swept.
-std::vector<Point> first_points(Study study, const std::string& pointer)
+bool sweeps(const Method& method, const std::string& pointer)
 {
+  return std::any_of(method.sweep.begin(), method.sweep.end(),
+                     [&](const Axis& axis) { return axis.pointer == pointer; });
+}
+
+/// Of methods that sweep the setting all other combinations; where there are none, the first point of each method.
+std::vector<Point> points_with_a_limit(Study study, const std::string& pointer)
+{
+  const auto does = [&](const Method& method) { return sweeps(method, pointer); };
+  const bool is_swept = std::any_of(study.methods.begin(), study.methods.end(), does);
+  if (is_swept) std::erase_if(study.methods, [&](const Method& method) { return !does(method); });
   for (Method& method : study.methods) {
     std::erase_if(method.sweep, [&](const Axis& axis) { return axis.pointer == pointer; });
   }
   std::vector<Point> points;
   for (Point& point : points_of(study)) {
     const auto is_of = [&](const Point& other) { return other.method == point.method; };
-    if (point.role != Point::Role::chart || std::any_of(points.begin(), points.end(), is_of)) continue;
-    points.push_back(std::move(point));
+    const bool is_first = std::none_of(points.begin(), points.end(), is_of);
+    if (point.role == Point::Role::chart && (is_swept || is_first)) points.push_back(std::move(point));
   }
   return points;
 }
@@ -119,7 +128,7 @@ class Prober
       probe.verdict = result.end == End::refused ? Probe::Verdict::refused : Probe::Verdict::unstable;
     }
     if (!quiet_) {
-      print_err("{}: {} {}: {}{}\n", point.method, pointer_name(pointer_), value, to_text(probe.verdict),
+      print_err("{}: {} {}: {}{}\n", point.name(), pointer_name(pointer_), value, to_text(probe.verdict),
                 probe.why.empty() ? "" : ", " + probe.why);
     }
     return probe;
@@ -187,7 +196,7 @@ void find_limits(const StudyOptions& options, const LimitOptions& limit)
   study.repeat = 1;
   study.refine.clear();
   if (limit.energy_error) study.stable_if.energy_error = limit.energy_error;
-  const std::vector<Point> points = first_points(study, limit.pointer);
+  const std::vector<Point> points = points_with_a_limit(study, limit.pointer);
   std::vector<double> written;
   for (const Point& point : points) written.push_back(value_as_written(study, point, limit.pointer));
   expect_accepted(study, points, limit);

@@ -19,8 +19,9 @@ struct LimitOptions {
 };
 
 /// Looks for the value of a setting at which each method of a study, or a scene, stops being stable, and writes
-/// `limit.json` and `limit.csv`. Each method has the first values of its sweep. Throws InputError before anything runs,
-/// and after all is written where a method has no limit.
+/// `limit.json` and `limit.csv`. Methods that sweep the setting have a limit for each of their other combinations;
+/// where there are none, each method has one, with the first values of its sweep. Throws InputError before anything
+/// runs, and after all is written where a method has no limit.
 void find_limits(const StudyOptions& options, const LimitOptions& limit);
 
 }  // namespace tamp::tools::study

@@ -110,10 +110,11 @@ TEST_CASE("a closer bound on the energy is a lower limit")
   }
 }
 
-TEST_CASE("each method of a study has a limit, at the first values of its sweep and by its own quantity")
+TEST_CASE("each method of a study has a limit, with the first values of its sweep and by its own quantity")
 {
   const LimitFolder folder;
-  folder.write_study(R"({"stable_if": {"quantity": "displacement", "error_at_most": 0.5}})");
+  folder.write_study(R"({"sweep": {"/time/multiplier": null},
+                         "stable_if": {"quantity": "displacement", "error_at_most": 0.5}})");
 
   const Outcome outcome = folder.run("study.json", "--limit /time/multiplier --within 0.1 --quiet");
 
@@ -129,6 +130,22 @@ TEST_CASE("each method of a study has a limit, at the first values of its sweep 
       CHECK((probe["verdict"] == "stable") == is_near);
     }
   }
+}
+
+TEST_CASE("methods that sweep the setting have a limit for each of their other combinations, and others have none")
+{
+  const LimitFolder folder;
+  folder.write_study(R"({"methods": [{"name": "gimp"}, {"name": "other", "sweep": {"/transfer": ["flip", "pic"]}}]})");
+
+  const Outcome outcome = folder.run("study.json", "--limit /time/multiplier --within 0.5 --quiet");
+
+  INFO(outcome.err);
+  REQUIRE(outcome.exit_code == 0);
+  const Json methods = folder.limits()["methods"];
+  REQUIRE(methods.size() == 2);
+  CHECK(methods[0]["method"] == "gimp, cell size 1.5625");
+  CHECK(methods[1]["method"] == "gimp, cell size 0.78125");
+  CHECK(methods[0]["written"] == 0.2);
 }
 
 TEST_CASE("the runs of a limit are kept, and it is found again without them")
