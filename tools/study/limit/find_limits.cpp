@@ -125,7 +125,7 @@ class Prober
     if (result.end == End::done) {
       judge(result, probe);
     } else {
-      probe.verdict = result.end == End::refused ? Probe::Verdict::refused : Probe::Verdict::unstable;
+      probe.verdict = result.end == End::unstable ? Probe::Verdict::unstable : Probe::Verdict::no_answer;
     }
     if (!quiet_) {
       print_err("{}: {} {}: {}{}\n", point.name(), pointer_name(pointer_), value, to_text(probe.verdict),

@@ -37,18 +37,21 @@ class Bisection
     } else {
       widen();
     }
-    while (has_runs_left() && is_wide()) add(middle());
+    while (has_runs_left() && is_wide() && add(middle())) {
+    }
     if (!limit_.edge) limit_.note = why_not();
     return std::move(limit_);
   }
 
  private:
-  void add(double value)
+  /// Whether it had an answer.
+  bool add(double value)
   {
     const auto is_known = [=](const Probe& probe) { return probe.value == value; };
-    if (std::any_of(limit_.probes.begin(), limit_.probes.end(), is_known)) return;
+    if (std::any_of(limit_.probes.begin(), limit_.probes.end(), is_known)) return true;
     limit_.probes.push_back(try_value_(value));
     limit_.edge = nearest_edge();
+    return limit_.probes.back().verdict != Verdict::no_answer;
   }
 
   bool has_runs_left() const { return static_cast<int>(limit_.probes.size()) < search_.most_runs; }
@@ -57,8 +60,7 @@ class Bisection
   void widen()
   {
     const double factor = limit_.probes.front().verdict == Verdict::stable ? 2 : 0.5;
-    while (has_runs_left() && !limit_.edge && limit_.probes.back().verdict != Verdict::refused) {
-      add(rounded(limit_.probes.back().value * factor));
+    while (has_runs_left() && !limit_.edge && add(rounded(limit_.probes.back().value * factor))) {
     }
   }
 
@@ -75,7 +77,7 @@ class Bisection
   std::optional<Edge> nearest_edge() const
   {
     std::vector<Probe> all = limit_.probes;
-    std::erase_if(all, [](const Probe& probe) { return probe.verdict == Verdict::refused; });
+    std::erase_if(all, [](const Probe& probe) { return probe.verdict == Verdict::no_answer; });
     std::sort(all.begin(), all.end(), [](const Probe& a, const Probe& b) { return a.value < b.value; });
     std::optional<Edge> nearest;
     double least = HUGE_VAL;
@@ -96,7 +98,9 @@ class Bisection
         limit_.probes.begin(), limit_.probes.end(), [](const Probe& a, const Probe& b) { return a.value < b.value; });
     const Probe& last = limit_.probes.back();
     const std::string verdict = to_text(limit_.probes.front().verdict);
-    if (last.verdict == Verdict::refused) return fmt::format("{}; {} is refused: {}", verdict, last.value, last.why);
+    if (last.verdict == Verdict::no_answer) {
+      return fmt::format("{}; {} has no answer: {}", verdict, last.value, last.why);
+    }
     return fmt::format("{} at all {} values from {} to {}", verdict, limit_.probes.size(), least->value,
                        greatest->value);
   }
@@ -110,7 +114,7 @@ class Bisection
 
 std::string to_text(Verdict verdict)
 {
-  static constexpr std::array<const char*, 3> words{"stable", "unstable", "refused"};
+  static constexpr std::array<const char*, 3> words{"stable", "unstable", "no answer"};
   return words.at(static_cast<std::size_t>(verdict));
 }
 

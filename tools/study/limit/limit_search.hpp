@@ -21,10 +21,14 @@ struct LimitSearch {
 
 /// A run with one value of the setting.
 struct Probe {
-  enum class Verdict { stable, unstable, refused };
+  enum class Verdict {
+    stable,
+    unstable,
+    no_answer  ///< refused, or out of time
+  };
   double value = 0;
   Verdict verdict = Verdict::stable;
-  /// Why it is not stable, in words.
+  /// Why it is not stable, or why that is not known, in words.
   std::string why{};
   std::string command{};
   /// Relative error of the energy, and the error of the quantity that is judged, of a run that was done.

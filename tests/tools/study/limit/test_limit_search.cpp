@@ -82,17 +82,31 @@ TEST_CASE("no more runs are made than are allowed, and the edge is as narrow as 
   CHECK(search_limit("flip", 1, {std::nullopt, 0.02, 3}, stable_up_to(100)).probes.size() == 3);
 }
 
+TEST_CASE("a value in the middle that is refused ends the search, with the edge as wide as it is")
+{
+  const auto halves_only = [](double value) {
+    return Probe{value, value == 1 ? Verdict::stable : value == 2 ? Verdict::unstable : Verdict::no_answer};
+  };
+
+  const Limit limit = search_limit("cells", 1, {}, halves_only);
+
+  CHECK(limit.probes.size() == 3);
+  REQUIRE(limit.edge);
+  CHECK(limit.edge->stable.value == 1);
+  CHECK(limit.edge->unstable.value == 2);
+}
+
 TEST_CASE("a value that is refused ends the search for one that is not stable")
 {
   const auto refused_from_one = [](double value) {
-    return Probe{value, value > 1 ? Verdict::refused : Verdict::stable, "expected at most 1"};
+    return Probe{value, value > 1 ? Verdict::no_answer : Verdict::stable, "expected at most 1"};
   };
 
   const Limit limit = search_limit("flip", 0.8, {}, refused_from_one);
 
   CHECK_FALSE(limit.edge);
   CHECK(limit.probes.size() == 2);
-  CHECK(limit.note == "stable; 1.6 is refused: expected at most 1");
+  CHECK(limit.note == "stable; 1.6 has no answer: expected at most 1");
 }
 
 TEST_CASE("of several edges the one nearest to the value as written is the limit")
