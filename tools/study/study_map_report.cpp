@@ -63,6 +63,7 @@ std::string map_to_csv(const StudyResults& results)
                                     results.points[point].result.reason,
                                     command_text(results.measurements[point])};
       std::vector<std::string> texts;
+      texts.reserve(cells.size());
       for (const Json& value : cells) texts.push_back(csv_cell(value));
       text += fmt::format("{}\n", fmt::join(texts, ","));
     }

@@ -198,6 +198,7 @@ void find_limits(const StudyOptions& options, const LimitOptions& limit)
   if (limit.energy_error) study.stable_if.energy_error = limit.energy_error;
   const std::vector<Point> points = points_with_a_limit(study, limit.pointer);
   std::vector<double> written;
+  written.reserve(points.size());
   for (const Point& point : points) written.push_back(value_as_written(study, point, limit.pointer));
   expect_accepted(study, points, limit);
 
