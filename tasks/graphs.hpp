@@ -3,7 +3,6 @@
 #include <vector>
 
 #include "runtime/engine.hpp"
-#include "tasks/labels.hpp"
 #include "tasks/report/report.hpp"
 #include "tasks/report/sample_state.hpp"
 #include "tasks/time_step.hpp"
@@ -21,7 +20,7 @@ std::vector<runtime::GraphTasks> graphs_of(const Method<D>& method)
   const runtime::HostData host = host_data(method);
   return {{time_step(method), host},
           {report_tasks(method), {host.state, {&particle_report, &nose_report}}},
-          {sample_tasks(method), {host.state, {&state_sample, &cell::pressure}}}};
+          {sample_tasks(method), sample_data<D>()}};
 }
 
 }  // namespace tamp::tasks

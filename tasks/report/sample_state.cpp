@@ -106,6 +106,16 @@ runtime::TaskList sample_tasks(const Method<D>& method)
   return tasks;
 }
 
+template <int D>
+runtime::HostData sample_data()
+{
+  return {{&particle::id, &particle::position<D>, &particle::volume, &particle::mass, &particle::velocity<D>,
+           &particle::stress<D>, &particle::deformation_gradient<D>},
+          {&state_sample, &cell::pressure}};
+}
+
+template runtime::HostData sample_data<2>();
+template runtime::HostData sample_data<3>();
 template runtime::TaskList sample_tasks(const Method<2>&);
 template runtime::TaskList sample_tasks(const Method<3>&);
 
