@@ -71,7 +71,7 @@ std::vector<Monitor> of_steps(const tasks::Simulation& simulation)
 std::vector<Monitor> of_balances(const tasks::Simulation& simulation, const RunHistory& history)
 {
   const tasks::SceneLimits& limits = simulation.scene().limits;
-  const tasks::LostParticles lost = simulation.lost();
+  const tasks::LostParticles& lost = simulation.lost();
   return {
       {"energy_drift",
        {},

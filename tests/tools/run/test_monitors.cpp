@@ -12,8 +12,7 @@ namespace
 {
 
 /// What is out of range in the first steps is not asked about.
-const std::string punch =
-    TAMP_SOURCE_DIR "/inputs/punch/quick.json --quiet --steps 200 --set /limits/out_of_range=1";
+const std::string punch = TAMP_SOURCE_DIR "/inputs/punch/quick.json --quiet --steps 200 --set /limits/out_of_range=1";
 
 struct Run {
   Outcome outcome;
