@@ -156,8 +156,8 @@ TEST_CASE("a step that refuses itself moves no particle and leaves the state, on
                            data[step_verdict].refused = at.step.size > 1;
                          });
   PatchLayout layout({2, {0, 0, 0}, 1, {8, 4, 1}}, {4, 2, 1});
-  std::vector<int> owners;
-  for (int p = 0; p < 8; ++p) owners.push_back(p % ranks.size());
+  std::vector<int> owners(8);
+  for (int p = 0; p < 8; ++p) owners[static_cast<std::size_t>(p)] = p % ranks.size();
   layout.give_to_ranks(owners, ranks.size());
   Executor executor(2, on_shared_cores());
   Engine engine(layout, {"all"}, {{{move, judge, migration(position, step_verdict)}, {{&position, &way, &drift}, {}}}},

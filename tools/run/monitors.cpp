@@ -23,7 +23,7 @@ double number(Count count)
   return static_cast<double>(count);
 }
 
-double mass_of(const tasks::ParticleReport& report)
+double mass_on_grid(const tasks::ParticleReport& report)
 {
   double mass = 0;
   for (const tasks::BodySums& body : report.bodies) mass += body.mass;
@@ -95,7 +95,7 @@ std::vector<Monitor> of_balances(const tasks::Simulation& simulation, const RunH
        "viscosity that grows with the cells; smaller cells or a transfer that filters less (flip, tflip) keep it"},
       {"lost_mass",
        number(lost.count),
-       ratio(lost.mass, lost.mass + mass_of(history.report())),
+       ratio(lost.mass, lost.mass + mass_on_grid(history.report())),
        limits.lost_mass,
        {},
        "of the mass has left the grid, and acts on nothing from then on: a larger grid keeps it"}};
