@@ -95,7 +95,7 @@ TEST_CASE("particles are torn where tension holds them further apart than nodes 
   advance_to(*stretched, 0.09);
 
   const SampledShare& seen = torn->monitors().torn_apart;
-  CHECK(seen.greatest > 0.1);
+  CHECK(seen.greatest > scene.limits.torn_apart);
   CHECK(seen.above.count > 0);
   CHECK(seen.above.first.particle >= 0);
   CHECK(seen.above.first.material == 0);
