@@ -330,6 +330,20 @@ class Compiler
     if (version != nullptr) step_.edge(instance_of(*version, patch, group), filler, label, 0, 0);
   }
 
+  /// Of all tasks that touch the particles of a group on a patch.
+  std::vector<int> bodies_with_particles(int patch, int group) const
+  {
+    std::vector<int> bodies;
+    for (int d = 0; d < n_declarations(); ++d) {
+      if (!touches_particles(at(d))) continue;
+      for (const int g : {-1, group}) {
+        const auto body = bodies_.find({d, patch, g});
+        if (body != bodies_.end()) bodies.push_back(body->second);
+      }
+    }
+    return bodies;
+  }
+
   /// Particles move when all else that touches particles of the patch is done.
   void connect_migration(int d)
   {
@@ -338,11 +352,7 @@ class Compiler
       for (const int group : groups_of(at(d), n_groups_)) {
         const int sender = senders_.at({d, patch.id, group});
         const int receiver = receivers_.at({d, patch.id, group});
-        for (const auto& [place, body] : bodies_) {
-          const auto& [declaration, body_patch, body_group] = place;
-          const bool same = body_patch == patch.id && (body_group == group || body_group == -1);
-          if (same && touches_particles(at(declaration))) step_.edge(body, sender, position, 0, 0);
-        }
+        for (const int body : bodies_with_particles(patch.id, group)) step_.edge(body, sender, position, 0, 0);
         for (const Access& access : at(d).accesses) {
           if (access.mode != Mode::read) continue;
           const Use& maker = *stream_at(streams_, access.label, -1, d).version_before(d);

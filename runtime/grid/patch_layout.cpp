@@ -1,8 +1,10 @@
 #include "runtime/grid/patch_layout.hpp"
 
+#include <algorithm>
 #include <limits>
 #include <stdexcept>
 #include <string>
+#include <tuple>
 
 namespace tamp::runtime
 {
@@ -32,22 +34,39 @@ PatchLayout::PatchLayout(const Grid& grid, const Index& n_patches) : grid_(grid)
 
 void PatchLayout::find_neighbours(Patch& patch) const
 {
-  const IndexBox reach = grown(patch.cells, 1, 3);
-  Index around{0, 0, 0};
-  for (std::size_t k = 0; k < 3; ++k) around[k] = grid_.periodic[k] ? 1 : 0;
-  const IndexBox laps{opposite(around), {around[0] + 1, around[1] + 1, around[2] + 1}};
-  for (const Patch& other : patches_) {
-    bool touches = false;
-    for_each(laps, [&](const Index& lap) {
-      // An image further down shows a node by a higher index, so it comes later.
-      Index shift;
-      for (std::size_t k = 0; k < 3; ++k) shift[k] = -lap[k] * grid_.n_cells[k];
-      if (intersection(reach, moved(other.cells, shift)).empty()) return;
-      touches = true;
-      patch.images.push_back({other.id, shift});
-    });
-    if (touches && other.id != patch.id) patch.neighbours.push_back(other.id);
-  }
+  const Index own = place_of(patch.id);
+  for_each(IndexBox{{-1, -1, -1}, {2, 2, 2}}, [&](const Index& step) {
+    PatchImage image;
+    Index at{};
+    for (std::size_t k = 0; k < 3; ++k) {
+      at[k] = own[k] + step[k];
+      if (at[k] >= 0 && at[k] < n_patches_[k]) continue;
+      if (!grid_.periodic[k]) return;
+      const int lap = at[k] < 0 ? -1 : 1;
+      at[k] -= lap * n_patches_[k];
+      image.shift[k] = lap * grid_.n_cells[k];
+    }
+    image.patch = patch_at(at);
+    patch.images.push_back(image);
+    if (image.patch != patch.id) patch.neighbours.push_back(image.patch);
+  });
+  // An image further down shows a node by a higher index, so it comes later.
+  std::sort(patch.images.begin(), patch.images.end(), [](const PatchImage& a, const PatchImage& b) {
+    return std::tie(a.patch, b.shift[2], b.shift[1], b.shift[0]) <
+           std::tie(b.patch, a.shift[2], a.shift[1], a.shift[0]);
+  });
+  std::sort(patch.neighbours.begin(), patch.neighbours.end());
+  patch.neighbours.erase(std::unique(patch.neighbours.begin(), patch.neighbours.end()), patch.neighbours.end());
+}
+
+int PatchLayout::patch_at(const Index& place) const
+{
+  return place[0] + n_patches_[0] * (place[1] + n_patches_[1] * place[2]);
+}
+
+Index PatchLayout::place_of(int patch) const
+{
+  return {patch % n_patches_[0], patch / n_patches_[0] % n_patches_[1], patch / (n_patches_[0] * n_patches_[1])};
 }
 
 void PatchLayout::give_to_ranks(const std::vector<int>& rank_of_patch, int n_ranks)
@@ -75,8 +94,7 @@ int PatchLayout::narrowest() const
 int PatchLayout::patch_of_cell(const Index& cell) const
 {
   if (!grid_.cells().contains(cell)) return -1;
-  return cell[0] / cells_per_patch_[0] +
-         n_patches_[0] * (cell[1] / cells_per_patch_[1] + n_patches_[1] * (cell[2] / cells_per_patch_[2]));
+  return patch_at({cell[0] / cells_per_patch_[0], cell[1] / cells_per_patch_[1], cell[2] / cells_per_patch_[2]});
 }
 
 IndexBox PatchLayout::owned_nodes(const Patch& patch) const

@@ -84,6 +84,9 @@ class PatchLayout
 
  private:
   void find_neighbours(Patch& patch) const;
+  /// From the place of a patch among the patches to its number, and back.
+  int patch_at(const Index& place) const;
+  Index place_of(int patch) const;
 
   Grid grid_;
   Index n_patches_;
