@@ -5,7 +5,6 @@
 #include <tuple>
 #include <utility>
 
-#include "runtime/execute/move_patches.hpp"
 #include "runtime/execute/on_workers.hpp"
 #include "runtime/graph/step_verdict.hpp"
 #include "runtime/ranks/common_failure.hpp"
@@ -60,24 +59,31 @@ Engine::Engine(const PatchLayout& layout, std::vector<std::string> group_names, 
       executor_(executor),
       communicator_(communicator),
       after_failure_(communicator.duplicate()),
-      placed_(placed_on(layout)),
+      compiled_(compiled_on(layout)),
+      warehouse_(compiled_->pointers(), communicator.rank()),
+      ready_(ready(*compiled_)),
       profiler_(schedule(), bound(), executor.n_threads())
 {
 }
 
-std::unique_ptr<PlacedGraphs> Engine::placed_on(const PatchLayout& layout) const
+std::unique_ptr<CompiledGraphs> Engine::compiled_on(const PatchLayout& layout) const
 {
-  return std::make_unique<PlacedGraphs>(layout, group_names_, tasks_, executor_.n_threads(), communicator_);
+  return std::make_unique<CompiledGraphs>(layout, group_names_, tasks_);
 }
 
-Progress& Engine::now() const
+std::unique_ptr<ReadyGraphs> Engine::ready(const CompiledGraphs& compiled)
 {
-  return placed_->warehouse.global_state(progress_label);
+  return std::make_unique<ReadyGraphs>(compiled, warehouse_, executor_.n_threads(), communicator_);
+}
+
+Progress& Engine::now()
+{
+  return warehouse_.global_state(progress_label);
 }
 
 const Progress& Engine::progress() const
 {
-  return now();
+  return warehouse_.global_state(progress_label);
 }
 
 bool Engine::advance(double size, double end)
@@ -129,18 +135,20 @@ void Engine::balance_if_due()
   if (communicator_.size() == 1 || !balance_.is_due(step)) return;
   const auto watch = executor_.watch("redistributing patches");
   const auto ranks = balance_.look(step, layout(), profiler_.take_patch_costs(), communicator_);
-  if (ranks) deal_to(*ranks);
+  if (ranks) deal(*ranks);
 }
 
-void Engine::deal_to(const std::vector<int>& ranks)
+void Engine::deal(const std::vector<int>& ranks)
 {
-  PatchLayout layout = placed_->layout;
+  PatchLayout layout = compiled_->layout;
   layout.give_to_ranks(ranks, communicator_.size());
-  auto placed = placed_on(layout);
-  move_patches(placed_->warehouse, placed->warehouse, communicator_);
-  placed->schedules.front().recording = schedule().recording;
-  profiler_.follow(placed->schedules.front(), placed->bound.front());
-  placed_ = std::move(placed);
+  auto compiled = compiled_on(layout);
+  warehouse_.deal(compiled->pointers(), communicator_);
+  auto ready = this->ready(*compiled);
+  ready->schedules.front().recording = schedule().recording;
+  profiler_.follow(ready->schedules.front(), ready->bound.front());
+  ready_ = std::move(ready);
+  compiled_ = std::move(compiled);
 }
 
 CheckpointHeader Engine::header(const std::string& fingerprint) const

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "runtime/execute/placed_graphs.hpp"
+#include "runtime/execute/step_graphs.hpp"
 #include "runtime/profile/profiler.hpp"
 #include "runtime/ranks/load_balance.hpp"
 #include "runtime/storage/checkpoints/checkpoint.hpp"
@@ -54,9 +54,11 @@ class Engine
   unsigned asked() const { return asked_; }
 
   /// How many steps there are between two looks at the load of the ranks, each of which may deal the patches anew; 0:
-  /// patches stay where they are. References to the layout, the warehouse and the graphs do not outlive a deal.
+  /// patches stay where they are. References to the layout and the graphs do not outlive a deal.
   void balance_every(long n_steps) { balance_.look_every(n_steps); }
   const std::vector<Rebalance>& rebalances() const { return balance_.rebalances(); }
+  /// Gives each patch, between steps, to the rank that stands at its place in `ranks`.
+  void deal(const std::vector<int>& ranks);
 
   /// The profile of the steps so far on all ranks.
   Profile profile() const { return profiler_.profile(communicator_); }
@@ -77,21 +79,21 @@ class Engine
 
   const Communicator& communicator() const { return communicator_; }
   Executor& executor() const { return executor_; }
-  const PatchLayout& layout() const { return placed_->layout; }
+  const PatchLayout& layout() const { return compiled_->layout; }
   /// The state and the results, for the host between steps.
-  Warehouse& warehouse() { return placed_->warehouse; }
-  const Warehouse& warehouse() const { return placed_->warehouse; }
-  const TaskGraph& graph(std::size_t i = 0) const { return placed_->graphs[i]; }
-  BoundGraph& bound(std::size_t i = 0) { return placed_->bound[i]; }
-  Schedule& schedule(std::size_t i = 0) { return placed_->schedules[i]; }
+  Warehouse& warehouse() { return warehouse_; }
+  const Warehouse& warehouse() const { return warehouse_; }
+  const TaskGraph& graph(std::size_t i = 0) const { return compiled_->graphs[i]; }
+  BoundGraph& bound(std::size_t i = 0) { return ready_->bound[i]; }
+  Schedule& schedule(std::size_t i = 0) { return ready_->schedules[i]; }
 
  private:
-  Progress& now() const;
-  std::unique_ptr<PlacedGraphs> placed_on(const PatchLayout& layout) const;
+  Progress& now();
+  std::unique_ptr<CompiledGraphs> compiled_on(const PatchLayout& layout) const;
+  std::unique_ptr<ReadyGraphs> ready(const CompiledGraphs& compiled);
   void run_step(const Step& step);
   bool was_refused();
   void balance_if_due();
-  void deal_to(const std::vector<int>& ranks);
   CheckpointHeader header(const std::string& fingerprint) const;
 
   std::vector<std::string> group_names_;
@@ -100,7 +102,9 @@ class Engine
   Communicator communicator_;
   /// Ranks that failed at different places meet here, where no other messages are.
   Communicator after_failure_;
-  std::unique_ptr<PlacedGraphs> placed_;
+  std::unique_ptr<CompiledGraphs> compiled_;
+  Warehouse warehouse_;
+  std::unique_ptr<ReadyGraphs> ready_;
   Profiler profiler_;
   LoadBalance balance_;
   unsigned requests_ = 0;

@@ -37,6 +37,8 @@ class Buffer
     if (bytes > capacity_) resize_storage(capacity_ == 0 ? bytes : std::max(bytes, capacity_ + capacity_ / 16));
   }
 
+  void release() { resize_storage(0); }
+
   void swap(Buffer& other) noexcept
   {
     std::swap(data_, other.data_);

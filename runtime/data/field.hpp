@@ -28,6 +28,9 @@ struct Field {
   bool carried = false;
   /// Read from the step before, so kept from step to step.
   bool state = false;
+  /// Made anew by a step; and of parts that are added up.
+  bool computed = false;
+  bool accumulated = false;
 
   Buffer previous_buffer;
   Buffer current_buffer;
@@ -77,6 +80,13 @@ struct Field {
     std::vector<bool>& rows = written_rows_[static_cast<std::size_t>(which)];
     rows.assign(n_rows(), false);
     return rows;
+  }
+
+  /// Gives all buffers back: a field as of new.
+  void release()
+  {
+    for (Buffer* buffer : {&previous_buffer, &current_buffer, &part_buffer}) buffer->release();
+    written_ = {};
   }
 
   /// Makes room for what `only_written_rows` gives, once the box is known, so that no step asks for it.

@@ -5,7 +5,6 @@
 #include <chrono>
 #include <cstdlib>
 #include <cstring>
-#include <numeric>
 #include <stdexcept>
 #include <thread>
 
@@ -30,29 +29,16 @@ bool running()
   return begun != 0 && ended == 0;
 }
 
-/// Where pieces of these lengths begin when they stand in a row, and where the last one ends.
-std::vector<int> starts(const std::vector<int>& lengths)
-{
-  std::vector<int> at(lengths.size() + 1, 0);
-  std::partial_sum(lengths.begin(), lengths.end(), at.begin() + 1);
-  return at;
-}
+/// MPI counts in ints: what is longer travels in pieces.
+constexpr std::size_t longest_piece = std::size_t{1} << 30;
 
-std::vector<std::vector<std::byte>> cut(const std::vector<std::byte>& together, const std::vector<int>& starts)
-{
-  std::vector<std::vector<std::byte>> pieces;
-  for (std::size_t k = 0; k + 1 < starts.size(); ++k) {
-    pieces.emplace_back(together.begin() + starts[k], together.begin() + starts[k + 1]);
-  }
-  return pieces;
-}
-
-/// MPI counts in ints: what is longer travels in pieces, of which this visits the first byte and the length of each.
+/// Visits the first byte and the length of each piece.
 template <class Visit>
 void for_each_piece(std::size_t n, const Visit& visit)
 {
-  constexpr std::size_t longest = std::size_t{1} << 30;
-  for (std::size_t first = 0; first < n; first += longest) visit(first, static_cast<int>(std::min(longest, n - first)));
+  for (std::size_t first = 0; first < n; first += longest_piece) {
+    visit(first, static_cast<int>(std::min(longest_piece, n - first)));
+  }
 }
 
 constexpr int tag_of_bytes = 0;
@@ -125,40 +111,31 @@ void Communicator::gather_bytes(const void* own, void* all, std::size_t n) const
   }
 }
 
+/// A piece of each rank's bytes at a time, those of all together being of a length that MPI can count.
 std::vector<std::vector<std::byte>> Communicator::gather(std::span<const std::byte> own) const
 {
-  const std::vector<int> counts = gather_value(static_cast<int>(own.size()));
-  const std::vector<int> firsts = starts(counts);
-  std::vector<std::byte> together(static_cast<std::size_t>(firsts.back()));
-  if (handle_ == nullptr) {
-    std::copy(own.begin(), own.end(), together.begin());
-  } else {
+  if (handle_ == nullptr) return {{own.begin(), own.end()}};
+  const std::vector<std::size_t> lengths = gather_value(own.size());
+  const std::size_t longest = *std::max_element(lengths.begin(), lengths.end());
+  const std::size_t piece = longest_piece / lengths.size();
+  std::vector<std::vector<std::byte>> all(lengths.size());
+  std::vector<std::byte> together;
+  for (std::size_t first = 0; first < longest; first += piece) {
+    std::vector<int> counts, starts{0};
+    for (const std::size_t n : lengths) {
+      counts.push_back(static_cast<int>(std::clamp(n, first, first + piece) - first));
+      starts.push_back(starts.back() + counts.back());
+    }
+    together.resize(static_cast<std::size_t>(starts.back()));
     MPI_Request request = MPI_REQUEST_NULL;
-    MPI_Iallgatherv(own.data(), counts[static_cast<std::size_t>(rank_)], MPI_BYTE, together.data(), counts.data(),
-                    firsts.data(), MPI_BYTE, *handle_, &request);
+    MPI_Iallgatherv(own.data() + std::min(first, own.size()), counts[static_cast<std::size_t>(rank_)], MPI_BYTE,
+                    together.data(), counts.data(), starts.data(), MPI_BYTE, *handle_, &request);
     wait_for(request);
+    for (std::size_t k = 0; k < all.size(); ++k) {
+      all[k].insert(all[k].end(), together.begin() + starts[k], together.begin() + starts[k + 1]);
+    }
   }
-  return cut(together, firsts);
-}
-
-std::vector<std::vector<std::byte>> Communicator::exchange(const std::vector<std::vector<std::byte>>& to_each) const
-{
-  if (handle_ == nullptr) return to_each;
-  std::vector<int> given, taken(to_each.size());
-  std::vector<std::byte> out;
-  for (const auto& bytes : to_each) {
-    given.push_back(static_cast<int>(bytes.size()));
-    out.insert(out.end(), bytes.begin(), bytes.end());
-  }
-  MPI_Request request = MPI_REQUEST_NULL;
-  MPI_Ialltoall(given.data(), 1, MPI_INT, taken.data(), 1, MPI_INT, *handle_, &request);
-  wait_for(request);
-  const std::vector<int> given_at = starts(given), taken_at = starts(taken);
-  std::vector<std::byte> in(static_cast<std::size_t>(taken_at.back()));
-  MPI_Ialltoallv(out.data(), given.data(), given_at.data(), MPI_BYTE, in.data(), taken.data(), taken_at.data(),
-                 MPI_BYTE, *handle_, &request);
-  wait_for(request);
-  return cut(in, taken_at);
+  return all;
 }
 
 std::vector<std::string> Communicator::gather(const std::string& own) const
@@ -217,15 +194,13 @@ void Communicator::send(int rank, std::span<const std::byte> bytes) const
   });
 }
 
-std::vector<std::byte> Communicator::receive(int rank, std::size_t n) const
+void Communicator::receive(int rank, std::span<std::byte> bytes) const
 {
-  std::vector<std::byte> bytes(n);
-  for_each_piece(n, [&](std::size_t first, int of_piece) {
+  for_each_piece(bytes.size(), [&](std::size_t first, int n) {
     MPI_Request request = MPI_REQUEST_NULL;
-    MPI_Irecv(bytes.data() + first, of_piece, MPI_BYTE, rank, tag_of_bytes, *handle_, &request);
+    MPI_Irecv(bytes.data() + first, n, MPI_BYTE, rank, tag_of_bytes, *handle_, &request);
     wait_for(request);
   });
-  return bytes;
 }
 
 }  // namespace tamp::runtime

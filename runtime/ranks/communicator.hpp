@@ -52,8 +52,6 @@ class Communicator
   /// The bytes of each rank, by rank.
   std::vector<std::vector<std::byte>> gather(std::span<const std::byte> own) const;
   std::vector<std::string> gather(const std::string& own) const;
-  /// Gives each rank what is meant for it, by rank; returns what each has given to this one.
-  std::vector<std::vector<std::byte>> exchange(const std::vector<std::vector<std::byte>>& to_each) const;
   /// One value from each rank, by rank.
   template <class T>
   std::vector<T> gather_value(const T& own) const
@@ -82,7 +80,7 @@ class Communicator
   /// Bytes from this rank to another one, which takes as many with `receive`: not collective. Sends of one rank are
   /// received in their order.
   void send(int rank, std::span<const std::byte> bytes) const;
-  std::vector<std::byte> receive(int rank, std::size_t n) const;
+  void receive(int rank, std::span<std::byte> bytes) const;
 
  private:
   void gather_bytes(const void* own, void* all, std::size_t n) const;

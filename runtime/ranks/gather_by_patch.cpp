@@ -39,8 +39,11 @@ void gather_by_patch(std::span<const std::byte> own, std::span<std::byte> all, s
 {
   if (!communicator.is_first()) return communicator.send(0, own);
   place(0, own, all, n_bytes, layout);
+  std::vector<std::byte> theirs;
   for (int rank = 1; rank < communicator.size(); ++rank) {
-    place(rank, communicator.receive(rank, bytes_of_rank(rank, n_bytes, layout)), all, n_bytes, layout);
+    theirs.resize(bytes_of_rank(rank, n_bytes, layout));
+    communicator.receive(rank, theirs);
+    place(rank, theirs, all, n_bytes, layout);
   }
 }
 

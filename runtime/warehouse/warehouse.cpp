@@ -1,6 +1,7 @@
 #include "runtime/warehouse/warehouse.hpp"
 
 #include <algorithm>
+#include <cstddef>
 #include <stdexcept>
 
 namespace tamp::runtime
@@ -37,6 +38,7 @@ Warehouse::Warehouse(std::span<const TaskGraph* const> graphs, int rank)
   const auto n_places = static_cast<std::size_t>(layout_->size() * n_groups_);
   counts_.assign(n_places, 0);
   particle_fields_.resize(n_places);
+  fields_of_patch_.resize(static_cast<std::size_t>(layout_->size()));
   int halo = 0;
   for (const TaskGraph* graph : graphs) halo = std::max(halo, graph->storage_halo());
   for (const LabelUse& use : merged_uses(graphs)) {
@@ -82,6 +84,8 @@ void Warehouse::add_field(const LabelUse& use, int patch, int halo)
   f.patch = patch;
   f.group = use.group;
   f.state = use.state;
+  f.computed = use.computed;
+  f.accumulated = use.accumulated;
   f.carried = use.state && !use.computed;
   LedgerEntry& entry = ledger_.entry(use.label->name());
   f.previous_buffer = Buffer(ledger_, entry);
@@ -92,22 +96,76 @@ void Warehouse::add_field(const LabelUse& use, int patch, int halo)
     const auto place = static_cast<std::size_t>(patch * n_groups_ + use.group);
     f.n_particles = &counts_[place];
     particle_fields_[place].push_back(&f);
-  } else {
-    if (is_on_grid(centring)) {
-      const Patch& p = (*layout_)[patch];
-      f.box = grown(centring == Centring::node ? p.nodes : p.cells, halo, layout_->grid().dimension);
-      f.reserve_rows();
-    }
-    const bool reduction = centring == Centring::reduction;
-    const bool local = patch < 0 || is_local((*layout_)[patch]);
-    if (f.state && local) f.previous_buffer.reserve(f.n_bytes());
-    if (reduction || (use.computed && local)) f.current_buffer.reserve(f.n_bytes());
-    if (use.accumulated && local) f.part_buffer.reserve(f.n_bytes());
+  } else if (is_on_grid(centring)) {
+    const Patch& p = (*layout_)[patch];
+    f.box = grown(centring == Centring::node ? p.nodes : p.cells, halo, layout_->grid().dimension);
+    f.reserve_rows();
   }
+  reserve(f);
   // A part that no task reduces must not count.
   if (centring == Centring::reduction) use.label->reduction()->reset(f.current_buffer.data());
   if (centring == Centring::reduction && f.state) use.label->reduction()->reset(f.previous_buffer.data());
   lookup_[{use.label, patch, use.group}] = &f;
+  if (patch >= 0) fields_of_patch_[static_cast<std::size_t>(patch)].push_back(&f);
+}
+
+/// Makes room for the values of this rank's patches, and for the parts of a reduction from all.
+void Warehouse::reserve(Field& f) const
+{
+  const bool reduction = f.label->centring() == Centring::reduction;
+  const bool local = f.patch < 0 || is_local((*layout_)[f.patch]);
+  if (f.state && local) f.previous_buffer.reserve(f.n_bytes());
+  if (reduction || (f.computed && local)) f.current_buffer.reserve(f.n_bytes());
+  if (f.accumulated && local) f.part_buffer.reserve(f.n_bytes());
+}
+
+/// A patch of which nothing is kept but the parts of reductions, which come from every rank.
+void Warehouse::release(int patch)
+{
+  for (int g = 0; g < n_groups_; ++g) counts_[static_cast<std::size_t>(patch * n_groups_ + g)] = 0;
+  for (Field* f : fields_of_patch_[static_cast<std::size_t>(patch)]) {
+    if (f->label->centring() != Centring::reduction) f->release();
+  }
+}
+
+/// What a patch holds between steps: its particles and the state on it.
+void Warehouse::send(int patch, int rank, const Communicator& communicator)
+{
+  for (int g = 0; g < n_groups_; ++g) {
+    const std::size_t n = n_particles(patch, g);
+    communicator.send(rank, std::as_bytes(std::span(&n, 1)));
+  }
+  for (const Field* f : fields_of_patch_[static_cast<std::size_t>(patch)]) {
+    if (f->state) communicator.send(rank, {f->previous_buffer.data(), f->n_bytes()});
+  }
+}
+
+void Warehouse::receive(int patch, int rank, const Communicator& communicator)
+{
+  for (int g = 0; g < n_groups_; ++g) {
+    std::size_t n = 0;
+    communicator.receive(rank, std::as_writable_bytes(std::span(&n, 1)));
+    set_n_particles(patch, g, n);
+  }
+  for (Field* f : fields_of_patch_[static_cast<std::size_t>(patch)]) {
+    reserve(*f);
+    if (f->state) communicator.receive(rank, {f->previous_buffer.data(), f->n_bytes()});
+  }
+}
+
+/// All ranks go through the patches in one order, so that each transfer finds both of its ends.
+void Warehouse::deal(std::span<const TaskGraph* const> graphs, const Communicator& communicator)
+{
+  const std::vector<int> old_ranks = layout_->ranks();
+  layout_ = &graphs.front()->layout();
+  for (const Patch& patch : *layout_) {
+    const int from = old_ranks[static_cast<std::size_t>(patch.id)];
+    const bool stays = from == rank_ && patch.rank == rank_;
+    if (from == rank_ && !stays) send(patch.id, patch.rank, communicator);
+    if (!stays) release(patch.id);
+    if (patch.rank == rank_ && !stays) receive(patch.id, from, communicator);
+  }
+  for (const TaskGraph* graph : graphs) reserve_copies(*graph);
 }
 
 std::size_t Warehouse::forecast_bytes() const

@@ -11,6 +11,7 @@
 #include "runtime/data/memory_ledger.hpp"
 #include "runtime/data/views.hpp"
 #include "runtime/graph/task_graph.hpp"
+#include "runtime/ranks/communicator.hpp"
 
 namespace tamp::runtime
 {
@@ -26,6 +27,12 @@ class Warehouse
   /// read the state and make results of their own. Node and cell fields exist from here on, particle fields grow with
   /// `set_n_particles`.
   explicit Warehouse(std::span<const TaskGraph* const> graphs, int rank = 0);
+  Warehouse(const Warehouse&) = delete;
+  Warehouse& operator=(const Warehouse&) = delete;
+
+  /// The same graphs over patches dealt anew. What a patch holds goes straight into its fields on the other rank, one
+  /// field at a time, and patches that stay are not touched. Collective.
+  void deal(std::span<const TaskGraph* const> graphs, const Communicator& communicator);
 
   const PatchLayout& layout() const { return *layout_; }
   int n_groups() const { return n_groups_; }
@@ -62,6 +69,11 @@ class Warehouse
   {
     return *reinterpret_cast<T*>(field(label, -1, -1).previous_buffer.data());
   }
+  template <class T>
+  const T& global_state(const TypedLabel<T, Centring::global>& label) const
+  {
+    return *reinterpret_cast<const T*>(field(label, -1, -1).previous_buffer.data());
+  }
   /// A node or cell field that is no state, as the last step left it.
   template <class T, Centring C>
   GridView<const T> grid_result(const TypedLabel<T, C>& label, int patch, int group)
@@ -95,12 +107,20 @@ class Warehouse
   std::deque<Field>& fields() { return fields_; }
   /// The field itself, for the executor. Throws std::out_of_range for a label that no graph uses.
   Field& field(const Label& label, int patch, int group);
+  const Field& field(const Label& label, int patch, int group) const
+  {
+    return const_cast<Warehouse*>(this)->field(label, patch, group);
+  }
   /// All particle fields of a patch and group; those that are state come with their particles when they migrate.
   const std::vector<Field*>& particle_fields(int patch, int group) const;
   const std::size_t& count(int patch, int group) const;
 
  private:
   void add_field(const LabelUse& use, int patch, int halo);
+  void reserve(Field& field) const;
+  void release(int patch);
+  void send(int patch, int rank, const Communicator& communicator);
+  void receive(int patch, int rank, const Communicator& communicator);
   void reserve_copies(const TaskGraph& graph);
 
   const PatchLayout* layout_;
@@ -111,6 +131,8 @@ class Warehouse
   std::map<std::tuple<const Label*, int, int>, Field*> lookup_;
   std::vector<std::size_t> counts_;
   std::vector<std::vector<Field*>> particle_fields_;
+  /// All fields of each patch, but those of the rank as a whole.
+  std::vector<std::vector<Field*>> fields_of_patch_;
 };
 
 }  // namespace tamp::runtime

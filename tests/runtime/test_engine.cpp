@@ -2,6 +2,7 @@
 
 #include <catch2/catch.hpp>
 
+#include <algorithm>
 #include <numeric>
 
 #include "runtime/graph/step_verdict.hpp"
@@ -64,6 +65,41 @@ TEST_CASE("patches that follow the load to other ranks take all along", "[engine
   CHECK(heat.engine.rebalances().empty() != several);
   for (const Rebalance& deal : heat.engine.rebalances()) CHECK(deal.imbalance_expected < deal.imbalance_before);
   CHECK(heat.engine.profile().n_steps == 20);
+}
+
+TEST_CASE("patches that are dealt to other ranks between steps change nothing", "[engine][ranks]")
+{
+  const Communicator ranks = Communicator::world();
+  Heat heat = plate(ranks);
+  heat.run(8, dt);
+  std::vector<int> turned;
+  for (const Patch& patch : heat.engine.layout()) turned.push_back((patch.rank + 1 + patch.id / 5) % ranks.size());
+
+  heat.engine.deal(turned);
+  heat.run(6, dt);
+  heat.engine.deal(std::vector<int>(turned.size(), ranks.size() - 1));
+  heat.run(6, dt);
+
+  CHECK(all_of(heat) == alone(20));
+}
+
+TEST_CASE("a deal holds no more than what it moves beside what stays", "[engine][ranks]")
+{
+  const Communicator ranks = Communicator::world();
+  Heat heat = plate(ranks);
+  heat.run(3, dt);
+  const LedgerEntry& held = heat.engine.warehouse().ledger().total();
+  const std::size_t peak = held.peak(), before = held.current();
+  std::vector<int> same = heat.engine.layout().ranks();
+
+  heat.engine.deal(same);
+  CHECK(held.peak() == peak);
+  std::reverse(same.begin(), same.end());
+  heat.engine.deal(same);
+  heat.engine.deal(std::vector<int>(same.rbegin(), same.rend()));
+
+  CHECK(held.current() <= before + before / 16);
+  CHECK(all_of(heat) == alone(3));
 }
 
 TEST_CASE("an engine goes on from a checkpoint to the same bits, however patches are dealt", "[engine][ranks]")

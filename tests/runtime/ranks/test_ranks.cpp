@@ -4,7 +4,6 @@
 
 #include "runtime/execute/bound_graph.hpp"
 #include "runtime/execute/executor.hpp"
-#include "runtime/execute/move_patches.hpp"
 #include "runtime/grid/curve_order.hpp"
 #include "runtime/ranks/deal_patches.hpp"
 #include "tests/runtime/shared_cores.hpp"
@@ -346,21 +345,6 @@ TEST_CASE("a rank without patches takes part", "[ranks]")
   world.run(10);
 
   CHECK(world.values() == alone(10));
-}
-
-TEST_CASE("patches that move to other ranks between steps change nothing", "[ranks]")
-{
-  const Communicator all = Communicator::world();
-  World before(all, along_curve(all.size()), 2);
-  before.fill();
-  before.run(15);
-  const std::vector<int> ranks = dealt_out(12, 5, all.size());
-  World after(all, ranks, 2);
-
-  move_patches(before.warehouse, after.warehouse, all);
-  after.run(25);
-
-  CHECK(after.values() == alone(40));
 }
 
 TEST_CASE("a task that throws on one rank stops the others, which hear why", "[ranks]")
