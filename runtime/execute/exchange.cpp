@@ -13,7 +13,27 @@ namespace
 {
 
 constexpr std::size_t header_bytes = sizeof(std::uint64_t);
+/// MPI counts in ints. Lengths are rounded up to so many bytes, and these counted: up to 128 GiB.
+constexpr std::size_t unit_bytes = 64;
 constexpr std::size_t longest_failure = 1000;
+
+MPI_Datatype unit()
+{
+  MPI_Datatype type = MPI_DATATYPE_NULL;
+  MPI_Type_contiguous(unit_bytes, MPI_BYTE, &type);
+  MPI_Type_commit(&type);
+  return type;
+}
+
+int in_units(std::size_t n_bytes)
+{
+  return static_cast<int>(n_bytes / unit_bytes);
+}
+
+std::size_t whole_units(std::size_t n_bytes)
+{
+  return (n_bytes + unit_bytes - 1) / unit_bytes * unit_bytes;
+}
 
 bool of_particles(const Message& message)
 {
@@ -35,6 +55,7 @@ Exchange::Exchange(const TaskGraph& graph, Warehouse& warehouse, Migration* migr
       warehouse_(warehouse),
       migration_(migration),
       communicator_(communicator.duplicate()),
+      unit_(unit()),
       lines_(graph.messages().size()),
       failure_text_(longest_failure, '\0')
 {
@@ -63,15 +84,14 @@ void Exchange::open_line(Line& line, int message)
     return;
   }
   // Before each part, whether all of it is zero and left out.
-  line.bytes.resize(header_bytes + m.parts.size() + m.bytes);
-  const int n = static_cast<int>(line.bytes.size());
+  line.bytes.resize(whole_units(header_bytes + m.parts.size() + m.bytes));
+  const int n = in_units(line.bytes.size());
   if (incoming) {
     line.incoming_request = requests_.size();
-    MPI_Recv_init(line.bytes.data(), n, MPI_BYTE, m.from_rank, message, communicator_.handle(),
-                  &requests_.emplace_back());
+    MPI_Recv_init(line.bytes.data(), n, unit_, m.from_rank, message, communicator_.handle(), &requests_.emplace_back());
     message_of_request_.push_back(message);
   } else {
-    MPI_Send_init(line.bytes.data(), n, MPI_BYTE, m.to_rank, message, communicator_.handle(), &line.request);
+    MPI_Send_init(line.bytes.data(), n, unit_, m.to_rank, message, communicator_.handle(), &line.request);
   }
 }
 
@@ -88,6 +108,7 @@ Exchange::~Exchange()
     if (!failed_) wait_for(line.request);
     if (line.request != MPI_REQUEST_NULL) MPI_Request_free(&line.request);
   }
+  MPI_Type_free(&unit_);
 }
 
 void Exchange::send(int message)
@@ -104,7 +125,7 @@ void Exchange::send(int message)
   std::memcpy(line.bytes.data(), &now, header_bytes);
   const std::lock_guard lock(mutex_);
   if (of_particles(*line.message)) {
-    MPI_Isend(line.bytes.data(), static_cast<int>(line.bytes.size()), MPI_BYTE, line.message->to_rank, message,
+    MPI_Isend(line.bytes.data(), in_units(line.bytes.size()), unit_, line.message->to_rank, message,
               communicator_.handle(), &line.request);
   } else {
     MPI_Start(&line.request);
@@ -129,6 +150,7 @@ void Exchange::pack(Line& line)
   if (of_particles(m)) {
     line.bytes.resize(header_bytes);
     for (const MessagePart& part : m.parts) migration_->write_parcel(part, line.bytes);
+    line.bytes.resize(whole_units(line.bytes.size()));
     return;
   }
   std::byte* at = line.bytes.data() + header_bytes;
@@ -184,9 +206,9 @@ void Exchange::probe(std::size_t message, std::vector<int>& arrived, std::uint64
   MPI_Improbe(line.message->from_rank, static_cast<int>(message), communicator_.handle(), &there, &handle, &status);
   if (there == 0) return;
   int n = 0;
-  MPI_Get_count(&status, MPI_BYTE, &n);
-  line.bytes.resize(static_cast<std::size_t>(n));
-  MPI_Mrecv(line.bytes.data(), n, MPI_BYTE, &handle, MPI_STATUS_IGNORE);
+  MPI_Get_count(&status, unit_, &n);
+  line.bytes.resize(static_cast<std::size_t>(n) * unit_bytes);
+  MPI_Mrecv(line.bytes.data(), n, unit_, &handle, MPI_STATUS_IGNORE);
   line.open = false;
   take(line, arrived, idle_since);
 }

@@ -85,6 +85,8 @@ class Exchange
   Warehouse& warehouse_;
   Migration* migration_;
   Communicator communicator_;
+  /// What lengths are counted in.
+  MPI_Datatype unit_;
   std::mutex mutex_;
   /// By message; those of other ranks are empty.
   std::vector<Line> lines_;
