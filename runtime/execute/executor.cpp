@@ -5,6 +5,7 @@
 #include <mutex>
 #include <optional>
 #include <random>
+#include <stdexcept>
 
 #include "runtime/execute/clock.hpp"
 #include "runtime/execute/scheduler/backoff.hpp"
@@ -24,6 +25,28 @@ namespace
 constexpr double time_between_polls = 30e-6;
 
 using Entry = ScheduleState::Entry;
+
+/// MPI for one run, as no two threads may call it at once.
+class TurnAtMpi
+{
+ public:
+  explicit TurnAtMpi(bool is_needed) : is_needed_(is_needed)
+  {
+    if (is_needed_ && taken.exchange(true)) {
+      throw std::logic_error("two graphs over several ranks run at once; expected one at a time");
+    }
+  }
+  ~TurnAtMpi()
+  {
+    if (is_needed_) taken = false;
+  }
+  TurnAtMpi(const TurnAtMpi&) = delete;
+  TurnAtMpi& operator=(const TurnAtMpi&) = delete;
+
+ private:
+  inline static std::atomic<bool> taken{false};
+  bool is_needed_;
+};
 
 }  // namespace
 
@@ -91,6 +114,7 @@ Executor::Workers::Workers(int n_threads, ExecutorOptions options)
 
 void Executor::Workers::run(Schedule& schedule, const Step& step)
 {
+  const TurnAtMpi turn(schedule.state_->work().has_messages());
   schedule_ = schedule.state_.get();
   recording_ = schedule.recording;
   step_ = &step;

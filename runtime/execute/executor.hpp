@@ -64,7 +64,10 @@ struct ExecutorOptions {
   StallOptions stall = {};
 };
 
-/// Runs schedules on oneTBB threads, which stay with it from step to step.
+/// Runs schedules on oneTBB threads, which stay with it from step to step in an arena of their own. The program's other
+/// uses of oneTBB, further executors among them, keep the threads that they would have without it.
+///
+/// Of graphs over several ranks one runs at a time, as MPI is called by one thread at a time (MPI_THREAD_SERIALIZED).
 class Executor
 {
  public:
@@ -82,7 +85,7 @@ class Executor
 
   /// Runs every instance of the schedule once, each as soon as its predecessors are done, and returns when all are.
   /// An exception of a task stops all workers and is thrown here as a TaskError, one of `Work::poll` as it is; the
-  /// schedule is spent then.
+  /// schedule is spent then. Throws std::logic_error where another graph with messages is running.
   void run(Schedule& schedule, const Step& step);
 
   /// Between runs: has the watchdog see to it that what the host does meanwhile, with other ranks, ends in time.

@@ -24,8 +24,7 @@ std::mutex& joining()
 }  // namespace
 
 ThreadTeam::ThreadTeam(int n_workers, bool cores_are_shared, std::function<void(int)> job)
-    : concurrency_(oneapi::tbb::global_control::max_allowed_parallelism,
-                   static_cast<std::size_t>(std::max(2, n_workers))),
+    : reserved_(n_workers - 1),
       arena_(std::max(2, n_workers), 1),
       cores_are_shared_(cores_are_shared),
       job_(std::move(job)),

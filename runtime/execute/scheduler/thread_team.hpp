@@ -1,6 +1,5 @@
 #pragma once
 
-#include <oneapi/tbb/global_control.h>
 #include <oneapi/tbb/task_arena.h>
 
 #include <atomic>
@@ -8,6 +7,8 @@
 #include <functional>
 #include <memory>
 #include <vector>
+
+#include "runtime/execute/scheduler/reserved_threads.hpp"
 
 namespace tamp::runtime
 {
@@ -34,7 +35,7 @@ class ThreadTeam
 
   void serve(int worker);
 
-  oneapi::tbb::global_control concurrency_;
+  ReservedThreads reserved_;
   oneapi::tbb::task_arena arena_;
   bool cores_are_shared_;
   std::function<void(int)> job_;

@@ -1,5 +1,6 @@
 #include "runtime/execute/executor.hpp"
 
+#include <oneapi/tbb/global_control.h>
 #include <algorithm>
 #include <atomic>
 #include <catch2/catch.hpp>
@@ -9,8 +10,10 @@
 #include <set>
 #include <thread>
 
+#include "runtime/execute/on_workers.hpp"
 #include "tests/runtime/execute/toy_work.hpp"
 #include "tests/runtime/heat.hpp"
+#include "tests/runtime/shared_cores.hpp"
 
 namespace tamp::runtime::test_executor
 {
@@ -43,6 +46,53 @@ struct Row {
 };
 
 }  // namespace
+
+namespace
+{
+
+/// Whether `n` workers of an executor ever ran at the same time: each waits a while for the others.
+bool all_work(Executor& executor, int n)
+{
+  std::atomic<int> n_here{0};
+  std::atomic<bool> met{false};
+  on_workers(executor, n, [&](int) {
+    ++n_here;
+    const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(5);
+    while (!met && std::chrono::steady_clock::now() < end) {
+      if (n_here == n) met = true;
+      std::this_thread::yield();
+    }
+  });
+  return met;
+}
+
+std::size_t threads_of_program()
+{
+  return oneapi::tbb::global_control::active_value(oneapi::tbb::global_control::max_allowed_parallelism);
+}
+
+}  // namespace
+
+TEST_CASE("executors leave the program the threads that it has, and have their own", "[executor]")
+{
+  const std::size_t before = threads_of_program();
+  {
+    Executor one(2, test::on_shared_cores()), other(4, test::on_shared_cores());
+
+    CHECK(all_work(one, 2));
+    CHECK(all_work(other, 4));
+    CHECK(threads_of_program() == before + 1 + 3);
+  }
+  CHECK(threads_of_program() == before);
+}
+
+TEST_CASE("an executor says so where the program allows it too few threads", "[executor]")
+{
+  const oneapi::tbb::global_control two(oneapi::tbb::global_control::max_allowed_parallelism, 2);
+
+  CHECK_NOTHROW(Executor(2));
+  CHECK_THROWS_WITH(Executor(3), "this program limits oneTBB to 2 threads; expected at least 3");
+}
 
 TEST_CASE("every instance runs exactly once a step, after those it waits for", "[executor]")
 {

@@ -117,6 +117,19 @@ TEST_CASE("the record of another rank's instance says when its message came", "[
   CHECK(records[0].end <= records[static_cast<std::size_t>(after)].start);
 }
 
+TEST_CASE("of graphs over several ranks one runs at a time", "[executor][messages]")
+{
+  test::ToyWork inner, outer;
+  inner.add(0, {}, [](const Step&) {});
+  Schedule inside(inner, 1);
+  Executor one(1), other(1);
+  outer.add(0, {}, [&](const Step& step) { other.run(inside, step); });
+  Schedule outside(outer, 1);
+
+  CHECK_THROWS_WITH(one.run(outside, {}), Catch::Contains("two graphs over several ranks run at once"));
+  CHECK_NOTHROW(other.run(inside, {}));
+}
+
 TEST_CASE("the failure of another rank stops the run and comes out as it is", "[executor][messages]")
 {
   const auto executor = any_executor();
