@@ -28,6 +28,11 @@ class BoundGraph final : public Work
   bool is_local(int instance) const { return at(instance).rank == rank_; }
   /// Messages from other ranks so far.
   Traffic traffic() const { return exchange_ == nullptr ? Traffic{} : exchange_->traffic(); }
+  /// See Exchange; empty on one rank.
+  std::vector<std::uint64_t> message_ticks() const
+  {
+    return exchange_ == nullptr ? std::vector<std::uint64_t>{} : exchange_->message_ticks();
+  }
 
   int n_instances() const override { return static_cast<int>(bound_.size()); }
   std::span<const int> predecessors(int instance) const override;

@@ -57,7 +57,8 @@ Exchange::Exchange(const TaskGraph& graph, Warehouse& warehouse, Migration* migr
       communicator_(communicator.duplicate()),
       unit_(unit()),
       lines_(graph.messages().size()),
-      failure_text_(longest_failure, '\0')
+      failure_text_(longest_failure, '\0'),
+      message_ticks_(lines_.size(), 0)
 {
   for (std::size_t m = 0; m < lines_.size(); ++m) open_line(lines_[m], static_cast<int>(m));
   const int failure_tag = static_cast<int>(lines_.size());
@@ -190,31 +191,32 @@ void Exchange::poll(std::vector<int>& arrived, std::uint64_t idle_since)
   for (int k = 0; k < n; ++k) {
     const int message = message_of_request_[static_cast<std::size_t>(completed_[static_cast<std::size_t>(k)])];
     if (message < 0) take_failure();
-    take(lines_[static_cast<std::size_t>(message)], arrived, idle_since);
+    take(message, arrived, idle_since);
   }
   for (const int message : particle_messages_) {
-    if (lines_[static_cast<std::size_t>(message)].open) probe(static_cast<std::size_t>(message), arrived, idle_since);
+    if (lines_[static_cast<std::size_t>(message)].open) probe(message, arrived, idle_since);
   }
 }
 
-void Exchange::probe(std::size_t message, std::vector<int>& arrived, std::uint64_t idle_since)
+void Exchange::probe(int message, std::vector<int>& arrived, std::uint64_t idle_since)
 {
-  Line& line = lines_[message];
+  Line& line = lines_[static_cast<std::size_t>(message)];
   int there = 0;
   MPI_Message handle = MPI_MESSAGE_NULL;
   MPI_Status status;
-  MPI_Improbe(line.message->from_rank, static_cast<int>(message), communicator_.handle(), &there, &handle, &status);
+  MPI_Improbe(line.message->from_rank, message, communicator_.handle(), &there, &handle, &status);
   if (there == 0) return;
   int n = 0;
   MPI_Get_count(&status, unit_, &n);
   line.bytes.resize(static_cast<std::size_t>(n) * unit_bytes);
   MPI_Mrecv(line.bytes.data(), n, unit_, &handle, MPI_STATUS_IGNORE);
   line.open = false;
-  take(line, arrived, idle_since);
+  take(message, arrived, idle_since);
 }
 
-void Exchange::take(const Line& line, std::vector<int>& arrived, std::uint64_t idle_since)
+void Exchange::take(int message, std::vector<int>& arrived, std::uint64_t idle_since)
 {
+  const Line& line = lines_[static_cast<std::size_t>(message)];
   arrived.push_back(line.message->send);
   std::uint64_t sent = 0;
   std::memcpy(&sent, line.bytes.data(), header_bytes);
@@ -223,6 +225,7 @@ void Exchange::take(const Line& line, std::vector<int>& arrived, std::uint64_t i
   traffic_.n_bytes += line.bytes.size();
   if (now <= sent) return;
   traffic_.under_way += now - sent;
+  message_ticks_[static_cast<std::size_t>(message)] += now - sent;
   const std::uint64_t waiting_since = std::max(sent, idle_since);
   if (idle_since != 0 && now > waiting_since) traffic_.waited_for += now - waiting_since;
 }

@@ -58,6 +58,8 @@ class Exchange
   void fail(const std::string& what);
 
   const Traffic& traffic() const { return traffic_; }
+  /// Ticks from being sent to being seen, summed, for each message of the graph; 0 for those to other ranks.
+  const std::vector<std::uint64_t>& message_ticks() const { return message_ticks_; }
 
  private:
   struct Line {
@@ -77,8 +79,8 @@ class Exchange
   void open_line(Line& line, int message);
   void pack(Line& line);
   void unpack(const Line& line);
-  void probe(std::size_t line, std::vector<int>& arrived, std::uint64_t idle_since);
-  void take(const Line& line, std::vector<int>& arrived, std::uint64_t idle_since);
+  void probe(int message, std::vector<int>& arrived, std::uint64_t idle_since);
+  void take(int message, std::vector<int>& arrived, std::uint64_t idle_since);
   void take_failure();
 
   const TaskGraph& graph_;
@@ -98,6 +100,7 @@ class Exchange
   std::vector<char> failure_text_;
   bool failed_ = false;
   Traffic traffic_;
+  std::vector<std::uint64_t> message_ticks_;
 };
 
 }  // namespace tamp::runtime

@@ -1,52 +1,12 @@
 #include "runtime/profile/profiler.hpp"
 
 #include <algorithm>
-#include <bit>
-#include <cmath>
 #include <cstring>
 #include <numeric>
 #include <utility>
 
 namespace tamp::runtime
 {
-
-void DurationHistogram::add(std::uint64_t ticks)
-{
-  ++count_;
-  total_ += ticks;
-  least_ = std::min(least_, ticks);
-  most_ = std::max(most_, ticks);
-  // The octave is the place of the top bit; the next five bits tell the bin within it.
-  const std::uint64_t value = std::max<std::uint64_t>(ticks, bins_per_octave);
-  const auto octave = static_cast<int>(std::bit_width(value)) - 1;
-  const auto within = static_cast<std::size_t>(value >> (octave - 5)) % bins_per_octave;
-  const auto bin = static_cast<std::size_t>(octave) * bins_per_octave + within;
-  ++bins_[std::min(bin, bins_.size() - 1)];
-}
-
-void DurationHistogram::merge(const DurationHistogram& other)
-{
-  count_ += other.count_;
-  total_ += other.total_;
-  least_ = std::min(least_, other.least_);
-  most_ = std::max(most_, other.most_);
-  for (std::size_t bin = 0; bin < bins_.size(); ++bin) bins_[bin] += other.bins_[bin];
-}
-
-double DurationHistogram::quantile(double q) const
-{
-  const double wanted = q * static_cast<double>(count_);
-  double seen = 0;
-  for (std::size_t bin = 0; bin < bins_.size(); ++bin) {
-    seen += bins_[bin];
-    if (seen < wanted || bins_[bin] == 0) continue;
-    const auto octave = static_cast<int>(bin / bins_per_octave);
-    const double within = (static_cast<double>(bin % bins_per_octave) + 0.5) / bins_per_octave;
-    const double middle = std::ldexp(1 + within, octave);
-    return std::clamp(middle, static_cast<double>(least()), static_cast<double>(most_));
-  }
-  return static_cast<double>(most_);
-}
 
 Profiler::Profiler(const Schedule& schedule, BoundGraph& graph, int n_workers) : n_workers_(n_workers)
 {
@@ -57,12 +17,17 @@ Profiler::Profiler(const Schedule& schedule, BoundGraph& graph, int n_workers) :
 
 void Profiler::follow(const Schedule& schedule, BoundGraph& graph)
 {
-  if (graph_ != nullptr) steps_.traffic = traffic();
+  if (graph_ != nullptr) {
+    steps_.traffic = traffic();
+    add_patch_ticks(rows_);
+  }
   schedule_ = &schedule;
   graph_ = &graph;
   const TaskGraph& tasks = graph.graph();
   const auto n_patches = static_cast<std::size_t>(tasks.layout().size());
   path_.assign(tasks.instances().size(), 0);
+  instance_ticks_.assign(tasks.instances().size(), 0);
+  n_followed_ = 0;
   patch_costs_.assign(n_patches, 0);
   row_of_instance_.clear();
   for (const Instance& instance : tasks.instances()) {
@@ -73,49 +38,85 @@ void Profiler::follow(const Schedule& schedule, BoundGraph& graph)
     }
     row_of_instance_.push_back(static_cast<std::size_t>(row - rows_.begin()));
   }
+  waits_.make_room(rows_.size());
 }
 
 void Profiler::add_step()
+{
+  constexpr long look_every = 8;
+  const std::uint64_t start = ticks();
+  add_durations();
+  if (n_steps_ % look_every == 0) look_closely();
+  ++n_steps_;
+  ++n_followed_;
+  steps_.recording += ticks() - start;
+}
+
+void Profiler::add_durations()
 {
   const auto& records = schedule_->records();
   const auto& instances = graph_->graph().instances();
   std::uint64_t first = ~std::uint64_t{0};
   std::uint64_t last = 0;
-  std::uint64_t longest = 0;
   const bool traced = is_traced(n_steps_);
   for (std::size_t i = 0; i < records.size(); ++i) {
     if (!graph_->is_local(static_cast<int>(i))) continue;
     const InstanceRecord& record = records[i];
     const std::uint64_t duration = record.end - record.start;
+    first = std::min(first, record.start);
+    last = std::max(last, record.end);
+    Totals& totals = rows_[row_of_instance_[i]].totals;
+    if (graph_->was_skipped(static_cast<int>(i))) {
+      ++totals.skipped;
+    } else {
+      totals.durations.add(duration);
+    }
+    instance_ticks_[i] += duration;
+    const Instance& instance = instances[i];
+    if (instance.patch >= 0) patch_costs_[static_cast<std::size_t>(instance.patch)] += static_cast<double>(duration);
+    if (traced) traced_.push_back({row_of_instance_[i], instance.patch, instance.group, record});
+  }
+  if (last <= first) return;
+  steps_.ticks += last - first;
+  if (last_end_ != 0 && first > last_end_) steps_.between += first - last_end_;
+  last_end_ = last;
+}
+
+void Profiler::look_closely()
+{
+  const auto& records = schedule_->records();
+  const auto& instances = graph_->graph().instances();
+  std::uint64_t longest = 0;
+  for (std::size_t i = 0; i < records.size(); ++i) {
+    if (!graph_->is_local(static_cast<int>(i))) continue;
+    const InstanceRecord& record = records[i];
     std::uint64_t ready = 0;
     std::uint64_t path = 0;
     for (const int p : instances[i].predecessors) {
       ready = std::max(ready, records[static_cast<std::size_t>(p)].end);
       path = std::max(path, path_[static_cast<std::size_t>(p)]);
     }
-    path_[i] = path + duration;
+    path_[i] = path + record.end - record.start;
     longest = std::max(longest, path_[i]);
-    first = std::min(first, record.start);
-    last = std::max(last, record.end);
-
-    const Instance& instance = instances[i];
-    Row& row = rows_[row_of_instance_[i]];
-    if (graph_->was_skipped(static_cast<int>(i))) {
-      ++row.totals.skipped;
-    } else {
-      row.totals.durations.add(duration);
-    }
-    // Time stamps of two cores may differ by a little; a wait is never negative.
-    if (ready != 0 && record.start > ready) row.totals.wait += record.start - ready;
-    row.totals.bytes += static_cast<double>(graph_->bytes(static_cast<int>(i)));
-    row.totals.particles += static_cast<double>(graph_->n_particles(static_cast<int>(i)));
-    row.per_patch[static_cast<std::size_t>(std::max(0, instance.patch))] += duration;
-    if (instance.patch >= 0) patch_costs_[static_cast<std::size_t>(instance.patch)] += static_cast<double>(duration);
-    if (traced) traced_.push_back({row_of_instance_[i], instance.patch, instance.group, record});
+    Totals& totals = rows_[row_of_instance_[i]].totals;
+    // Time stamps of two cores may differ by a little; a delay is never negative.
+    if (ready != 0 && record.start > ready) totals.ready_delay += record.start - ready;
+    totals.bytes += static_cast<double>(graph_->bytes(static_cast<int>(i)));
+    totals.particles += static_cast<double>(graph_->n_particles(static_cast<int>(i)));
   }
-  ++n_steps_;
-  if (last > first) steps_.ticks += last - first;
+  waits_.add_step(*graph_, records, row_of_instance_);
   steps_.path_ticks += longest;
+  ++n_looked_at_;
+}
+
+/// What each task took on each patch, of the steps since the graph is followed.
+void Profiler::add_patch_ticks(std::vector<Row>& rows) const
+{
+  const auto& instances = graph_->graph().instances();
+  for (std::size_t i = 0; i < instances.size(); ++i) {
+    rows[row_of_instance_[i]].per_patch[static_cast<std::size_t>(std::max(0, instances[i].patch))] +=
+        instance_ticks_[i];
+  }
 }
 
 /// All ranks know the whole graph, so that they trace the same steps.
@@ -140,16 +141,17 @@ Traffic Profiler::traffic() const
 /// The rows are the same on all ranks, as the graph is: only their numbers travel.
 std::vector<Profiler::Row> Profiler::rows_of_all(const Communicator& communicator) const
 {
+  std::vector<Row> all = rows_;
+  add_patch_ticks(all);
   std::vector<std::byte> own;
   const auto add = [&](const auto* first, std::size_t n) {
     const auto bytes = std::as_bytes(std::span(first, n));
     own.insert(own.end(), bytes.begin(), bytes.end());
   };
-  for (const Row& row : rows_) {
+  for (const Row& row : all) {
     add(&row.totals, 1);
     add(row.per_patch.data(), row.per_patch.size());
   }
-  std::vector<Row> all = rows_;
   const auto from_each = communicator.gather(own);
   for (int rank = 0; rank < communicator.size(); ++rank) {
     if (rank == communicator.rank()) continue;
@@ -162,7 +164,7 @@ std::vector<Profiler::Row> Profiler::rows_of_all(const Communicator& communicato
       from += sizeof totals + per_patch.size() * sizeof(std::uint64_t);
       row.totals.durations.merge(totals.durations);
       row.totals.skipped += totals.skipped;
-      row.totals.wait += totals.wait;
+      row.totals.ready_delay += totals.ready_delay;
       row.totals.bytes += totals.bytes;
       row.totals.particles += totals.particles;
       for (std::size_t p = 0; p < per_patch.size(); ++p) row.per_patch[p] += per_patch[p];
@@ -174,6 +176,7 @@ std::vector<Profiler::Row> Profiler::rows_of_all(const Communicator& communicato
 TaskStatistics Profiler::statistics(const Row& row, std::uint64_t all_ticks, double second) const
 {
   const DurationHistogram& durations = row.totals.durations;
+  const double of_all_steps = steps_for_each_looked_at();
   TaskStatistics t;
   t.name = row.name;
   t.count = durations.count();
@@ -184,12 +187,12 @@ TaskStatistics Profiler::statistics(const Row& row, std::uint64_t all_ticks, dou
   t.max_s = static_cast<double>(durations.most()) * second;
   t.p95_s = durations.quantile(0.95) * second;
   t.share = static_cast<double>(durations.total()) / static_cast<double>(all_ticks);
-  t.bytes = row.totals.bytes;
-  t.particles = row.totals.particles;
+  t.bytes = row.totals.bytes * of_all_steps;
+  t.particles = row.totals.particles * of_all_steps;
   const double sum = static_cast<double>(std::accumulate(row.per_patch.begin(), row.per_patch.end(), std::uint64_t{0}));
   const double most = static_cast<double>(*std::max_element(row.per_patch.begin(), row.per_patch.end()));
   t.imbalance = sum > 0 ? most * static_cast<double>(row.per_patch.size()) / sum : 1;
-  t.wait_s = static_cast<double>(row.totals.wait) * second;
+  t.ready_delay_s = static_cast<double>(row.totals.ready_delay) * second * of_all_steps;
   return t;
 }
 
@@ -217,19 +220,98 @@ Profile Profiler::profile(const Communicator& communicator) const
     together.first_tick = std::min(together.first_tick, steps.first_tick);
     together.ticks += steps.ticks;
     longest = std::max(longest, steps.ticks);
+    together.recording = std::max(together.recording, steps.recording);
+    together.between = std::max(together.between, steps.between);
     together.path_ticks = std::max(together.path_ticks, steps.path_ticks);
     together.traffic.add(steps.traffic);
   }
   if (n_steps_ > 0) {
     profile.step_s = static_cast<double>(longest) * second / static_cast<double>(n_steps_);
-    profile.critical_path_s = static_cast<double>(together.path_ticks) * second / static_cast<double>(n_steps_);
+    profile.critical_path_s = static_cast<double>(together.path_ticks) * second / static_cast<double>(n_looked_at_);
+    profile.recording_s = static_cast<double>(together.recording) * second / static_cast<double>(n_steps_);
+    profile.between_s = static_cast<double>(together.between) * second / static_cast<double>(n_steps_);
     profile.overhead = 1 - static_cast<double>(all) / (static_cast<double>(together.ticks) * n_workers_);
   }
   profile.n_messages = together.traffic.n_messages;
   profile.message_bytes = together.traffic.n_bytes;
   profile.message_s = static_cast<double>(together.traffic.under_way) * second;
   profile.message_wait_s = static_cast<double>(together.traffic.waited_for) * second;
+  profile.waits = waits(communicator, second);
+  replay_mean_step(profile, communicator, second);
   return profile;
+}
+
+/// The longest of the waits between two tasks, over all ranks.
+std::vector<Wait> Profiler::waits(const Communicator& communicator, double second) const
+{
+  constexpr std::size_t most = 10;
+  const std::vector<std::uint64_t> all = communicator.sum(waits_.ticks());
+  const std::size_t n = waits_.n_rows();
+  std::vector<Wait> waits;
+  for (std::size_t k = 0; k < all.size(); ++k) {
+    if (all[k] == 0) continue;
+    const std::string task = k / n < n ? rows_[k / n].name : "end of the step";
+    waits.push_back({task, rows_[k % n].name, static_cast<double>(all[k]) * second * steps_for_each_looked_at()});
+  }
+  std::sort(waits.begin(), waits.end(), [](const Wait& a, const Wait& b) { return a.total_s > b.total_s; });
+  waits.resize(std::min(waits.size(), most));
+  return waits;
+}
+
+double Profiler::steps_for_each_looked_at() const
+{
+  return n_looked_at_ > 0 ? static_cast<double>(n_steps_) / static_cast<double>(n_looked_at_) : 0;
+}
+
+/// Of all ranks, over the steps since patches were dealt last.
+TimedStep Profiler::mean_step(const Communicator& communicator, double second) const
+{
+  const double to_mean = second / static_cast<double>(n_followed_);
+  TimedStep step{&graph_->graph(), {}, {}};
+  for (const std::uint64_t ticks : communicator.sum(instance_ticks_)) {
+    step.instance_s.push_back(static_cast<double>(ticks) * to_mean);
+  }
+  for (const std::uint64_t ticks : communicator.sum(graph_->message_ticks())) {
+    step.message_s.push_back(static_cast<double>(ticks) * to_mean);
+  }
+  return step;
+}
+
+/// Replays the mean step as it is, and with each of the dearest tasks faster: what is worth speeding up. The first
+/// rank does that for all.
+void Profiler::replay_mean_step(Profile& profile, const Communicator& communicator, double second) const
+{
+  if (n_followed_ == 0) return;
+  const TimedStep mean = mean_step(communicator, second);
+  if (!communicator.is_first()) return;
+  const Chain chain = longest_chain(mean);
+  profile.longest_chain_s = chain.length_s;
+  const auto task = [&](std::size_t row) {
+    return std::find_if(profile.tasks.begin(), profile.tasks.end(),
+                        [&](const TaskStatistics& t) { return t.name == rows_[row].name; });
+  };
+  for (const int i : chain.instances) {
+    const auto t = task(row_of_instance_[static_cast<std::size_t>(i)]);
+    if (t != profile.tasks.end()) t->chain_s += mean.instance_s[static_cast<std::size_t>(i)];
+  }
+  // About a microsecond an instance: together some seconds at most.
+  constexpr std::size_t most_instances = 4'000'000, most_tasks = 16;
+  const std::size_t n_tasks = std::min(
+      {profile.tasks.size(), most_tasks, most_instances / (2 * std::max<std::size_t>(mean.instance_s.size(), 1))});
+  if (n_tasks == 0) return;
+  profile.replayed_s = replay(mean, n_workers_);
+  for (std::size_t k = 0; k < n_tasks; ++k) {
+    TaskStatistics& t = profile.tasks[k];
+    const auto gain = [&](double part) {
+      TimedStep faster = mean;
+      for (std::size_t i = 0; i < faster.instance_s.size(); ++i) {
+        if (rows_[row_of_instance_[i]].name == t.name) faster.instance_s[i] *= 1 - part;
+      }
+      return 1 - replay(faster, n_workers_) / profile.replayed_s;
+    };
+    t.gain_of_tenth = gain(0.1);
+    t.gain_of_all = gain(1);
+  }
 }
 
 Trace Profiler::trace(const Communicator& communicator) const

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <string>
@@ -9,91 +8,16 @@
 #include "runtime/execute/bound_graph.hpp"
 #include "runtime/execute/clock.hpp"
 #include "runtime/execute/executor.hpp"
+#include "runtime/profile/duration_histogram.hpp"
+#include "runtime/profile/profile.hpp"
+#include "runtime/profile/replay.hpp"
+#include "runtime/profile/worker_waits.hpp"
 
 namespace tamp::runtime
 {
 
-/// How long the instances of one task took, kept as counts by length: 32 bins an octave, so that a quantile is known
-/// to about 2 %.
-class DurationHistogram
-{
- public:
-  void add(std::uint64_t ticks);
-  std::uint64_t count() const { return count_; }
-  std::uint64_t total() const { return total_; }
-  std::uint64_t least() const { return count_ == 0 ? 0 : least_; }
-  std::uint64_t most() const { return most_; }
-  void merge(const DurationHistogram& other);
-  /// The length that a share of `q` (0..1) of all does not pass.
-  double quantile(double q) const;
-
- private:
-  static constexpr int bins_per_octave = 32;
-
-  std::uint64_t count_ = 0;
-  std::uint64_t total_ = 0;
-  std::uint64_t least_ = ~std::uint64_t{0};
-  std::uint64_t most_ = 0;
-  std::array<std::uint32_t, 48 * bins_per_octave> bins_{};
-};
-
-/// One row of the profile. Times in seconds.
-struct TaskStatistics {
-  std::string name;
-  std::uint64_t count = 0;
-  /// Instances that found nothing to work on; they are in none of the other numbers but the wait.
-  std::uint64_t skipped = 0;
-  double total_s = 0;
-  double mean_s = 0;
-  double min_s = 0;
-  double max_s = 0;
-  double p95_s = 0;
-  /// Part of the time of all tasks; the shares of all rows add up to 1.
-  double share = 0;
-  double bytes = 0;
-  double particles = 0;
-  /// Time of the busiest patch over the mean of all patches.
-  double imbalance = 1;
-  /// Between the end of the last predecessor and the start, summed.
-  double wait_s = 0;
-};
-
-/// One instance in the trace; times in seconds since the profile began.
-struct TraceEvent {
-  /// Its place among the names of the trace.
-  std::size_t task = 0;
-  int rank = 0;
-  int patch = 0;
-  int group = 0;
-  std::uint32_t worker = 0;
-  double start_s = 0;
-  double end_s = 0;
-};
-
-/// The first steps, instance by instance.
-struct Trace {
-  std::vector<std::string> tasks;
-  std::vector<TraceEvent> events;
-};
-
-struct Profile {
-  /// Most expensive first.
-  std::vector<TaskStatistics> tasks;
-  long n_steps = 0;
-  long n_traced_steps = 0;
-  /// Mean time of a step, of its longest chain of tasks, and the share of the workers' time outside of task bodies.
-  double step_s = 0;
-  double critical_path_s = 0;
-  double overhead = 0;
-  /// Messages between ranks: how many, how long, how long on their way in sum, and the part of that in which the worker
-  /// that took them in had nothing else to run.
-  std::uint64_t n_messages = 0;
-  std::uint64_t message_bytes = 0;
-  double message_s = 0;
-  double message_wait_s = 0;
-};
-
-/// Gathers what the workers of a rank recorded, after each step and outside of it.
+/// Gathers what the workers of a rank recorded, after each step and outside of it. How long everything took is taken in
+/// of every step; what needs more looking (waits, chains, bytes, particles) of every eighth.
 class Profiler
 {
  public:
@@ -121,7 +45,8 @@ class Profiler
   struct Totals {
     DurationHistogram durations;
     std::uint64_t skipped = 0;
-    std::uint64_t wait = 0;
+    // Of the steps that are looked at.
+    std::uint64_t ready_delay = 0;
     double bytes = 0;
     double particles = 0;
   };
@@ -139,12 +64,22 @@ class Profiler
   struct Steps {
     std::uint64_t first_tick = 0;
     std::uint64_t ticks = 0;
+    std::uint64_t recording = 0;
+    /// From the end of one step to the start of the next.
+    std::uint64_t between = 0;
     std::uint64_t path_ticks = 0;
     Traffic traffic;
   };
 
   std::vector<Row> rows_of_all(const Communicator& communicator) const;
   TaskStatistics statistics(const Row& row, std::uint64_t all_ticks, double second) const;
+  void add_durations();
+  void look_closely();
+  void add_patch_ticks(std::vector<Row>& rows) const;
+  double steps_for_each_looked_at() const;
+  std::vector<Wait> waits(const Communicator& communicator, double second) const;
+  TimedStep mean_step(const Communicator& communicator, double second) const;
+  void replay_mean_step(Profile& profile, const Communicator& communicator, double second) const;
   bool is_traced(long step) const;
   Traffic traffic() const;
 
@@ -155,10 +90,16 @@ class Profiler
   TickRate rate_;
   std::vector<Row> rows_;
   std::vector<std::size_t> row_of_instance_;
+  /// By instance: the longest chain up to its end in a step, and what it took in all since this graph is followed.
   std::vector<std::uint64_t> path_;
+  std::vector<std::uint64_t> instance_ticks_;
+  long n_followed_ = 0;
+  WorkerWaits waits_;
+  long n_looked_at_ = 0;
   std::vector<double> patch_costs_;
   std::vector<TracedInstance> traced_;
   long n_steps_ = 0;
+  std::uint64_t last_end_ = 0;
   /// With the traffic of the graphs before the one that is followed now.
   Steps steps_;
 };

@@ -1,0 +1,91 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <string>
+#include <vector>
+
+namespace tamp::runtime
+{
+
+/// One row of the profile. Times in seconds.
+struct TaskStatistics {
+  std::string name;
+  std::uint64_t count = 0;
+  /// Instances that found nothing to work on; they are in none of the other numbers but the wait.
+  std::uint64_t skipped = 0;
+  double total_s = 0;
+  double mean_s = 0;
+  double min_s = 0;
+  double max_s = 0;
+  double p95_s = 0;
+  /// Part of the time of all tasks; the shares of all rows add up to 1.
+  double share = 0;
+  double bytes = 0;
+  double particles = 0;
+  /// Time of the busiest patch over the mean of all patches.
+  double imbalance = 1;
+  /// Between the end of the last predecessor and the start, summed: ready, but others had their turn.
+  double ready_delay_s = 0;
+  /// In the mean step, what of the longest chain is this task.
+  double chain_s = 0;
+  /// What part of the mean step is saved if every instance takes a tenth less, and if none takes any time; NaN where
+  /// that was not found out.
+  double gain_of_tenth = std::numeric_limits<double>::quiet_NaN();
+  double gain_of_all = std::numeric_limits<double>::quiet_NaN();
+};
+
+/// Workers that stood still because an instance of `task` waited for one of `cause`; seconds over all steps.
+struct Wait {
+  std::string task;
+  std::string cause;
+  double total_s = 0;
+};
+
+/// One instance in the trace; times in seconds since the profile began.
+struct TraceEvent {
+  /// Its place among the names of the trace.
+  std::size_t task = 0;
+  int rank = 0;
+  int patch = 0;
+  int group = 0;
+  std::uint32_t worker = 0;
+  double start_s = 0;
+  double end_s = 0;
+};
+
+/// The first steps, instance by instance.
+struct Trace {
+  std::vector<std::string> tasks;
+  std::vector<TraceEvent> events;
+};
+
+struct Profile {
+  /// Most expensive first.
+  std::vector<TaskStatistics> tasks;
+  long n_steps = 0;
+  long n_traced_steps = 0;
+  /// Mean time of a step, of its longest chain of tasks on one rank, and the share of the workers' time outside of task
+  /// bodies.
+  double step_s = 0;
+  double critical_path_s = 0;
+  double overhead = 0;
+  /// The longest chain of the mean step through tasks and messages of all ranks: a step is no shorter on any number of
+  /// threads. And how long the mean step takes when it is replayed, beside `step_s`; 0 where it was not.
+  double longest_chain_s = 0;
+  double replayed_s = 0;
+  /// What the record itself takes, and all that the host does between steps, for each step.
+  double recording_s = 0;
+  double between_s = 0;
+  /// The longest first; the time is that of all workers of all ranks.
+  std::vector<Wait> waits;
+  /// Messages between ranks: how many, how long, how long on their way in sum, and the part of that in which the worker
+  /// that took them in had nothing else to run.
+  std::uint64_t n_messages = 0;
+  std::uint64_t message_bytes = 0;
+  double message_s = 0;
+  double message_wait_s = 0;
+};
+
+}  // namespace tamp::runtime

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <vector>
+
+#include "runtime/graph/task_graph.hpp"
+
+namespace tamp::runtime
+{
+
+/// A step with how long everything in it takes [s]: the mean of many, for instance.
+struct TimedStep {
+  const TaskGraph* graph = nullptr;
+  /// By instance.
+  std::vector<double> instance_s;
+  /// By message, from being sent to being seen.
+  std::vector<double> message_s;
+};
+
+/// How long a step takes [s] on `n_workers` threads a rank: what the executor would do, without doing it. Every patch
+/// has its worker, who runs what is ready in serial order and takes from others what it finds there when idle. Neither
+/// the scheduler nor the record take time here.
+double replay(const TimedStep& step, int n_workers);
+
+/// The instances of the longest chain of tasks and messages, first to last, and its length.
+struct Chain {
+  std::vector<int> instances;
+  double length_s = 0;
+};
+Chain longest_chain(const TimedStep& step);
+
+}  // namespace tamp::runtime
