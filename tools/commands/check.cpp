@@ -10,6 +10,7 @@
 #include "tools/commands/commands.hpp"
 #include "tools/run/forecast.hpp"
 #include "tools/scene/compiled_moduli.hpp"
+#include "tools/scene/penetration.hpp"
 #include "tools/scene/plausibility.hpp"
 #include "tools/scene/print_json.hpp"
 #include "tools/scene/read_scene.hpp"
@@ -45,6 +46,15 @@ void print_volumes(const tasks::Scene& scene, const tasks::SceneBody& body)
             100 * (filled / solid.value - 1));
 }
 
+/// On how many cells a body goes into another one, if it does.
+void print_cells(const tasks::Scene& scene, const tasks::SceneBody& body)
+{
+  const auto penetration = penetration_of(scene, body);
+  if (!penetration) return;
+  print_err("        {:.1f} cells to its half width, on its way into {}\n", penetration->cells(),
+            penetration->into->name);
+}
+
 void check(const CheckArguments& options)
 {
   const CheckedScene checked = read_scene(options.scene, options.assignments);
@@ -60,6 +70,7 @@ void check(const CheckArguments& options)
     const std::string& material = scene.materials[static_cast<std::size_t>(body.material)].name;
     print_err("  body  {}: {} particles of {}\n", body.name, body.n_particles, material);
     print_volumes(scene, body);
+    print_cells(scene, body);
   }
   for (const std::string& line : compiled_moduli(checked)) print_err("  {}\n", line);
   print_notes(checked.notes);

@@ -13,6 +13,7 @@
 #include "tasks/set_up/initial_moduli.hpp"
 #include "tools/scene/csv_table.hpp"
 #include "tools/scene/file_kind.hpp"
+#include "tools/scene/penetration.hpp"
 
 namespace tamp::tools
 {
@@ -129,13 +130,6 @@ void check_pressure(const tasks::Scene& scene, const tasks::SceneBody& body, War
       body.name, pressure, pressure / stiffness, material.name, stiffness));
 }
 
-/// Which way a body goes in a scene; zero if it rests.
-Eigen::Vector3d way_of(const tasks::Scene& scene, const tasks::SceneBody& body)
-{
-  if (body.drive) return body.drive->motion.way(0, scene.time.end);
-  return Eigen::Vector3d(body.velocity.data());
-}
-
 /// How far the foremost particle of a body ends behind the body's tip [m].
 template <int D>
 double behind_tip(const tasks::Scene& scene, const tasks::SceneBody& body, const Vector<D>& direction)
@@ -181,6 +175,17 @@ void check_approach(const tasks::Scene& scene, Warnings& warnings)
         "m before they touch; by \"regression\" only where they touch",
         i, cells * scene.grid.cell_size));
   }
+}
+
+void check_width(const tasks::Scene& scene, const tasks::SceneBody& body, Warnings& warnings)
+{
+  const auto penetration = penetration_of(scene, body);
+  if (!penetration || !penetration->is_coarse()) return;
+  warnings.push_back(
+      fmt::format("/bodies/{}/geometry: half its width across its way into {} is {:.3g} cells; with fewer than {} the "
+                  "force on it tends to be a tenth or more too large; cells of at most {:.2g} m are fine enough",
+                  body.name, penetration->into->name, penetration->cells(), least_cells_per_half_width,
+                  penetration->fine_cell_size()));
 }
 
 void check_mass(const tasks::Scene& scene, const tasks::SceneBody& body, Warnings& warnings)
@@ -259,6 +264,7 @@ std::vector<std::string> plausibility_warnings(const CheckedScene& checked)
     check_speed(body, fastest_wave, warnings);
     check_pressure(scene, body, warnings);
     check_mass(scene, body, warnings);
+    check_width(scene, body, warnings);
   }
   return warnings;
 }

@@ -112,6 +112,17 @@ TEST_CASE("what is hardly ever meant is warned of")
   CHECK_FALSE(warns(as_tested, ""));
 }
 
+TEST_CASE("the check says on how many cells a body goes into another one, and the run warns where they are few")
+{
+  const Outcome as_shipped = tamp_with("check " + punch);
+  const Run coarse = run_with("--steps 1 --set /grid/cell_size=0.05");
+
+  CHECK_THAT(as_shipped.err, Catch::Contains("6.0 cells to its half width, on its way into sand"));
+  CHECK_FALSE(warns("/grid/cell_size=0.025", "half its width"));
+  REQUIRE(coarse.summary["warnings"].size() == 1);
+  CHECK_THAT(coarse.summary["warnings"][0].get<std::string>(), Catch::Contains("into sand is 3 cells"));
+}
+
 TEST_CASE("a run whose substeps miss their tolerance ends with a warning that says how many do")
 {
   const std::string rough =
@@ -162,7 +173,8 @@ TEST_CASE("the check warns of contact ahead of touch, and of tips that hold no p
   };
   const std::string as_shipped = checked(""),
                     blunt = checked(
-                        " --set /contact/0/normal=regression --set /bodies/cone/geometry/of/1/of/0/first_radius=0.015");
+                        " --set /contact/0/normal=regression --set /bodies/cone/geometry/of/1/of/0/first_radius=0.015"
+                        " --set /grid/cell_size=0.0025");
 
   CHECK_THAT(as_shipped, Catch::Contains("/contact/0/normal: bodies push each other as soon as"));
   CHECK_THAT(as_shipped, Catch::Contains("/bodies/cone/geometry: its foremost particle ends"));

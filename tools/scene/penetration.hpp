@@ -1,0 +1,35 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+
+#include "tasks/scene.hpp"
+
+namespace tamp::tools
+{
+
+/// How far a body's velocity or its drive takes it by the end of the scene, if nothing stops it [m].
+Eigen::Vector3d way_of(const tasks::Scene& scene, const tasks::SceneBody& body);
+
+/// With fewer cells to a half width the force on it is a tenth or more too large, see docs/choosing.md.
+inline constexpr double least_cells_per_half_width = 6;
+
+/// That a body is on its way into a softer one of another material.
+struct Penetration {
+  const tasks::SceneBody* into;
+  /// Half of the body's least width across that way, or all of it from a wall on which the body lies: a half or a
+  /// quarter of it is simulated [m].
+  double half_width;
+  double cell_size;
+
+  double cells() const { return half_width / cell_size; }
+  bool is_coarse() const;
+  /// The largest cells that are small enough, rounded down to two digits [m].
+  double fine_cell_size() const;
+};
+
+/// None where it meets no other body, or only slides along it, or reaches from wall to wall. Of several bodies that it
+/// meets the one on whose way it is the thinnest.
+std::optional<Penetration> penetration_of(const tasks::Scene& scene, const tasks::SceneBody& body);
+
+}  // namespace tamp::tools
