@@ -2,6 +2,7 @@
 
 #include <chrono>
 #include <cstdint>
+#include <ctime>
 
 #if defined(__x86_64__)
 #  include <x86intrin.h>
@@ -18,6 +19,14 @@ inline std::uint64_t ticks()
 #else
   return static_cast<std::uint64_t>(std::chrono::steady_clock::now().time_since_epoch().count());
 #endif
+}
+
+/// Processor time of the calling thread [ns]. A call takes a fifth of a microsecond: not for every task of every step.
+inline std::uint64_t thread_time()
+{
+  timespec time{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
+  return static_cast<std::uint64_t>(time.tv_sec) * 1'000'000'000 + static_cast<std::uint64_t>(time.tv_nsec);
 }
 
 /// Turns ticks into seconds by comparing the counter with the steady clock since construction.

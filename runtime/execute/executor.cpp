@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <limits>
 #include <mutex>
 #include <optional>
 #include <random>
@@ -89,6 +90,7 @@ class Executor::Workers
   // The run that goes on.
   ScheduleState* schedule_ = nullptr;
   bool recording_ = true;
+  bool taking_processor_time_ = false;
   const Step* step_ = nullptr;
   bool has_messages_ = false;
   std::uint64_t poll_interval_ = 0;
@@ -117,6 +119,7 @@ void Executor::Workers::run(Schedule& schedule, const Step& step)
   const TurnAtMpi turn(schedule.state_->work().has_messages());
   schedule_ = schedule.state_.get();
   recording_ = schedule.recording;
+  taking_processor_time_ = schedule.taking_processor_time;
   step_ = &step;
   schedule_->begin_step();
   has_messages_ = schedule_->work().has_messages();
@@ -208,6 +211,7 @@ void Executor::Workers::run_instance(Entry& entry, int worker)
   const std::uint64_t start = ticks();
   self.since.store(start, std::memory_order_relaxed);
   self.running.store(entry.instance, std::memory_order_relaxed);
+  const std::uint64_t used_before = taking_processor_time_ ? thread_time() : 0;
   try {
     schedule_->work().run(entry.instance, *step_);
   } catch (const std::exception& error) {
@@ -216,7 +220,10 @@ void Executor::Workers::run_instance(Entry& entry, int worker)
     return fail(entry.instance, "unknown exception");
   }
   if (recording_) {
-    schedule_->record(entry, {start, ticks(), static_cast<std::uint32_t>(worker)});
+    const std::uint64_t used = taking_processor_time_ ? thread_time() - used_before : 0;
+    constexpr std::uint64_t most = std::numeric_limits<std::uint32_t>::max();
+    schedule_->record(
+        entry, {start, ticks(), static_cast<std::uint32_t>(worker), static_cast<std::uint32_t>(std::min(used, most))});
   }
   schedule_->complete(entry);
 }
@@ -239,7 +246,7 @@ const std::vector<int>& Executor::Workers::poll(int worker, std::uint64_t idle_s
     stop(std::current_exception());
   }
   std::erase_if(arrived, [&](int instance) {
-    return !schedule_->arrive(instance, {now, now, static_cast<std::uint32_t>(worker)});
+    return !schedule_->arrive(instance, {now, now, static_cast<std::uint32_t>(worker), 0});
   });
   return arrived;
 }

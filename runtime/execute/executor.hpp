@@ -21,6 +21,8 @@ struct InstanceRecord {
   std::uint64_t start = 0;
   std::uint64_t end = 0;
   std::uint32_t worker = 0;
+  /// Processor time of the body [ns], where the schedule asks for it: another program may have had the core.
+  std::uint32_t processor_ns = 0;
 };
 
 class ScheduleState;
@@ -38,6 +40,8 @@ class Schedule
   const std::vector<InstanceRecord>& records() const;
   /// Off only to measure what recording costs.
   bool recording = true;
+  /// For the next run.
+  bool taking_processor_time = false;
 
  private:
   friend class Executor;

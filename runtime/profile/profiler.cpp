@@ -43,10 +43,13 @@ void Profiler::follow(const Schedule& schedule, BoundGraph& graph)
 
 void Profiler::add_step()
 {
-  constexpr long look_every = 8;
   const std::uint64_t start = ticks();
+  const std::uint64_t before = steps_.ticks;
   add_durations();
-  if (n_steps_ % look_every == 0) look_closely();
+  if (looks_closely()) {
+    look_closely();
+    steps_.looked_at += steps_.ticks - before;
+  }
   ++n_steps_;
   ++n_followed_;
   steps_.recording += ticks() - start;
@@ -73,7 +76,6 @@ void Profiler::add_durations()
     }
     instance_ticks_[i] += duration;
     const Instance& instance = instances[i];
-    if (instance.patch >= 0) patch_costs_[static_cast<std::size_t>(instance.patch)] += static_cast<double>(duration);
     if (traced) traced_.push_back({row_of_instance_[i], instance.patch, instance.group, record});
   }
   if (last <= first) return;
@@ -101,6 +103,10 @@ void Profiler::look_closely()
     Totals& totals = rows_[row_of_instance_[i]].totals;
     // Time stamps of two cores may differ by a little; a delay is never negative.
     if (ready != 0 && record.start > ready) totals.ready_delay += record.start - ready;
+    totals.processor_ns += record.processor_ns;
+    if (n_steps_ > 0 && instances[i].patch >= 0) {
+      patch_costs_[static_cast<std::size_t>(instances[i].patch)] += 1e-9 * record.processor_ns;
+    }
     totals.bytes += static_cast<double>(graph_->bytes(static_cast<int>(i)));
     totals.particles += static_cast<double>(graph_->n_particles(static_cast<int>(i)));
   }
@@ -165,6 +171,7 @@ std::vector<Profiler::Row> Profiler::rows_of_all(const Communicator& communicato
       row.totals.durations.merge(totals.durations);
       row.totals.skipped += totals.skipped;
       row.totals.ready_delay += totals.ready_delay;
+      row.totals.processor_ns += totals.processor_ns;
       row.totals.bytes += totals.bytes;
       row.totals.particles += totals.particles;
       for (std::size_t p = 0; p < per_patch.size(); ++p) row.per_patch[p] += per_patch[p];
@@ -187,12 +194,13 @@ TaskStatistics Profiler::statistics(const Row& row, std::uint64_t all_ticks, dou
   t.max_s = static_cast<double>(durations.most()) * second;
   t.p95_s = durations.quantile(0.95) * second;
   t.share = static_cast<double>(durations.total()) / static_cast<double>(all_ticks);
+  t.processor_s = 1e-9 * static_cast<double>(row.totals.processor_ns) * of_all_steps;
   t.bytes = row.totals.bytes * of_all_steps;
   t.particles = row.totals.particles * of_all_steps;
   const double sum = static_cast<double>(std::accumulate(row.per_patch.begin(), row.per_patch.end(), std::uint64_t{0}));
   const double most = static_cast<double>(*std::max_element(row.per_patch.begin(), row.per_patch.end()));
   t.imbalance = sum > 0 ? most * static_cast<double>(row.per_patch.size()) / sum : 1;
-  t.ready_delay_s = static_cast<double>(row.totals.ready_delay) * second * of_all_steps;
+  t.ready_delay_s = static_cast<double>(row.totals.ready_delay) * second * time_for_each_looked_at();
   return t;
 }
 
@@ -216,18 +224,21 @@ Profile Profiler::profile(const Communicator& communicator) const
   Steps together;
   together.first_tick = own.first_tick;
   std::uint64_t longest = 0;
+  double path_share = 0;
   for (const Steps& steps : communicator.gather_value(own)) {
     together.first_tick = std::min(together.first_tick, steps.first_tick);
     together.ticks += steps.ticks;
     longest = std::max(longest, steps.ticks);
     together.recording = std::max(together.recording, steps.recording);
     together.between = std::max(together.between, steps.between);
-    together.path_ticks = std::max(together.path_ticks, steps.path_ticks);
+    if (steps.looked_at > 0) {
+      path_share = std::max(path_share, static_cast<double>(steps.path_ticks) / static_cast<double>(steps.looked_at));
+    }
     together.traffic.add(steps.traffic);
   }
   if (n_steps_ > 0) {
     profile.step_s = static_cast<double>(longest) * second / static_cast<double>(n_steps_);
-    profile.critical_path_s = static_cast<double>(together.path_ticks) * second / static_cast<double>(n_looked_at_);
+    profile.critical_path_s = path_share * profile.step_s;
     profile.recording_s = static_cast<double>(together.recording) * second / static_cast<double>(n_steps_);
     profile.between_s = static_cast<double>(together.between) * second / static_cast<double>(n_steps_);
     profile.overhead = 1 - static_cast<double>(all) / (static_cast<double>(together.ticks) * n_workers_);
@@ -251,7 +262,7 @@ std::vector<Wait> Profiler::waits(const Communicator& communicator, double secon
   for (std::size_t k = 0; k < all.size(); ++k) {
     if (all[k] == 0) continue;
     const std::string task = k / n < n ? rows_[k / n].name : "end of the step";
-    waits.push_back({task, rows_[k % n].name, static_cast<double>(all[k]) * second * steps_for_each_looked_at()});
+    waits.push_back({task, rows_[k % n].name, static_cast<double>(all[k]) * second * time_for_each_looked_at()});
   }
   std::sort(waits.begin(), waits.end(), [](const Wait& a, const Wait& b) { return a.total_s > b.total_s; });
   waits.resize(std::min(waits.size(), most));
@@ -261,6 +272,11 @@ std::vector<Wait> Profiler::waits(const Communicator& communicator, double secon
 double Profiler::steps_for_each_looked_at() const
 {
   return n_looked_at_ > 0 ? static_cast<double>(n_steps_) / static_cast<double>(n_looked_at_) : 0;
+}
+
+double Profiler::time_for_each_looked_at() const
+{
+  return steps_.looked_at > 0 ? static_cast<double>(steps_.ticks) / static_cast<double>(steps_.looked_at) : 0;
 }
 
 /// Of all ranks, over the steps since patches were dealt last.

@@ -17,7 +17,8 @@ namespace tamp::runtime
 {
 
 /// Gathers what the workers of a rank recorded, after each step and outside of it. How long everything took is taken in
-/// of every step; what needs more looking (waits, chains, bytes, particles) of every eighth.
+/// of every step; what needs more looking (waits, chains, bytes, particles) of every
+/// eighth, or of as many as the host asks for.
 class Profiler
 {
  public:
@@ -31,9 +32,14 @@ class Profiler
   void trace_steps(long n_steps) { n_traced_steps_ = n_steps; }
   /// Goes on with the same tasks on patches dealt anew.
   void follow(const Schedule& schedule, BoundGraph& graph);
+  /// How many steps there are from one that is looked at closely to the next.
+  void look_every(long n_steps) { look_every_ = n_steps; }
+  /// Whether it will look closely at the next step: its schedule is to take processor time.
+  bool looks_closely() const { return n_steps_ % look_every_ == 0; }
   /// Takes in the records of the step that has just been run.
   void add_step();
-  /// Ticks that task bodies took on each of this rank's patches since this was last asked; 0 on others.
+  /// Processor time of task bodies on each of this rank's patches since this was last asked, in the steps looked at but
+  /// for the very first, in which memory is touched for the first time [s]; 0 on others.
   std::vector<double> take_patch_costs();
   /// The profile of all ranks together. Collective.
   Profile profile(const Communicator& communicator = {}) const;
@@ -45,8 +51,9 @@ class Profiler
   struct Totals {
     DurationHistogram durations;
     std::uint64_t skipped = 0;
-    // Of the steps that are looked at.
+    // Of the steps that are looked at, like all below.
     std::uint64_t ready_delay = 0;
+    std::uint64_t processor_ns = 0;
     double bytes = 0;
     double particles = 0;
   };
@@ -67,6 +74,8 @@ class Profiler
     std::uint64_t recording = 0;
     /// From the end of one step to the start of the next.
     std::uint64_t between = 0;
+    // Of the steps that are looked at: how long they took, and their longest chains on this rank.
+    std::uint64_t looked_at = 0;
     std::uint64_t path_ticks = 0;
     Traffic traffic;
   };
@@ -77,6 +86,7 @@ class Profiler
   void look_closely();
   void add_patch_ticks(std::vector<Row>& rows) const;
   double steps_for_each_looked_at() const;
+  double time_for_each_looked_at() const;
   std::vector<Wait> waits(const Communicator& communicator, double second) const;
   TimedStep mean_step(const Communicator& communicator, double second) const;
   void replay_mean_step(Profile& profile, const Communicator& communicator, double second) const;
@@ -95,6 +105,7 @@ class Profiler
   std::vector<std::uint64_t> instance_ticks_;
   long n_followed_ = 0;
   WorkerWaits waits_;
+  long look_every_ = 8;
   long n_looked_at_ = 0;
   std::vector<double> patch_costs_;
   std::vector<TracedInstance> traced_;

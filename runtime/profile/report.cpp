@@ -12,19 +12,13 @@ namespace
 
 nlohmann::json to_json(const TaskStatistics& t)
 {
-  nlohmann::json json = {{"name", t.name},
-                         {"count", t.count},
-                         {"skipped", t.skipped},
-                         {"total_s", t.total_s},
-                         {"mean_s", t.mean_s},
-                         {"min_s", t.min_s},
-                         {"max_s", t.max_s},
-                         {"p95_s", t.p95_s},
-                         {"share", t.share},
-                         {"bytes", t.bytes},
-                         {"particles", t.particles},
-                         {"imbalance", t.imbalance},
-                         {"ready_delay_s", t.ready_delay_s},
+  nlohmann::json json = {{"name", t.name},           {"count", t.count},
+                         {"skipped", t.skipped},     {"total_s", t.total_s},
+                         {"mean_s", t.mean_s},       {"min_s", t.min_s},
+                         {"max_s", t.max_s},         {"p95_s", t.p95_s},
+                         {"share", t.share},         {"processor_s", t.processor_s},
+                         {"bytes", t.bytes},         {"particles", t.particles},
+                         {"imbalance", t.imbalance}, {"ready_delay_s", t.ready_delay_s},
                          {"chain_s", t.chain_s}};
   // The old name of `ready_delay_s`, for one release.
   json["wait_s"] = t.ready_delay_s;

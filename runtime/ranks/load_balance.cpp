@@ -1,5 +1,7 @@
 #include "runtime/ranks/load_balance.hpp"
 
+#include <utility>
+
 #include "runtime/grid/curve_order.hpp"
 #include "runtime/ranks/deal_patches.hpp"
 
@@ -17,6 +19,12 @@ std::vector<double> sum_over_ranks(const std::vector<double>& own, const Communi
     for (std::size_t p = 0; p < sums.size(); ++p) sums[p] += theirs[p];
   }
   return sums;
+}
+
+bool pays(const NewDeal& deal, const PatchLayout& layout, std::span<const double> costs, double least_gain)
+{
+  const int n_ranks = layout.n_ranks();
+  return imbalance(costs, layout.ranks(), n_ranks) >= least_gain * imbalance(costs, deal.ranks, n_ranks);
 }
 
 }  // namespace
@@ -41,9 +49,14 @@ std::optional<std::vector<int>> LoadBalance::look(long step, const PatchLayout& 
   if (!rebalances_.empty() && rebalances_.back().imbalance_got == 0) {
     rebalances_.back().imbalance_got = imbalance(costs, layout.ranks(), communicator.size());
   }
+  std::vector<double> both = costs;
+  const std::vector<double> before = std::exchange(costs_before_, costs);
+  if (before.empty()) return std::nullopt;
+  for (std::size_t p = 0; p < both.size(); ++p) both[p] += before[p];
   constexpr double least_gain = 1.1;
-  const auto deal = better_deal(layout, costs, least_gain);
-  if (!deal) return std::nullopt;
+  const auto deal = better_deal(layout, both, least_gain);
+  if (!deal || !pays(*deal, layout, costs, least_gain) || !pays(*deal, layout, before, least_gain)) return std::nullopt;
+  costs_before_.clear();
   rebalances_.push_back({step, deal->imbalance_before, deal->imbalance_expected, 0});
   return deal->ranks;
 }

@@ -30,7 +30,8 @@ struct Rebalance {
   double imbalance_got = 0;
 };
 
-/// Looks at the load of the ranks every so many steps, and remembers what it found.
+/// Looks at the load of the ranks every so many steps, and remembers what it found. What is uneven in one interval may
+/// be even in the next: patches move when a deal would have paid in two in a row.
 class LoadBalance
 {
  public:
@@ -38,8 +39,8 @@ class LoadBalance
   void look_every(long n_steps) { interval_ = n_steps; }
   /// Once before a step, however often that is tried.
   bool is_due(long step) const { return interval_ > 0 && step > 0 && step % interval_ == 0 && step != looked_before_; }
-  /// The ranks of a better deal before a step, if it pays. `own_costs`, by patch, are those since the last look on this
-  /// rank's patches, and 0 on others. Collective.
+  /// The ranks of a better deal before a step, if it pays. `own_costs`, by patch [s], are those since the last look on
+  /// this rank's patches, and 0 on others. Collective.
   std::optional<std::vector<int>> look(long step, const PatchLayout& layout, const std::vector<double>& own_costs,
                                        const Communicator& communicator);
   const std::vector<Rebalance>& rebalances() const { return rebalances_; }
@@ -47,6 +48,8 @@ class LoadBalance
  private:
   long interval_ = 0;
   long looked_before_ = -1;
+  /// Of all patches in the interval before; empty after a deal.
+  std::vector<double> costs_before_;
   std::vector<Rebalance> rebalances_;
 };
 

@@ -76,7 +76,7 @@ TEST_CASE("the program of the first task graph finds its order, restarts and is 
     CHECK(together.status == 0);
     CHECK(together.output == alone.output);
     CHECK(log_has("diffuse"));
-    CHECK(log_has("dealt anew before step 10"));
+    CHECK(log_has("dealt anew before step 20"));
   }
 }
 

@@ -61,4 +61,22 @@ TEST_CASE("patches are dealt anew only for a gain that is worth it", "[ranks of 
   CHECK(deal->imbalance_expected == Approx(1));
 }
 
+TEST_CASE("patches move when the same deal pays in two intervals in a row, and not for noise", "[ranks of patches]")
+{
+  PatchLayout layout({2, {0, 0, 0}, 1, {16, 4, 1}}, {4, 1, 1});
+  layout.give_to_ranks({0, 0, 1, 1}, 2);
+  const std::vector<double> even{1, 1, 1, 1}, first_dear{3, 1, 1, 1}, last_dear{1, 1, 1, 3};
+  LoadBalance balance;
+  const auto look = [&](long step, const std::vector<double>& costs) { return balance.look(step, layout, costs, {}); };
+
+  CHECK_FALSE(look(10, first_dear));
+  CHECK_FALSE(look(20, even));
+  CHECK_FALSE(look(30, last_dear));
+  CHECK_FALSE(look(40, first_dear));
+  CHECK(look(50, first_dear) == std::vector<int>{0, 1, 1, 1});
+  // The next two intervals decide again.
+  CHECK_FALSE(look(60, last_dear));
+  CHECK(balance.rebalances().size() == 1);
+}
+
 }  // namespace tamp::runtime::test_deal_patches
