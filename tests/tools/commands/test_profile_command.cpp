@@ -24,4 +24,23 @@ TEST_CASE("a profile that is damaged is reported with the key that it lacks")
         "tamp: " + file + ": is damaged: a value is not what it was written as; expected what a run has written\n");
 }
 
+TEST_CASE("the page of a run says how it ended, how far to trust it, and where its time went")
+{
+  const TemporaryFolder folder;
+  const std::string out = (folder.path() / "run").string();
+  REQUIRE(tamp_with("run " TAMP_SOURCE_DIR "/inputs/punch/quick.json --steps 60 --quiet --out " + out).exit_code == 0);
+
+  const Outcome drawn = tamp_with("profile " + out + " --format html");
+
+  CHECK(drawn.exit_code == 0);
+  CHECK(drawn.out == "written to " + out + "/report.html\n");
+  const std::string page = read_text(out + "/report.html");
+  for (const char* words : {"after 60 steps", "energy drift", "Force on punch against its depth", "Step size",
+                            "update stress: sand", "What workers waited for", "cap state"}) {
+    CHECK_THAT(page, Catch::Contains(words));
+  }
+  CHECK_THAT(page, !Catch::Contains("http://") || Catch::Contains("http://www.w3.org"));
+  CHECK_THAT(page, !Catch::Contains("https://"));
+}
+
 }  // namespace test_profile_command

@@ -1,14 +1,14 @@
-"""Draws what `tamp study` or `tamp compare` has written into a folder.
+"""Draws what `tamp study`, `tamp compare` or `tamp run` has written into a folder.
 
-From study.json come index.html and charts/*.svg and *.png, from compare.json comes report.html. The same JSON gives the
-same files, byte for byte.
+From study.json come index.html and charts/*.svg and *.png, from compare.json comes report.html, and so it does from
+what a run leaves: summary.json, profile.json and its histories. The same files give the same files, byte for byte.
 """
 
 import contextlib
 import os
 import pathlib
 
-from tamp.charts import compare_page, study, study_page
+from tamp.charts import compare_page, run_page, study, study_page
 from tamp.failure import Failure, Refusal
 
 
@@ -28,10 +28,11 @@ def written_by_tamp(path):
 def main(options):
     folder = options.folder
     pages = [(folder / "study.json", lambda: study_page.write(study.read_study(folder), folder)),
-             (folder / "compare.json", lambda: compare_page.write(compare_page.read_comparison(folder), folder))]
+             (folder / "compare.json", lambda: compare_page.write(compare_page.read_comparison(folder), folder)),
+             (folder / "profile.json", lambda: run_page.write(run_page.read_run(folder), folder))]
     written = [(path, draw) for path, draw in pages if os.path.exists(path)]
     if not written:
-        raise Refusal(folder, "neither study.json nor compare.json", "the folder of a study or a comparison")
+        raise Refusal(folder, "no study.json, compare.json or profile.json", "the folder of a study, comparison or run")
     for path, draw in written:
         with written_by_tamp(path):
             draw()

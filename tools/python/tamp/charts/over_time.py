@@ -1,4 +1,4 @@
-"""Lines over time, one for each of a few things that are compared."""
+"""Lines over time, or over something else, one for each of a few things that are compared."""
 
 from typing import NamedTuple
 
@@ -23,13 +23,15 @@ class Line(NamedTuple):
 
 
 class Plot(NamedTuple):
-    """Numbers in SI units; y above 0 on a logarithmic axis."""
+    """Numbers in SI units, x of each line ascending; y above 0 on a logarithmic axis."""
 
     title: str
     y_name: str
     y_unit: str
     lines: list
     logarithmic: bool = False
+    x_name: str = "time"
+    x_unit: str = "s"
 
 
 def style_of(k):
@@ -43,9 +45,9 @@ def chart(plot, name):
 
 def draw(plot, layout):
     legend = [Entry(line.name, style_of(k)) for k, line in enumerate(plot.lines)]
-    sheet = Sheet(layout, plot.title, plot.y_name, "time", legend,
+    sheet = Sheet(layout, plot.title, plot.y_name, plot.x_name, legend,
                   left=room_for_ticks(y_limits(plot), lambda tick: si_text(tick, plot.y_unit), plot.logarithmic))
-    set_ticks(sheet.axis, "x", (0, end_of(plot) or 1), lambda tick: si_text(tick, "s"), logarithmic=False)
+    set_ticks(sheet.axis, "x", (0, end_of(plot) or 1), lambda tick: si_text(tick, plot.x_unit), logarithmic=False)
     set_ticks(sheet.axis, "y", y_limits(plot), lambda tick: si_text(tick, plot.y_unit), logarithmic=plot.logarithmic)
     for k, line in enumerate(plot.lines):
         if not line.x:
@@ -91,24 +93,25 @@ def thinned(x, y, n_wanted):
 
 
 def describe(plot):
-    sentences = [f"{counted(len(plot.lines), 'line')} over {si_text(end_of(plot), 's')}."]
+    sentences = [f"{counted(len(plot.lines), 'line')} over {si_text(end_of(plot), plot.x_unit)}."]
     for line in plot.lines:
         if not line.x:
             sentences.append(f"{line.name}: nothing to draw.")
             continue
         end = "breaks off" if line.breaks_off else "ends"
         low, high, last = (si_text(y, plot.y_unit) for y in (min(line.y), max(line.y), line.y[-1]))
-        sentences.append(f"{line.name}: between {low} and {high}, {end} at {last} after {si_text(line.x[-1], 's')}.")
+        after = si_text(line.x[-1], plot.x_unit)
+        sentences.append(f"{line.name}: between {low} and {high}, {end} at {last} after {after}.")
     return " ".join(sentences)
 
 
 def table(plot):
-    """At even times; between points on a straight line."""
+    """At even times, or whatever x is; between points on a straight line."""
     rows = []
-    for time in np.linspace(0, end_of(plot), N_ROWS + 1):
-        row = [si_text(float(time), "s")]
+    for x in np.linspace(0, end_of(plot), N_ROWS + 1):
+        row = [si_text(float(x), plot.x_unit)]
         for line in plot.lines:
-            known = line.x and line.x[0] <= time <= line.x[-1] * (1 + 1e-12)
-            row.append(si_text(float(np.interp(time, line.x, line.y)), plot.y_unit) if known else "–")
+            known = line.x and line.x[0] <= x <= line.x[-1] * (1 + 1e-12)
+            row.append(si_text(float(np.interp(x, line.x, line.y)), plot.y_unit) if known else "–")
         rows.append(row)
-    return Table(["time", *(line.name for line in plot.lines)], rows)
+    return Table([plot.x_name, *(line.name for line in plot.lines)], rows)

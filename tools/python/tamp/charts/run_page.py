@@ -1,0 +1,162 @@
+"""The page of a run: how it ended and how far to trust it, what it did over time, and where its time went."""
+
+import math
+import re
+
+from tamp import files
+from tamp.charts import over_time, page
+from tamp.charts.chart import Table
+from tamp.charts.formatting import NO_NUMBER, counted, escaped, is_number, number_text, percent_text, plain, si_text
+from tamp.charts.over_time import Line, Plot
+
+ENERGIES = ["kinetic", "elastic", "plastic", "viscous", "contact", "filter", "external", "total"]
+COLUMN = re.compile(r"(?P<name>[^\[]*)\[(?P<unit>[^\]]*)\]")
+
+
+class History:
+    """Columns of a history, by names without units."""
+
+    def __init__(self, path):
+        names, rows = files.written_table(path)
+        found = [COLUMN.fullmatch(name) for name in names]
+        self.units = {m["name"] if m else name: m["unit"] if m else "" for m, name in zip(found, names)}
+        self.columns = dict(zip(self.units, map(list, zip(*rows)))) if rows else {name: [] for name in self.units}
+
+    def ending(self, ending):
+        """What stands before an ending, of the columns that have it: `depth` of `punch.depth`."""
+        return [name[: -len(ending) - 1] for name in self.columns if name.endswith("." + ending)]
+
+    def line(self, label, y, x="time"):
+        """Without what is no number, such as the depth of a body that has left the domain."""
+        known = [(a, b) for a, b in zip(self.columns[x], self.columns[y]) if is_number(a) and is_number(b)]
+        return Line(label, [a for a, _ in known], [b for _, b in known])
+
+
+def read_run(folder):
+    run = {name: plain(files.document(folder / f"{name}.json")) for name in ("summary", "profile")}
+    for name in ("history", "machine"):
+        run[name] = History(folder / f"{name}.csv") if (folder / f"{name}.csv").exists() else None
+    return run
+
+
+def write(run, folder):
+    (folder / "report.html").write_text(whole_page(run), encoding="utf-8")
+
+
+def whole_page(run):
+    summary = run["summary"]
+    content = f"<h1>{escaped(summary['scene'])}</h1>\n<p class=\"faint\">{lead(summary)}</p>\n"
+    content += warnings(summary) + page.as_html(monitors(summary))
+    charts = [over_time.chart(plot, f"plot-{k + 1}") for k, plot in enumerate(plots(run))]
+    content += '<div class="charts">\n' + "".join(map(page.figure, charts)) + "</div>\n"
+    content += "<h2>Where the time went</h2>\n" + time_of_steps(run["profile"]) + page.as_html(tasks(run["profile"]))
+    if run["profile"].get("waits"):
+        content += "<h2>What workers waited for</h2>\n" + page.as_html(waits(run["profile"]))
+    content += "<h2>What the memory is for</h2>\n" + page.as_html(memory(run["profile"]))
+    return page.whole_page(f"{summary['scene']}: a run", f"<main>\n{content}</main>\n", kind="compare")
+
+
+# --- how it ended ---
+
+
+def lead(summary):
+    ended = f"{summary['status'].capitalize()} after {counted(summary['steps'], 'step')}, "
+    ended += f"{si_text(summary['simulated_time_s'], 's')} simulated in {si_text(summary['wall_s'], 's')}: "
+    return escaped(ended + f"{counted(summary['particles']['total'], 'particle')}, "
+                   f"{counted(summary['patches'], 'patch', 'patches')}, {counted(summary['ranks'], 'rank')} of "
+                   f"{counted(summary['threads'], 'thread')}. TAMP {summary['version']}.")
+
+
+def warnings(summary):
+    said = [text for text in [summary["reason"], *summary["warnings"]] if text]
+    return "".join(f"<p><strong>{escaped(text)}</strong></p>\n" for text in said)
+
+
+def monitors(summary):
+    """Those with a limit, the worst first."""
+    watched = {name: m for name, m in summary["monitors"].items() if isinstance(m, dict) and m.get("limit")}
+    rows = [[name.replace("_", " "), percent_text(m["share"]), percent_text(m["limit"]), first_seen(m["first"])]
+            for name, m in sorted(watched.items(), key=lambda item: -item[1]["share"] / item[1]["limit"])]
+    return Table(["how far to trust it", "share", "limit", "first seen"], rows)
+
+
+def first_seen(first):
+    return f"after step {first['after_step']}, {si_text(first['time_s'], 's')}" if first else NO_NUMBER
+
+
+# --- over time ---
+
+
+def plots(run):
+    history = run["history"]
+    if history is None:
+        return []
+    made = [plot_of(history, "Energies", "energy", "J", [name for name in ENERGIES if name in history.columns])]
+    for ending, title, unit in [("depth", "Depth", "m"), ("velocity_y", "Velocity along y", "m/s"),
+                                ("velocity_z", "Velocity along z", "m/s")]:
+        if history.ending(ending):
+            made.append(of_each(history, title, ending, unit))
+    made += [force_against_depth(history, body) for body in history.ending("depth") if force(history, body)]
+    for ending, title in [("p_max", "Largest mean stress"), ("q_max", "Largest deviatoric stress")]:
+        if history.ending(ending):
+            made.append(of_each(history, title, ending, "Pa"))
+    made.append(plot_of(history, "Step size", "step size", "s", ["dt"]))
+    if run["machine"] is not None:
+        made.append(plot_of(run["machine"], "Memory of the first rank", "resident size", "B", ["rss"]))
+    return made
+
+
+def plot_of(history, title, name, unit, columns):
+    return Plot(title, name, unit, [history.line(column, column) for column in columns])
+
+
+def of_each(history, title, ending, unit):
+    return Plot(title, ending.replace("_", " "), unit,
+                [history.line(owner, f"{owner}.{ending}") for owner in history.ending(ending)])
+
+
+def force(history, body):
+    """The size of the force that others put on a body, by rows."""
+    parts = [history.columns[f"{body}.contact_force_{axis}"] for axis in "xyz"
+             if f"{body}.contact_force_{axis}" in history.columns]
+    return [math.hypot(*row) for row in zip(*parts)]
+
+
+def force_against_depth(history, body):
+    """On its way in: rows that are deeper than all before."""
+    line = Line(body, [], [])
+    for x, y in zip(history.columns[f"{body}.depth"], force(history, body)):
+        if is_number(x) and is_number(y) and x > (line.x[-1] if line.x else 0):
+            line.x.append(x)
+            line.y.append(y)
+    return Plot(f"Force on {body} against its depth", "force", "N", [line], x_name="depth", x_unit="m")
+
+
+# --- where the time went ---
+
+
+def time_of_steps(profile):
+    text = (f"A step takes {si_text(profile['step_s'], 's')} in the mean; no number of threads makes it shorter than "
+            f"its longest chain of tasks, {si_text(profile.get('longest_chain_s'), 's')}. Between two steps pass "
+            f"{si_text(profile.get('between_s'), 's')}, for output and the history. Outside of tasks workers spend "
+            f"{percent_text(profile['overhead'])} of the steps.")
+    return f"<p>{escaped(text)}</p>\n"
+
+
+def tasks(profile):
+    rows = [[t["name"], f"{t['count']}", si_text(t["mean_s"], "s"), si_text(t["p95_s"], "s"), percent_text(t["share"]),
+             number_text(t["imbalance"]), percent_text(t.get("step_gain_if_a_tenth_faster")),
+             percent_text(t.get("step_gain_if_free"))] for t in profile["tasks"]]
+    return Table(["task", "count", "mean", "95 % are below", "share", "imbalance", "a tenth faster: step",
+                  "free: step"], rows)
+
+
+def waits(profile):
+    return Table(["before", "waited for", "time of all workers"],
+                 [[w["task"], w["waits_for"], si_text(w["s"], "s")] for w in profile["waits"]])
+
+
+def memory(profile):
+    largest = sorted(profile["memory"]["labels"].items(), key=lambda item: -item[1])[:12]
+    rows = [[name, si_text(n_bytes, "B")] for name, n_bytes in largest if n_bytes > 0]
+    return Table(["label, the largest", "at most"], [*rows, ["all", si_text(profile["memory"]["total"], "B")]])
