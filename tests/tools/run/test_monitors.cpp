@@ -1,7 +1,6 @@
 #include <catch2/catch.hpp>
-#include <nlohmann/json.hpp>
 
-#include "tests/tools/program.hpp"
+#include "tests/tools/run/run_with.hpp"
 
 namespace test_monitors
 {
@@ -14,21 +13,6 @@ namespace
 /// What is out of range in the first steps is not asked about.
 const std::string punch = TAMP_SOURCE_DIR "/inputs/punch/quick.json --quiet --steps 200 --set /limits/out_of_range=1";
 
-struct Run {
-  Outcome outcome;
-  nlohmann::json summary;
-};
-
-Run run_with(const std::string& arguments)
-{
-  const TemporaryFolder folder;
-  const auto out = folder.path() / "run";
-  Outcome outcome = tamp_with("run " + punch + " --out " + out.string() + " " + arguments);
-  nlohmann::json summary;
-  if (std::filesystem::exists(out / "summary.json")) summary = nlohmann::json::parse(read_text(out / "summary.json"));
-  return {outcome, summary};
-}
-
 }  // namespace
 
 TEST_CASE("each monitor warns beyond the limit that the scene sets, and --strict ends with 3")
@@ -36,7 +20,8 @@ TEST_CASE("each monitor warns beyond the limit that the scene sets, and --strict
   const std::string name = GENERATE("out_of_range", "filtered_energy", "energy_drift", "null_space", "uneven_pressure");
   const std::string limit = " --set /limits/" + name + "=";
 
-  const Run beyond = run_with(limit + "0"), within = run_with(limit + "1"), strict = run_with(limit + "0 --strict");
+  const Run beyond = run_with(punch + limit + "0"), within = run_with(punch + limit + "1"),
+            strict = run_with(punch + limit + "0 --strict");
 
   const nlohmann::json& monitor = beyond.summary["monitors"][name];
   CAPTURE(name, monitor.dump());
@@ -54,7 +39,7 @@ TEST_CASE("each monitor warns beyond the limit that the scene sets, and --strict
 
 TEST_CASE("the monitor that is furthest beyond its limit comes first")
 {
-  const Run run = run_with("--set /limits/filtered_energy=1e-9 --set /limits/energy_drift=1e-3");
+  const Run run = run_with(punch + " --set /limits/filtered_energy=1e-9 --set /limits/energy_drift=1e-3");
 
   CHECK(run.summary["warnings"][0].get<std::string>().find("/limits/filtered_energy") != std::string::npos);
   const std::size_t n_warnings = run.summary["warnings"].size();

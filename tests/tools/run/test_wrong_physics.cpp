@@ -1,9 +1,8 @@
 #include <fmt/format.h>
 
 #include <catch2/catch.hpp>
-#include <nlohmann/json.hpp>
 
-#include "tests/tools/program.hpp"
+#include "tests/tools/run/run_with.hpp"
 
 namespace test_wrong_physics
 {
@@ -15,21 +14,7 @@ namespace
 {
 
 const std::string punch = TAMP_SOURCE_DIR "/inputs/punch/quick.json";
-
-struct Run {
-  Outcome outcome;
-  nlohmann::json summary;
-};
-
-Run run_with(const std::string& arguments)
-{
-  const TemporaryFolder folder;
-  const auto out = folder.path() / "run";
-  Outcome outcome = tamp_with("run " + punch + " --quiet --out " + out.string() + " " + arguments);
-  nlohmann::json summary;
-  if (std::filesystem::exists(out / "summary.json")) summary = nlohmann::json::parse(read_text(out / "summary.json"));
-  return {outcome, summary};
-}
+const std::string quiet_punch = punch + " --quiet ";
 
 bool warns(const std::string& assignment, const std::string& words)
 {
@@ -44,7 +29,8 @@ bool warns(const std::string& assignment, const std::string& words)
 TEST_CASE("a run whose energy is wrong by more than its limit ends with 3, with its state kept")
 {
   const std::string bound = " --set /limits/energy_error=1e-5";
-  const Run wrong = run_with("--steps 100" + bound), off = run_with("--steps 20 --set /limits/energy_error=off");
+  const Run wrong = run_with(quiet_punch + "--steps 100" + bound),
+            off = run_with(quiet_punch + "--steps 20 --set /limits/energy_error=off");
 
   CHECK(wrong.outcome.exit_code == 3);
   CHECK_THAT(wrong.outcome.err, Catch::Contains("the energy is wrong by") && Catch::Contains("/limits/energy_error"));
@@ -55,7 +41,8 @@ TEST_CASE("a run whose energy is wrong by more than its limit ends with 3, with 
 TEST_CASE(
     "the energy of every step is judged, also between the rows of the history, and the summary has what was judged")
 {
-  const Run wrong = run_with("--steps 100 --set /limits/energy_error=1e-5 --set /output/history_interval=1");
+  const Run wrong =
+      run_with(quiet_punch + "--steps 100 --set /limits/energy_error=1e-5 --set /output/history_interval=1");
 
   CHECK(wrong.outcome.exit_code == 3);
   CHECK(wrong.summary["status"] == "unstable");
@@ -129,7 +116,8 @@ TEST_CASE("a run whose substeps miss their tolerance ends with a warning that sa
       "--steps 200 --set /materials/sand/tolerance=1e-9 --set /materials/sand/max_substeps=1 "
       "--set /limits/out_of_range=1";
 
-  const Run warned = run_with(rough), allowed = run_with(rough + " --set /limits/missed_substeps=1");
+  const Run warned = run_with(quiet_punch + rough),
+            allowed = run_with(quiet_punch + rough + " --set /limits/missed_substeps=1");
 
   CHECK(warned.summary["status"] == "completed with warnings");
   CHECK_THAT(warned.outcome.err, Catch::Contains("substeps of the materials missed their tolerance") &&
@@ -188,14 +176,14 @@ TEST_CASE("a sand that is taken for another one than was tested is warned of by 
               "compression the material is then stiffer"));
   CHECK_FALSE(warns("/materials/sand/density=1700", "of the samples that were tested"));
   CHECK(warns("/materials/sand/density=1710", "/materials/sand/density: 1710 kg/m3 is +5 % off the 1624 kg/m3"));
-  CHECK(run_with("--steps 1").summary["status"] == "completed");
+  CHECK(run_with(quiet_punch + "--steps 1").summary["status"] == "completed");
 }
 
 TEST_CASE("a run with warnings says so at its end, and with --strict ends with 3")
 {
   const std::string arguments = "--steps 2 --set /bodies/punch/velocity=[0,-6500]";
 
-  const Run run = run_with(arguments), strict = run_with(arguments + " --strict");
+  const Run run = run_with(quiet_punch + arguments), strict = run_with(quiet_punch + arguments + " --strict");
 
   CHECK(run.outcome.exit_code == 0);
   CHECK(run.summary["status"] == "completed with warnings");
