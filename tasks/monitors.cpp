@@ -13,4 +13,17 @@ void SampledShare::add(const Share& share, double limit, std::int64_t n_steps, d
   if (share.value() > limit) above.add(n_steps, time, place);
 }
 
+double missed_substeps(const components::UpdateCounts& updates, std::size_t n_particles)
+{
+  constexpr std::size_t many = 100;
+  if (updates.substeps == 0 || updates.substeps < many * n_particles) return 0;
+  return static_cast<double>(updates.limited_substeps) / static_cast<double>(updates.substeps);
+}
+
+double out_of_range(const components::UpdateCounts& updates)
+{
+  const std::size_t squeezed_out = updates.extrapolated - updates.pulled_out;
+  return updates.with_range > 0 ? static_cast<double>(squeezed_out) / static_cast<double>(updates.with_range) : 0;
+}
+
 }  // namespace tamp::tasks

@@ -44,8 +44,18 @@ struct SampledShare {
   void add(const Share& share, double limit, std::int64_t n_steps, double time, const ParticlePlace& place = {});
 };
 
+/// The part of the materials' substeps that missed their tolerance, once there are many of them for each of
+/// `n_particles`: in its first steps sand has no stress yet beside which an error could be small. Before that 0.
+double missed_substeps(const components::UpdateCounts& updates, std::size_t n_particles);
+
+/// The part of the updates that ended in compression beyond the range of their modulus. In tension sand has next to no
+/// stress, whatever its modulus.
+double out_of_range(const components::UpdateCounts& updates);
+
 struct MonitorRecords {
   SampledShare null_space, uneven_pressure, torn_apart;
+  /// Samples in which the share since the start was above its limit.
+  Sightings missed_substeps, out_of_range;
 };
 
 /// Kinetic energy of deformable particles in a step, and that of what no node sees of their motion,

@@ -323,6 +323,13 @@ struct Scene {
   {
     return std::any_of(bodies.begin(), bodies.end(), [](const SceneBody& body) { return !body.rigid; });
   }
+  /// At the start.
+  std::size_t n_particles() const
+  {
+    std::size_t n = 0;
+    for (const SceneBody& body : bodies) n += body.n_particles;
+    return n;
+  }
   bool has_nose() const
   {
     return std::any_of(bodies.begin(), bodies.end(), [](const SceneBody& body) { return body.axis.has_value(); });

@@ -57,6 +57,8 @@ class SimulationOf : public Simulation
                                                 material_names(scene_), graphs_of(method_), *executor_, communicator);
     particles.store(warehouse());
     make_rigid_bodies(particles);
+    warehouse().global_state(refused_steps) = {};
+    warehouse().global_state(monitor_records) = {};
     warehouse().global_state(longest_step) = initial_stable_step(method_, particles);
     warehouse().global_state(energy_ledger).elastic = particles.stored_energy();
     forecast_bytes_ = communicator.sum(warehouse().forecast_bytes());
@@ -137,6 +139,10 @@ void Simulation::sample_state()
   records.null_space.add(unseen, limits.null_space, n_steps(), time());
   records.uneven_pressure.add(sample.uneven_pressure, limits.uneven_pressure, n_steps(), time());
   records.torn_apart.add(sample.torn_apart, limits.torn_apart, n_steps(), time(), sample.torn);
+  if (missed_substeps(updates(), scene_.n_particles()) > limits.missed_substeps) {
+    records.missed_substeps.add(n_steps(), time());
+  }
+  if (out_of_range(updates()) > limits.out_of_range) records.out_of_range.add(n_steps(), time());
 }
 
 void Simulation::advance(double end)

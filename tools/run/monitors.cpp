@@ -23,81 +23,53 @@ double number(Count count)
   return static_cast<double>(count);
 }
 
-double mass_on_grid(const tasks::ParticleReport& report)
-{
-  double mass = 0;
-  for (const tasks::BodySums& body : report.bodies) mass += body.mass;
-  return mass;
-}
-
-/// In its first steps sand has no stress yet beside which an error could be small: runs are judged once they have
-/// taken many substeps for each particle.
-double missed_substeps(const tasks::Simulation& simulation)
-{
-  constexpr std::size_t many = 100;
-  std::size_t n_particles = 0;
-  for (const tasks::SceneBody& body : simulation.scene().bodies) n_particles += body.n_particles;
-  const components::UpdateCounts& updates = simulation.updates();
-  if (updates.substeps < many * n_particles) return 0;
-  return ratio(number(updates.limited_substeps), number(updates.substeps));
-}
-
 std::vector<Monitor> of_steps(const tasks::Simulation& simulation)
 {
   const tasks::SceneLimits& limits = simulation.scene().limits;
   const components::UpdateCounts& updates = simulation.updates();
   const tasks::Sightings& refused = simulation.refused();
-  // In tension sand has next to no stress, whatever its modulus.
-  const std::size_t squeezed_out = updates.extrapolated - updates.pulled_out;
-  return {{"redone_steps", number(refused.count), ratio(number(refused.count), number(simulation.n_steps())),
-           limits.redone_steps, refused,
-           "of the steps went wrong and were tried again, shorter: a smaller /time/multiplier keeps them right"},
-          {"missed_substeps",
-           number(updates.limited_substeps),
-           missed_substeps(simulation),
-           limits.missed_substeps,
-           {},
-           "of the substeps of the materials missed their tolerance: stress is less exact than it was asked for; a "
-           "smaller /time/multiplier makes the strains of a step smaller"},
-          {"out_of_range",
-           number(squeezed_out),
-           ratio(number(squeezed_out), number(updates.with_range)),
-           limits.out_of_range,
-           {},
-           "of the updates ended in compression beyond the strains that the modulus was made for, where it is a guess: "
-           "results rest on that as far as such sand carries load; measurements to larger strains would settle it"}};
+  const tasks::MonitorRecords& seen = simulation.monitors();
+  return {
+      {"redone_steps", number(refused.count), ratio(number(refused.count), number(simulation.n_steps())),
+       limits.redone_steps, refused,
+       "of the steps went wrong and were tried again, shorter: a smaller /time/multiplier keeps them right"},
+      {"missed_substeps", number(updates.limited_substeps),
+       tasks::missed_substeps(updates, simulation.scene().n_particles()), limits.missed_substeps, seen.missed_substeps,
+       "of the substeps of the materials missed their tolerance: stress is less exact than it was asked for; a "
+       "smaller /time/multiplier makes the strains of a step smaller"},
+      {"out_of_range", number(updates.extrapolated - updates.pulled_out), tasks::out_of_range(updates),
+       limits.out_of_range, seen.out_of_range,
+       "of the updates ended in compression beyond the strains that the modulus was made for, where it is a guess: "
+       "results rest on that as far as such sand carries load; measurements to larger strains would settle it"}};
 }
 
 std::vector<Monitor> of_balances(const tasks::Simulation& simulation, const RunHistory& history)
 {
   const tasks::SceneLimits& limits = simulation.scene().limits;
-  const tasks::LostParticles& lost = simulation.lost();
+  const BalanceShares now = history.balances();
+  const BalanceSightings& above = history.balances_above();
   return {
       {"energy_drift",
        {},
-       history.known_energy_error(),
+       now.energy_drift,
        limits.energy_drift,
-       {},
+       above.energy_drift,
        "of the energy that the run has been given is missing or too much at its end: a smaller /time/multiplier, or "
        "another transfer or stress timing, keeps more of it"},
       {"momentum_error",
        {},
-       history.momentum_error(),
+       now.momentum_error,
        limits.momentum_error,
-       {},
+       above.momentum_error,
        "of the largest momentum has come from nowhere"},
       {"filtered_energy",
        {},
-       ratio(std::max(0.0, simulation.energies().filter), history.given_energy()),
+       now.filtered_energy,
        limits.filtered_energy,
-       {},
+       above.filtered_energy,
        "of the energy that the run has been given was filtered out of the motion by the transfer: it acts like a "
        "viscosity that grows with the cells; smaller cells or a transfer that filters less (flip, tflip) keep it"},
-      {"lost_mass",
-       number(lost.count),
-       ratio(lost.mass, lost.mass + mass_on_grid(history.report())),
-       limits.lost_mass,
-       {},
+      {"lost_mass", number(simulation.lost().count), now.lost_mass, limits.lost_mass, above.lost_mass,
        "of the mass has left the grid, and acts on nothing from then on: a larger grid keeps it"}};
 }
 

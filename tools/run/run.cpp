@@ -94,6 +94,7 @@ struct Outputs {
   runtime::CsvExtent rows;
   std::size_t n_fields = 0;
   LargestSoFar largest;
+  BalanceSightings balances_above;
 };
 
 class Runner
@@ -211,6 +212,7 @@ class Runner
     due_.rows = history_.extent();
     due_.n_fields = output_.n_fields_at_start();
     history_.set_largest(due_.largest);
+    history_.set_balances_above(due_.balances_above);
     history_times_.skip_to(simulation_->time());
     field_times_.skip_to(simulation_->time());
     checkpoint_clock_.skip_to(simulation_->time());
@@ -329,6 +331,7 @@ class Runner
   {
     expect_own_folder();
     due_.largest = history_.largest();
+    due_.balances_above = history_.balances_above();
     runtime::ByteWriter own;
     own.add(due_);
     output_.write_checkpoint(fingerprint(checked_), own.bytes());

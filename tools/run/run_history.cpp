@@ -310,6 +310,27 @@ double RunHistory::negligible_energy() const
          std::abs(simulation_.energies().last_driving);
 }
 
+BalanceShares RunHistory::balances() const
+{
+  const auto part_of_given = [&](double energy) { return given_energy() > 0 ? energy / given_energy() : 0; };
+  const double mass = lost_.mass + mass_of(report_);
+  return {known_energy_error(), momentum_error_, part_of_given(std::max(0.0, simulation_.energies().filter)),
+          mass > 0 ? lost_.mass / mass : 0};
+}
+
+void RunHistory::look_at_balances()
+{
+  const BalanceShares now = balances();
+  const tasks::SceneLimits& limits = simulation_.scene().limits;
+  const auto look = [&](double share, double limit, tasks::Sightings& above) {
+    if (share > limit) above.add(simulation_.n_steps(), simulation_.time());
+  };
+  look(now.energy_drift, limits.energy_drift, balances_above_.energy_drift);
+  look(now.momentum_error, limits.momentum_error, balances_above_.momentum_error);
+  look(now.filtered_energy, limits.filtered_energy, balances_above_.filtered_energy);
+  look(now.lost_mass, limits.lost_mass, balances_above_.lost_mass);
+}
+
 double RunHistory::weight_of_a_step() const
 {
   return mass_ * acceleration_ * simulation_.last_step_size();
@@ -340,6 +361,7 @@ double RunHistory::axis_angle(std::size_t body) const
 void RunHistory::write_row()
 {
   measure();
+  look_at_balances();
   mean_forces_ = simulation_.take_mean_forces();
   std::vector<double> row;
   for (const Column& column : columns_) {

@@ -38,6 +38,19 @@ struct LargestSoFar {
   double momenta = 0;
 };
 
+/// What of energy, momentum and mass has come, gone or been taken without a cause in the mechanics, as parts.
+struct BalanceShares {
+  double energy_drift;     ///< of the energy that the run has been given
+  double momentum_error;   ///< of the largest momentum
+  double filtered_energy;  ///< of the energy given, by the transfer
+  double lost_mass;        ///< of the mass, by what has left the grid
+};
+
+/// Rows of the history in which such a part was above its limit.
+struct BalanceSightings {
+  tasks::Sightings energy_drift, momentum_error, filtered_energy, lost_mass;
+};
+
 /// Follows a simulation from its start: energies, momentum, the motion of bodies, the peaks of materials.
 class RunHistory
 {
@@ -73,6 +86,10 @@ class RunHistory
   double given_energy() const;
   /// Change of momentum that the grid has not given to the particles, over the largest sum of m |v| so far.
   double momentum_error() const { return momentum_error_; }
+  /// As last measured.
+  BalanceShares balances() const;
+  const BalanceSightings& balances_above() const { return balances_above_; }
+  void set_balances_above(const BalanceSightings& above) { balances_above_ = above; }
   /// A run that goes on has those of the run before.
   const LargestSoFar& largest() const { return largest_; }
   void set_largest(const LargestSoFar& largest) { largest_ = largest; }
@@ -116,6 +133,7 @@ class RunHistory
   /// step's middle while what it goes into is counted to its end [J].
   double negligible_energy() const;
   double wrong_energy() const;
+  void look_at_balances();
   bool knows_energy() const;
   /// Impulse of gravity and centrifuge on all mass in a step [N s]: sand at rest moves by no more than its round-off.
   double weight_of_a_step() const;
@@ -133,6 +151,7 @@ class RunHistory
   tasks::LostParticles lost_;
   EnergyBalance energies_{};
   LargestSoFar largest_;
+  BalanceSightings balances_above_;
   double momentum_error_ = 0;
   /// By material, since the row before.
   tasks::MeanForces mean_forces_;

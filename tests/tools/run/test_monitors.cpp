@@ -51,23 +51,30 @@ TEST_CASE("the monitor that is furthest beyond its limit comes first")
   CHECK(n_warning == n_warnings);
 }
 
-TEST_CASE("what samples saw goes on after a restart")
+TEST_CASE("what samples and rows of the history saw goes on after a restart")
 {
   const TemporaryFolder folder;
   const auto straight = folder.path() / "straight", halves = folder.path() / "halves";
   const std::string scene = std::string("run ") + TAMP_SOURCE_DIR + "/inputs/punch/quick.json --quiet ";
-  const std::string limit = " --set /limits/null_space=1e-9 --steps ";
+  const std::string limit =
+      " --set /limits/null_space=1e-9 --set /limits/out_of_range=1e-9 --set /limits/filtered_energy=1e-9 --steps ";
   REQUIRE(tamp_with(scene + "--out " + straight.string() + limit + "200").exit_code == 0);
   REQUIRE(tamp_with(scene + "--out " + halves.string() + limit + "120 --checkpoint-steps 120").exit_code == 0);
 
   REQUIRE(tamp_with(scene + "--restart " + halves.string() + limit + "200").exit_code == 0);
 
-  const auto seen_in = [](const std::filesystem::path& run) {
-    return nlohmann::json::parse(read_text(run / "summary.json"))["monitors"]["null_space"];
+  const auto seen_in = [](const std::filesystem::path& run, const char* monitor) {
+    return nlohmann::json::parse(read_text(run / "summary.json"))["monitors"][monitor];
   };
-  CHECK(seen_in(straight)["count"] == 4);
-  CHECK(seen_in(straight)["first"]["after_step"] == 50);
-  CHECK(seen_in(halves) == seen_in(straight));
+  CHECK(seen_in(straight, "null_space")["count"] == 4);
+  CHECK(seen_in(straight, "null_space")["first"]["after_step"] == 50);
+  CHECK(seen_in(straight, "out_of_range")["first"]["after_step"] == 50);
+  // From the first row of the history after the start.
+  CHECK(seen_in(straight, "filtered_energy")["first"]["after_step"].get<long>() > 0);
+  CHECK(seen_in(straight, "filtered_energy")["first"]["after_step"].get<long>() < 50);
+  for (const char* monitor : {"null_space", "out_of_range", "filtered_energy"}) {
+    CHECK(seen_in(halves, monitor) == seen_in(straight, monitor));
+  }
 }
 
 TEST_CASE("a limit that is negative, or of nothing that is watched, is refused with its place")
