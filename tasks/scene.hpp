@@ -213,6 +213,7 @@ struct SceneLimits {
   double energy_drift = 0.02;
   double momentum_error = 0.01;
   double filtered_energy = 0.1;
+  double damped_energy = 0.05;
   double null_space = 0.25;
   double uneven_pressure = 0.5;
   double torn_apart = 0.01;
@@ -221,10 +222,10 @@ struct SceneLimits {
 
   bool samples_after(long n_steps) const { return n_steps % sampled_every == 0; }
   /// All but the first.
-  static constexpr std::array<components::Parameter<SceneLimits>, 12> parameters();
+  static constexpr std::array<components::Parameter<SceneLimits>, 13> parameters();
 };
 
-constexpr std::array<components::Parameter<SceneLimits>, 12> SceneLimits::parameters()
+constexpr std::array<components::Parameter<SceneLimits>, 13> SceneLimits::parameters()
 {
   using components::above_zero, components::zero_or_above;
   using L = SceneLimits;
@@ -250,6 +251,10 @@ constexpr std::array<components::Parameter<SceneLimits>, 12> SceneLimits::parame
         "warns beyond: momentum that nothing has given, over the largest sum of m v", true},
        {"filtered_energy", "", zero_or_above, &L::filtered_energy,
         "warns beyond: the energy that particles have filtered out of the motion, over what the run has been given",
+        true},
+       {"damped_energy", "", zero_or_above, &L::damped_energy,
+        "warns beyond: the energy that local damping took, as far as motion, plastic strain and friction stand beside "
+        "it, over what the run has been given",
         true},
        {"null_space", "", part, &L::null_space,
         "warns beyond: the part of the kinetic and elastic energy that is of motion which no node sees, over all "

@@ -69,6 +69,13 @@ std::vector<Monitor> of_balances(const tasks::Simulation& simulation, const RunH
        above.filtered_energy,
        "of the energy that the run has been given was filtered out of the motion by the transfer: it acts like a "
        "viscosity that grows with the cells; smaller cells or a transfer that filters less (flip, tflip) keep it"},
+      {"damped_energy",
+       {},
+       now.damped_energy,
+       limits.damped_energy,
+       above.damped_energy,
+       "of the energy that the run has been given was taken by local damping, from motion that has not come to rest "
+       "elastically: it brakes what flies, slides or collides; a smaller /local_damping takes less"},
       {"lost_mass", number(simulation.lost().count), now.lost_mass, limits.lost_mass, above.lost_mass,
        "of the mass has left the grid, and acts on nothing from then on: a larger grid keeps it"}};
 }

@@ -310,12 +310,18 @@ double RunHistory::negligible_energy() const
          std::abs(simulation_.energies().last_driving);
 }
 
+double RunHistory::damped_energy() const
+{
+  const double depends_on_the_way = energies_.kinetic + energies_.plastic + energies_.contact;
+  return std::max(0.0, std::min(simulation_.grid_totals().taken_by_damping, depends_on_the_way));
+}
+
 BalanceShares RunHistory::balances() const
 {
   const auto part_of_given = [&](double energy) { return given_energy() > 0 ? energy / given_energy() : 0; };
   const double mass = lost_.mass + mass_of(report_);
   return {known_energy_error(), momentum_error_, part_of_given(std::max(0.0, simulation_.energies().filter)),
-          mass > 0 ? lost_.mass / mass : 0};
+          part_of_given(damped_energy()), mass > 0 ? lost_.mass / mass : 0};
 }
 
 void RunHistory::look_at_balances()
@@ -328,6 +334,7 @@ void RunHistory::look_at_balances()
   look(now.energy_drift, limits.energy_drift, balances_above_.energy_drift);
   look(now.momentum_error, limits.momentum_error, balances_above_.momentum_error);
   look(now.filtered_energy, limits.filtered_energy, balances_above_.filtered_energy);
+  look(now.damped_energy, limits.damped_energy, balances_above_.damped_energy);
   look(now.lost_mass, limits.lost_mass, balances_above_.lost_mass);
 }
 

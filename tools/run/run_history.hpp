@@ -43,12 +43,13 @@ struct BalanceShares {
   double energy_drift;     ///< of the energy that the run has been given
   double momentum_error;   ///< of the largest momentum
   double filtered_energy;  ///< of the energy given, by the transfer
+  double damped_energy;    ///< of the energy given, by local damping, see `RunHistory::damped_energy`
   double lost_mass;        ///< of the mass, by what has left the grid
 };
 
 /// Rows of the history in which such a part was above its limit.
 struct BalanceSightings {
-  tasks::Sightings energy_drift, momentum_error, filtered_energy, lost_mass;
+  tasks::Sightings energy_drift, momentum_error, filtered_energy, damped_energy, lost_mass;
 };
 
 /// Follows a simulation from its start: energies, momentum, the motion of bodies, the peaks of materials.
@@ -133,6 +134,9 @@ class RunHistory
   /// step's middle while what it goes into is counted to its end [J].
   double negligible_energy() const;
   double wrong_energy() const;
+  /// Energy that local damping took, as far as motion, plastic strain or friction stands beside it: these depend on
+  /// what it took, while what has come to rest elastically is the same whichever way it came there [J].
+  double damped_energy() const;
   void look_at_balances();
   bool knows_energy() const;
   /// Impulse of gravity and centrifuge on all mass in a step [N s]: sand at rest moves by no more than its round-off.

@@ -10,6 +10,7 @@ using namespace tamp::test;
 namespace
 {
 
+const std::string inputs = TAMP_SOURCE_DIR "/inputs/";
 /// What is out of range in the first steps is not asked about.
 const std::string punch = TAMP_SOURCE_DIR "/inputs/punch/quick.json --quiet --steps 200 --set /limits/out_of_range=1";
 
@@ -35,6 +36,25 @@ TEST_CASE("each monitor warns beyond the limit that the scene sets, and --strict
   CHECK(within.summary["monitors"][name]["share"] == monitor["share"]);
   CHECK(within.summary["status"] == "completed");
   CHECK(strict.outcome.exit_code == 3);
+}
+
+TEST_CASE("local damping of what falls is told, and what comes to rest or is pressed slowly is left alone")
+{
+  const Run falling = run_with(inputs + "stability/scenes/fall.json --quiet --set /local_damping=0.5");
+  const Run settled = run_with(inputs + "verification/scenes/self_weight.json --quiet");
+  const Run pressed = run_with(inputs + "footing/quick.json --quiet --until 0.35");
+
+  const auto damped = [](const Run& run) { return run.summary["monitors"]["damped_energy"]; };
+  CAPTURE(damped(falling).dump(), damped(settled).dump(), damped(pressed).dump());
+  // The block falls at half of gravity.
+  CHECK(damped(falling)["share"].get<double>() == Approx(0.5).margin(0.01));
+  CHECK(damped(falling)["warns"] == true);
+  CHECK(damped(falling)["first"]["time_s"].get<double>() < 0.05);
+  CHECK_THAT(falling.outcome.err, Catch::Contains("taken by local damping"));
+  CHECK(damped(settled)["share"].get<double>() < 1e-6);
+  CHECK(settled.summary["energies_J"]["viscous"].get<double>() > 100);
+  CHECK(damped(pressed)["share"].get<double>() > 0);
+  CHECK(damped(pressed)["warns"] == false);
 }
 
 TEST_CASE("the monitor that is furthest beyond its limit comes first")

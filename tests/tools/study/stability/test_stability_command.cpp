@@ -79,7 +79,9 @@ TEST_CASE("an entry that fails and survives as told ends with 0, and prints the 
   CHECK_THAT(results["entries"][0]["fails"]["command"].get<std::string>(),
              Contains("tamp run inputs/stability/scenes/fall.json") && Contains("--set /local_damping=0.5"));
   const Json point = entries.json("out/damped/study.json")["points"][0];
-  CHECK(entries.json("out/damped/" + point["folder"].get<std::string>() + "/summary.json")["status"] == "completed");
+  // It comes to its end, and says that local damping takes half of what gravity gives.
+  const Json summary = entries.json("out/damped/" + point["folder"].get<std::string>() + "/summary.json");
+  CHECK(summary["status"] == "completed with warnings");
   const Json list = entries.json("list.json");
   REQUIRE(list.size() == 1);
   CHECK(list[0]["failed"] == true);
