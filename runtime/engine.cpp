@@ -124,10 +124,10 @@ void Engine::run_step(const Step& step)
   throw_common_failure(own, step.index, after_failure_);
 }
 
-void Engine::run(std::size_t graph)
+void Engine::run(std::size_t graph, double size)
 {
   const Progress& at = progress();
-  executor_.run(schedule(graph), {at.n_steps, at.time, 0, at.step_size});
+  executor_.run(schedule(graph), {at.n_steps, at.time, size, at.step_size});
 }
 
 void Engine::balance_every(long n_steps)

@@ -42,8 +42,8 @@ class Engine
   /// particles migrate without waiting for a check. What else goes wrong comes as TaskError, or as std::runtime_error
   /// on several ranks, which cannot go on then.
   bool advance(double size, double end = std::numeric_limits<double>::infinity());
-  /// Runs another graph, for its results.
-  void run(std::size_t graph);
+  /// Runs another graph, for its results. Its tasks see a step of `size` [s]: that of the next, if they look ahead.
+  void run(std::size_t graph, double size = 0);
 
   const Progress& progress() const;
 

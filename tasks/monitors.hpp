@@ -34,6 +34,21 @@ struct StateSample {
       std::tuple{&StateSample::uneven_pressure, &StateSample::torn_apart, runtime::Least{&StateSample::torn}};
 };
 
+/// Sums over the nodes at which two materials push each other.
+struct ContactSample {
+  /// Normal impulses [N s]: those across a gap, those between materials that are within each other, and all.
+  Share early, within;
+  /// Of each that at the node with the lowest number.
+  ParticlePlace first_early, first_within;
+
+  /// An impulse across a gap [cells], below 0 where the materials are within each other.
+  void add(double gap, double impulse, const ParticlePlace& place);
+
+  static constexpr auto fields =
+      std::tuple{&ContactSample::early, &ContactSample::within, runtime::Least{&ContactSample::first_early},
+                 runtime::Least{&ContactSample::first_within}};
+};
+
 /// A share in the samples of a run so far.
 struct SampledShare {
   Share all;
@@ -53,7 +68,7 @@ double missed_substeps(const components::UpdateCounts& updates, std::size_t n_pa
 double out_of_range(const components::UpdateCounts& updates);
 
 struct MonitorRecords {
-  SampledShare null_space, uneven_pressure, torn_apart;
+  SampledShare null_space, uneven_pressure, torn_apart, early_contact, interpenetration;
   /// Samples in which the share since the start was above its limit.
   Sightings missed_substeps, out_of_range;
 };
@@ -62,6 +77,7 @@ struct MonitorRecords {
 /// v_p - sum S_ip v_i [J]; in steps that are sampled.
 inline const runtime::ReductionLabel<Share, "unseen motion"> unseen_motion;
 inline const runtime::ReductionLabel<StateSample, "state sample"> state_sample;
+inline const runtime::ReductionLabel<ContactSample, "contact sample"> contact_sample;
 /// Since the start.
 inline const runtime::GlobalLabel<MonitorRecords, "monitor records"> monitor_records;
 

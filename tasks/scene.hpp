@@ -217,15 +217,17 @@ struct SceneLimits {
   double null_space = 0.25;
   double uneven_pressure = 0.5;
   double torn_apart = 0.01;
+  double early_contact = 0.1;
+  double interpenetration = 0.1;
   double lost_mass = 0.01;
   int sampled_every = 50;
 
   bool samples_after(long n_steps) const { return n_steps % sampled_every == 0; }
   /// All but the first.
-  static constexpr std::array<components::Parameter<SceneLimits>, 13> parameters();
+  static constexpr std::array<components::Parameter<SceneLimits>, 15> parameters();
 };
 
-constexpr std::array<components::Parameter<SceneLimits>, 13> SceneLimits::parameters()
+constexpr std::array<components::Parameter<SceneLimits>, 15> SceneLimits::parameters()
 {
   using components::above_zero, components::zero_or_above;
   using L = SceneLimits;
@@ -266,12 +268,21 @@ constexpr std::array<components::Parameter<SceneLimits>, 13> SceneLimits::parame
         true},
        {"torn_apart", "", part, &L::torn_apart,
         "warns beyond: the greatest part of elastic particles that hold tension across more than 1.2 cells", true},
+       {"early_contact", "", part, &L::early_contact,
+        "warns beyond: the part of the contact impulses between materials that are more than a quarter of a cell "
+        "apart, over all samples",
+        true},
+       {"interpenetration", "", part, &L::interpenetration,
+        "warns beyond: the part of the contact impulses between materials that are more than half a cell within each "
+        "other, over all samples",
+        true},
        {"lost_mass", "", part, &L::lost_mass, "warns beyond: the part of the mass that has left the grid", true},
        {"sampled_every",
         "",
         {.lower = 1, .upper = 1e6},
         &L::sampled_every,
-        "steps between the samples of `null_space`, `uneven_pressure` and `torn_apart`",
+        "steps between the samples of `null_space`, `uneven_pressure`, `torn_apart`, `early_contact` and "
+        "`interpenetration`",
         true}}};
 }
 

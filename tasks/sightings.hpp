@@ -9,11 +9,12 @@
 namespace tamp::tasks
 {
 
-/// A particle, and where it is.
+/// A particle, or a node where two materials meet, and where it is.
 struct ParticlePlace {
-  std::int64_t particle = -1;  ///< its id; -1: none
+  std::int64_t particle = -1;  ///< its id, or the number of the node; -1: none
   int material = -1;
   std::array<double, 3> position{};  ///< m
+  int other_material = -1;           ///< at a node, the second of the two
 
   /// By id; none comes last.
   bool operator<(const ParticlePlace& other) const

@@ -145,10 +145,22 @@ void Simulation::sample_state()
   if (out_of_range(updates()) > limits.out_of_range) records.out_of_range.add(n_steps(), time());
 }
 
+void Simulation::sample_contact(double step_size)
+{
+  if (engine_->graph(contact_graph).declarations().empty()) return;
+  engine_->run(contact_graph, step_size);
+  const ContactSample& sample = warehouse().result(contact_sample);
+  const SceneLimits& limits = scene_.limits;
+  MonitorRecords& records = warehouse().global_state(monitor_records);
+  records.early_contact.add(sample.early, limits.early_contact, n_steps(), time(), sample.first_early);
+  records.interpenetration.add(sample.within, limits.interpenetration, n_steps(), time(), sample.first_within);
+}
+
 void Simulation::advance(double end)
 {
   try {
     double size = std::min(next_step_size(), end - time());
+    if (scene_.limits.samples_after(n_steps() + 1)) sample_contact(size);
     for (int n_tries = 1; !engine_->advance(size, end); ++n_tries) {
       note_refusal();
       size = shorter_step(size, n_tries);

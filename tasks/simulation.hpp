@@ -126,6 +126,8 @@ class Simulation
   double shorter_step(double refused_size, int n_tries) const;
   void note_refusal();
   void sample_state();
+  /// The contact of the next step, as it will be.
+  void sample_contact(double step_size);
 
   /// Last asked for.
   runtime::FieldCopy particles_;

@@ -39,13 +39,15 @@ runtime::TaskDeclaration migrate(const Method<D>& method)
 template <int D>
 runtime::TaskList time_step(const Method<D>& method)
 {
+  // Where particles deform by other velocities, what they bring of these tells the masses too.
+  const bool tells_masses = method.stress_timing == StressTiming::usl;
   runtime::TaskList step;
   for (const runtime::TaskList& phase : {update_stress_first(method),
                                          share_stress(method),
                                          particles_to_grid(method),
                                          press(method),
                                          body_force(method),
-                                         accelerate_nodes(method),
+                                         accelerate_nodes(method, tells_masses),
                                          accelerate_rigid_bodies(method),
                                          rigid_nodes_before_contact(method),
                                          contact_planes(method),

@@ -14,11 +14,9 @@ using runtime::TaskContext;
 /// one. With v_n = v_{n-1/2} + a dt/2 the positions then move by v_n dt + a dt^2/2, which is eq. 42 of
 /// PAR-10021867-092020-6. At the very start velocity and position are of one time, and the kick is half a step.
 template <int D>
-runtime::TaskList accelerate_nodes(const Method<D>& method)
+runtime::TaskList accelerate_nodes(const Method<D>& method, bool tells_masses)
 {
   if (method.deformable_materials.empty()) return {};
-  // Where particles deform by other velocities, what they bring of these tells the masses too.
-  const bool tells_masses = method.stress_timing == StressTiming::usl;
   return {runtime::task("accelerate nodes")
               .over_patches_and_groups(method.deformable_materials)
               .sparse()
@@ -43,7 +41,7 @@ runtime::TaskList accelerate_nodes(const Method<D>& method)
               })};
 }
 
-template runtime::TaskList accelerate_nodes(const Method<2>&);
-template runtime::TaskList accelerate_nodes(const Method<3>&);
+template runtime::TaskList accelerate_nodes(const Method<2>&, bool);
+template runtime::TaskList accelerate_nodes(const Method<3>&, bool);
 
 }  // namespace tamp::tasks

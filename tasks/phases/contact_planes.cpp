@@ -1,14 +1,12 @@
+#include "tasks/phases/contact_planes.hpp"
+
 #include <algorithm>
-#include <array>
 #include <optional>
 #include <string>
 #include <utility>
 
-#include "components/contact/parted_particles.hpp"
-#include "tasks/labels.hpp"
 #include "tasks/phases/phases.hpp"
 #include "tasks/phases/places.hpp"
-#include "tasks/phases/walls.hpp"
 
 namespace tamp::tasks
 {
@@ -26,49 +24,16 @@ using runtime::TaskContext;
 namespace
 {
 
-struct Pair {
-  std::size_t first;
-  std::size_t second;
-};
-
 /// The pair that gets a plane at a node, where no third material is: its own contact with either would take their
 /// plane's normal for theirs. Where three meet, all pairs take the normal of the flatter surface.
 template <int D>
-std::optional<Pair> pair_at(const Method<D>& method, const PerGroup<GridView<const NodeSums<D>>>& sums, const Index& i)
+std::optional<MaterialPair> pair_at(const Method<D>& method, const PerGroup<GridView<const NodeSums<D>>>& sums,
+                                    const Index& i)
 {
-  std::array<std::size_t, 2> here;
-  std::size_t n_here = 0;
-  for (std::size_t g = 0; g < sums.size(); ++g) {
-    if (!(sums[g][i].mass() > method.least_node_mass)) continue;
-    if (n_here == here.size()) return {};
-    here[n_here++] = g;
-  }
-  if (n_here < here.size()) return {};
-  const int owner = method.contacts.normal_of(static_cast<int>(here[0]), static_cast<int>(here[1]));
-  if (owner != components::ContactTable::regression) return {};
-  return Pair{here[0], here[1]};
-}
-
-/// The two materials that see a plane at a node.
-template <int D, class Planes>
-std::optional<Pair> parted_at(const Planes& planes, const Index& i)
-{
-  Pair pair{planes.size(), planes.size()};
-  for (std::size_t g = 0; g < planes.size(); ++g) {
-    if (planes[g][i].side < 0) pair.first = g;
-    if (planes[g][i].side > 0) pair.second = g;
-  }
-  if (pair.first == planes.size()) return {};
-  return pair;
-}
-
-template <int D>
-void mirror(const Method<D>& method, const TaskContext& at, const PerGroup<GridView<ContactPlane<D>>>& planes)
-{
-  for (const GridView<ContactPlane<D>>& plane : planes) {
-    for_each_wall(method, at, plane.box(), [&](const Wall<D>& wall) { wall.image.constrain(plane.data()); });
-    for_each_wall(method, at, plane.box(), [&](const Wall<D>& wall) { wall.image.mirror(plane.data()); });
-  }
+  const auto pair = pair_alone_at(method, sums, i);
+  if (!pair) return {};
+  const int owner = method.contacts.normal_of(static_cast<int>(pair->first), static_cast<int>(pair->second));
+  return owner == components::ContactTable::regression ? pair : std::nullopt;
 }
 
 template <int D>
@@ -97,10 +62,7 @@ runtime::TaskDeclaration lay_planes(const Method<D>& method)
             planes[pair->second][i].side = 1;
           }
         });
-        mirror(method, at, planes);
-        for (const GridView<ContactPlane<D>>& plane : planes) {
-          components::mark_near_cells(block_of<D>(at.layout, plane), plane.data());
-        }
+        spread_planes(method, at, planes);
       });
 }
 
@@ -137,7 +99,7 @@ runtime::TaskDeclaration turn_planes(const Method<D>& method, std::string name)
         const auto sums = data[node::regression_sums<D>];
         const auto planes = data[node::contact_plane<D>];
         for_each(planes[0].box(), [&](const Index& i) {
-          const auto pair = parted_at<D>(planes, i);
+          const auto pair = parted_at(planes, i);
           if (!pair) return;
           const auto& [first, second] = *pair;
           // Beyond a mirror nothing may have come; such nodes take the plane of their mirror node.
@@ -145,7 +107,7 @@ runtime::TaskDeclaration turn_planes(const Method<D>& method, std::string name)
           planes[first][i].coefficients = planes[second][i].coefficients =
               components::newton_step<D>(planes[first][i].coefficients, sums[first][i], sums[second][i]);
         });
-        mirror(method, at, planes);
+        mirror_planes(method, at, planes);
       });
 }
 
@@ -165,11 +127,9 @@ runtime::TaskDeclaration align_contact_normals(const Method<D>& method)
         const auto edges = data[node::edge_sums<D>];
         const auto motions = data[node::motion<D>];
         const auto sums = data[node::sums<D>];
-        const auto edge = [&](std::size_t g, const Index& i) {
-          return method.cell_size * edges[g][i].edge(1.0 / method.scene.particles_per_axis_of(static_cast<int>(g)));
-        };
+        const auto edge = [&](std::size_t g, const Index& i) { return edge_at<D>(method, g, edges[g][i]); };
         for_each(planes[0].box(), [&](const Index& i) {
-          const auto pair = parted_at<D>(planes, i);
+          const auto pair = parted_at(planes, i);
           if (!pair) return;
           const auto& [a, b] = *pair;
           if (!(edges[a][i].weight > 0 && edges[b][i].weight > 0)) return;
@@ -187,20 +147,28 @@ runtime::TaskDeclaration align_contact_normals(const Method<D>& method)
 }  // namespace
 
 template <int D>
+runtime::TaskDeclaration find_edges(const Method<D>& method)
+{
+  const auto find = [](const auto& interpolation, const auto&... rest) { interpolation.add_edges(rest...); };
+  return sum_at_planes(method, "find edges", node::edge_sums<D>, find);
+}
+
+template <int D>
 runtime::TaskList contact_planes(const Method<D>& method)
 {
   if (!method.contacts.has_regression()) return {};
   const auto regress = [](const auto& interpolation, const auto&... rest) { interpolation.add_regression(rest...); };
-  const auto find = [](const auto& interpolation, const auto&... rest) { interpolation.add_edges(rest...); };
   return {lay_planes(method),
           sum_at_planes(method, "regress contact 1", node::regression_sums<D>, regress),
           turn_planes(method, "turn contact planes 1"),
           sum_at_planes(method, "regress contact 2", node::regression_sums<D>, regress),
           turn_planes(method, "turn contact planes 2"),
-          sum_at_planes(method, "find edges", node::edge_sums<D>, find),
+          find_edges(method),
           align_contact_normals(method)};
 }
 
+template runtime::TaskDeclaration find_edges(const Method<2>&);
+template runtime::TaskDeclaration find_edges(const Method<3>&);
 template runtime::TaskList contact_planes(const Method<2>&);
 template runtime::TaskList contact_planes(const Method<3>&);
 

@@ -28,9 +28,10 @@ runtime::TaskList body_force(const Method<D>& method);
 template <int D>
 runtime::TaskList work_of_body_force(const Method<D>& method);
 
-/// Nodes of deformable materials are accelerated by their forces, gravity and what the turning of the frame adds.
+/// Nodes of deformable materials are accelerated by their forces, gravity and what the turning of the frame adds. The
+/// inverses of their masses are for those who ask.
 template <int D>
-runtime::TaskList accelerate_nodes(const Method<D>& method);
+runtime::TaskList accelerate_nodes(const Method<D>& method, bool tells_masses);
 
 /// Rigid bodies are accelerated by gravity and what the turning of the frame adds.
 template <int D>

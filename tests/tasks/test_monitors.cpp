@@ -24,6 +24,19 @@ Scene block()
   return scene;
 }
 
+/// Two blocks that approach each other across a gap; cells are 0.1 m, and of 2 x 2 patches.
+Scene two_blocks(double gap, int normal_of)
+{
+  Scene scene = empty_scene(2, {16, 16, 1}, 0.1);
+  scene.n_patches = {2, 2, 1};
+  scene.limits.sampled_every = 5;
+  const int lower = add_elastic(scene, 1000, 1e6, 0.3), upper = add_elastic(scene, 1000, 1e6, 0.3);
+  add_box(scene, lower, {0.4, 0.4, 0}, {1.2, 0.8 - gap / 2, 0});
+  add_box(scene, upper, {0.4, 0.8 + gap / 2, 0}, {1.2, 1.2, 0}, {0, -0.01, 0});
+  scene.contacts.push_back({lower, upper, 0, normal_of});
+  return scene;
+}
+
 /// Velocities of neighbours that cancel at every node.
 double noise(const Vector<3>& x)
 {
@@ -102,6 +115,21 @@ TEST_CASE("particles are torn where tension holds them further apart than nodes 
   CHECK(stretched->monitors().torn_apart.greatest == 0);
 }
 
+TEST_CASE("contact is early where bodies push each other across a gap, and not where they lie on each other")
+{
+  const double gap = GENERATE(0.0, 0.1);
+  const auto simulation = Simulation::make(two_blocks(gap, components::ContactTable::flatter), 1);
+  const auto by_regression = Simulation::make(two_blocks(gap, components::ContactTable::regression), 1);
+
+  const SampledShare& seen = records_after(*simulation, 5).early_contact;
+
+  CHECK(seen.all.whole > 0);
+  CHECK(seen.all.value() == (gap > 0.05 ? 1 : 0));
+  CHECK(seen.above.count == (gap > 0.05 ? 1 : 0));
+  CHECK(seen.above.first.other_material == (gap > 0.05 ? 1 : -1));
+  CHECK(records_after(*by_regression, 5).early_contact.all.whole == 0);
+}
+
 TEST_CASE("samples of the state are the same on any ranks and threads", "[ranks]")
 {
   Scene scene = block();
@@ -117,6 +145,23 @@ TEST_CASE("samples of the state are the same on any ranks and threads", "[ranks]
   CHECK(records.null_space.all.part == expected.null_space.all.part);
   CHECK(records.uneven_pressure.all.part == expected.uneven_pressure.all.part);
   CHECK(records.torn_apart.all.part == expected.torn_apart.all.part);
+}
+
+TEST_CASE("samples of contact are the same on any ranks and threads", "[ranks]")
+{
+  const Scene scene = two_blocks(0.1, components::ContactTable::flatter);
+  const auto alone = Simulation::make(scene, 1);
+  const SampledShare& expected = records_after(*alone, 10).early_contact;
+
+  const auto simulation = Simulation::make(scene, std::make_shared<runtime::Executor>(2, on_shared_cores()),
+                                           runtime::Communicator::world());
+  const SampledShare& seen = records_after(*simulation, 10).early_contact;
+
+  CHECK(expected.all.part > 0);
+  CHECK(seen.all.part == expected.all.part);
+  CHECK(seen.all.whole == expected.all.whole);
+  CHECK(seen.above.first.particle == expected.above.first.particle);
+  CHECK(seen.above.first.position == expected.above.first.position);
 }
 
 }  // namespace test_monitors

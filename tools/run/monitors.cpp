@@ -99,18 +99,33 @@ std::vector<Monitor> of_samples(const tasks::Simulation& simulation)
               "cannot change its volume locks; /anti_locking, or splines, let it flow"),
       monitor("torn_apart", seen.torn_apart, seen.torn_apart.greatest, limits.torn_apart,
               "of the elastic particles hold tension across more than 1.2 cells, where no node joins them: they break "
-              "without a cause; cpdi, or more particles a cell, keep them together")};
+              "without a cause; cpdi, or more particles a cell, keep them together"),
+      monitor("early_contact", seen.early_contact, seen.early_contact.all.value(), limits.early_contact,
+              "of the contact impulses push bodies that are more than a quarter of a cell apart: a normal by "
+              "\"regression\" lets them push only where they touch"),
+      monitor("interpenetration", seen.interpenetration, seen.interpenetration.all.value(), limits.interpenetration,
+              "of the contact impulses push bodies that are more than half a cell within each other along their "
+              "normal: that of another surface, or by \"regression\", tells better where they meet")};
+}
+
+const std::string& material_name(const tasks::Scene& scene, int material)
+{
+  return scene.materials[static_cast<std::size_t>(material)].name;
 }
 
 nlohmann::ordered_json first_of(const tasks::Sightings& seen, const tasks::Scene& scene)
 {
   if (seen.first_step < 0) return nullptr;
   nlohmann::ordered_json json{{"after_step", seen.first_step}, {"time_s", seen.first_time}};
-  if (seen.first.particle >= 0) {
-    json["particle"] = seen.first.particle;
-    json["material"] = scene.materials[static_cast<std::size_t>(seen.first.material)].name;
-    json["position_m"] = std::vector(seen.first.position.begin(), seen.first.position.begin() + scene.grid.dimension);
+  const tasks::ParticlePlace& place = seen.first;
+  if (place.particle < 0) return json;
+  if (place.other_material >= 0) {
+    json["materials"] = {material_name(scene, place.material), material_name(scene, place.other_material)};
+  } else {
+    json["particle"] = place.particle;
+    json["material"] = material_name(scene, place.material);
   }
+  json["position_m"] = std::vector(place.position.begin(), place.position.begin() + scene.grid.dimension);
   return json;
 }
 
@@ -118,11 +133,14 @@ std::string place_of_first(const tasks::Sightings& seen, const tasks::Scene& sce
 {
   if (seen.first_step < 0) return "";
   std::string words = fmt::format(", first after step {}, time {:.4g} s", seen.first_step, seen.first_time);
-  if (seen.first.particle < 0) return words;
-  const auto& x = seen.first.position;
-  return words + fmt::format(", particle {} of '{}' at ({:.4g}) m", seen.first.particle,
-                             scene.materials[static_cast<std::size_t>(seen.first.material)].name,
-                             fmt::join(x.begin(), x.begin() + scene.grid.dimension, ", "));
+  const tasks::ParticlePlace& place = seen.first;
+  if (place.particle < 0) return words;
+  const std::string who = place.other_material >= 0 ? fmt::format("'{}' and '{}'", material_name(scene, place.material),
+                                                                  material_name(scene, place.other_material))
+                                                    : fmt::format("particle {} of '{}'", place.particle,
+                                                                  material_name(scene, place.material));
+  const auto& x = place.position;
+  return words + fmt::format(", {} at ({:.4g}) m", who, fmt::join(x.begin(), x.begin() + scene.grid.dimension, ", "));
 }
 
 }  // namespace

@@ -57,6 +57,37 @@ TEST_CASE("local damping of what falls is told, and what comes to rest or is pre
   CHECK(damped(pressed)["warns"] == false);
 }
 
+TEST_CASE("contact before bodies touch is told with its place and materials, and contact where they touch is not")
+{
+  const std::string approach = inputs + "stability/scenes/approach.json --quiet --set /limits/sampled_every=5";
+  const Run early = run_with(approach), late = run_with(approach + " --set /contact/0/normal=regression");
+
+  const nlohmann::json seen = early.summary["monitors"]["early_contact"];
+  CAPTURE(seen.dump());
+  CHECK(seen["warns"] == true);
+  CHECK(seen["first"]["materials"] == nlohmann::json({"ground", "block"}));
+  // Between the ground's surface and where the block's lower face starts.
+  CHECK(seen["first"]["position_m"][1].get<double>() >= 0.3);
+  CHECK(seen["first"]["position_m"][1].get<double>() <= 0.4);
+  CHECK_THAT(early.outcome.err, Catch::Contains("'ground' and 'block' at ("));
+  CHECK(late.summary["monitors"]["early_contact"]["share"] == 0);
+}
+
+TEST_CASE("contact along a wrong normal, with one body within the other, is told")
+{
+  const std::string sliding = inputs +
+                              "verification/scenes/block_on_incline.json --quiet --until 0.1 "
+                              "--set /interpolator=quadratic_spline --set /limits/sampled_every=20";
+  const Run caught = run_with(sliding), right = run_with(sliding + " --set /contact/0/normal=ground");
+
+  const nlohmann::json seen = caught.summary["monitors"]["interpenetration"];
+  CAPTURE(seen.dump());
+  CHECK(seen["warns"] == true);
+  CHECK(seen["first"]["materials"] == nlohmann::json({"ground", "block"}));
+  CHECK(right.summary["monitors"]["interpenetration"]["share"] == 0);
+  CHECK(right.summary["monitors"]["interpenetration"]["first"] == nullptr);
+}
+
 TEST_CASE("the monitor that is furthest beyond its limit comes first")
 {
   const Run run = run_with(punch + " --set /limits/filtered_energy=1e-9 --set /limits/energy_drift=1e-3");
