@@ -220,14 +220,15 @@ struct SceneLimits {
   double early_contact = 0.1;
   double interpenetration = 0.1;
   double lost_mass = 0.01;
+  double forecast_missed = 2;
   int sampled_every = 50;
 
   bool samples_after(long n_steps) const { return n_steps % sampled_every == 0; }
   /// All but the first.
-  static constexpr std::array<components::Parameter<SceneLimits>, 15> parameters();
+  static constexpr std::array<components::Parameter<SceneLimits>, 16> parameters();
 };
 
-constexpr std::array<components::Parameter<SceneLimits>, 15> SceneLimits::parameters()
+constexpr std::array<components::Parameter<SceneLimits>, 16> SceneLimits::parameters()
 {
   using components::above_zero, components::zero_or_above;
   using L = SceneLimits;
@@ -277,6 +278,13 @@ constexpr std::array<components::Parameter<SceneLimits>, 15> SceneLimits::parame
         "other, over all samples",
         true},
        {"lost_mass", "", part, &L::lost_mass, "warns beyond: the part of the mass that has left the grid", true},
+       {"forecast_missed",
+        "",
+        {.lower = 1},
+        &L::forecast_missed,
+        "warns beyond: the factor by which a run took more memory or disk space than was forecast, or more or fewer "
+        "steps",
+        true},
        {"sampled_every",
         "",
         {.lower = 1, .upper = 1e6},

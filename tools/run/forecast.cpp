@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "tasks/forecast/demand.hpp"
@@ -32,14 +33,13 @@ std::string in_time(double seconds)
 Forecast forecast(const tasks::Scene& scene, int n_ranks)
 {
   const tasks::Demand demand = demand_of(scene);
-  constexpr double n_checkpoints = 2;
   const double n_outputs = std::ceil(scene.time.end / scene.output.fields_interval) + 1;
   Forecast all;
   all.n_particles = demand.n_particles;
   all.memory = n_ranks * (resident_bytes() + of_libraries) + demand.fields + demand.output_room;
   // A process alone has the fields that it writes anyway.
   all.copies = demand.checkpoint_file + (n_ranks > 1 ? demand.output_room : 0);
-  all.disk = n_outputs * demand.output_file + n_checkpoints * demand.checkpoint_file + of_reports;
+  all.disk = n_outputs * demand.output_file + n_checkpoints_forecast * demand.checkpoint_file + of_reports;
   return all;
 }
 
@@ -68,6 +68,20 @@ void add_copies(Forecast& forecast, int n_ranks, int ranks_here)
 void add_pace(const tasks::Scene& scene, const tasks::Effort& effort, Forecast& forecast)
 {
   forecast.pace = tasks::pace_of(scene, effort);
+}
+
+ForecastMiss miss_of(const Forecast& forecast, const UsedByRun& taken)
+{
+  ForecastMiss worst;
+  const auto look = [&](double factor, const char* what) {
+    if (factor > worst.factor) worst = {factor, what};
+  };
+  if (taken.fields_forecast > 0) look(taken.fields / taken.fields_forecast, "memory");
+  if (forecast.disk > 0) look(taken.disk / forecast.disk, "disk space");
+  if (!forecast.pace || !taken.n_steps || *taken.n_steps == 0 || forecast.pace->n_steps == 0) return worst;
+  const double steps = static_cast<double>(*taken.n_steps) / forecast.pace->n_steps;
+  look(std::max(steps, 1 / steps), "steps");
+  return worst;
 }
 
 std::string description(const Forecast& forecast)

@@ -10,6 +10,9 @@
 namespace tamp::tools
 {
 
+/// How many checkpoints the forecast of disk space has room for.
+constexpr int n_checkpoints_forecast = 2;
+
 /// Forecast of a run's memory, disk space and time, made before anything is stored for it.
 struct Forecast {
   std::size_t n_particles = 0;
@@ -18,11 +21,30 @@ struct Forecast {
   /// Extra memory of the first rank for output in the background, and whether it does that; `memory` then includes it.
   double copies = 0;
   bool in_background = false;
-  /// At the end of a run to the scene's end, with two checkpoints [bytes].
+  /// At the end of a run to the scene's end, with `n_checkpoints_forecast` checkpoints [bytes].
   double disk = 0;
   /// Nothing where it was not asked for, or no coarser grid holds the bodies.
   std::optional<tasks::Pace> pace{};
 };
+
+/// What a run took of what was forecast.
+struct UsedByRun {
+  /// By its fields and particles on all ranks, and as forecast [bytes].
+  double fields = 0, fields_forecast = 0;
+  double disk = 0;  ///< bytes
+  /// Of a run that has come to the scene's end.
+  std::optional<long> n_steps{};
+};
+
+/// The largest factor by which a forecast was missed, and of what.
+struct ForecastMiss {
+  double factor = 1;
+  std::string what = "memory";
+};
+
+/// Memory and disk space are forecast as what a run takes at most: less of them is no miss. Wall time is left out, as
+/// it depends on what else the machine does. A restart or a run that stops early takes less disk space.
+ForecastMiss miss_of(const Forecast& forecast, const UsedByRun& taken);
 
 /// All but the pace.
 Forecast forecast(const tasks::Scene& scene, int n_ranks = 1);

@@ -108,6 +108,26 @@ std::vector<Monitor> of_samples(const tasks::Simulation& simulation)
               "normal: that of another surface, or by \"regression\", tells better where they meet")};
 }
 
+Monitor of_forecast(const tasks::SceneLimits& limits, const ForecastMiss& missed)
+{
+  return {"forecast_missed",
+          {},
+          missed.factor,
+          limits.forecast_missed,
+          {},
+          "times off was the forecast of the run's " + missed.what +
+              ": it comes from coarser cells, and knows no growth; watch what a longer run of this scene takes",
+          true};
+}
+
+/// How far along the way to its limit the share is.
+double badness(const Monitor& monitor)
+{
+  const double best = monitor.is_factor ? 1 : 0;
+  if (monitor.limit > best) return (monitor.share - best) / (monitor.limit - best);
+  return monitor.share > best ? HUGE_VAL : 0;
+}
+
 const std::string& material_name(const tasks::Scene& scene, int material)
 {
   return scene.materials[static_cast<std::size_t>(material)].name;
@@ -145,21 +165,25 @@ std::string place_of_first(const tasks::Sightings& seen, const tasks::Scene& sce
 
 }  // namespace
 
-std::vector<Monitor> monitors_of(const tasks::Simulation& simulation, const RunHistory& history)
+std::vector<Monitor> monitors_of(const tasks::Simulation& simulation, const RunHistory& history,
+                                 const ForecastMiss& missed)
 {
   std::vector<Monitor> all = of_steps(simulation);
   for (auto&& more : {of_balances(simulation, history), of_samples(simulation)}) {
     all.insert(all.end(), more.begin(), more.end());
   }
-  const auto badness = [](const Monitor& m) { return m.limit > 0 ? m.share / m.limit : m.share > 0 ? HUGE_VAL : 0; };
+  all.push_back(of_forecast(simulation.scene().limits, missed));
   std::ranges::stable_sort(all, std::greater(), badness);
   return all;
 }
 
 std::string warning_of(const Monitor& monitor, const tasks::Scene& scene)
 {
-  return fmt::format("{:.2g} % {} (more than /limits/{}, {:.2g} %{})", 100 * monitor.share, monitor.words, monitor.name,
-                     100 * monitor.limit, place_of_first(monitor.first, scene));
+  const auto amount = [&](double share) {
+    return monitor.is_factor ? fmt::format("{:.2g}", share) : fmt::format("{:.2g} %", 100 * share);
+  };
+  return fmt::format("{} {} (more than /limits/{}, {}{})", amount(monitor.share), monitor.words, monitor.name,
+                     amount(monitor.limit), place_of_first(monitor.first, scene));
 }
 
 nlohmann::ordered_json to_json(const Monitor& monitor, const tasks::Scene& scene)

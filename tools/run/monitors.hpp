@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "tools/run/forecast.hpp"
 #include "tools/run/run_history.hpp"
 
 namespace tamp::tools
@@ -22,12 +23,15 @@ struct Monitor {
   tasks::Sightings first;
   /// What it means and what helps, for a share beyond the limit.
   std::string words;
+  /// Whether the share is a factor, of which 1 is the best, and not a part.
+  bool is_factor = false;
 
   bool warns() const { return share > limit; }
 };
 
 /// All of them after a run so far, the worst first: by their shares over their limits.
-std::vector<Monitor> monitors_of(const tasks::Simulation& simulation, const RunHistory& history);
+std::vector<Monitor> monitors_of(const tasks::Simulation& simulation, const RunHistory& history,
+                                 const ForecastMiss& missed);
 
 /// A line for people.
 std::string warning_of(const Monitor& monitor, const tasks::Scene& scene);

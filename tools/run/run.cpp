@@ -47,6 +47,18 @@ double seconds_since(Clock::time_point start)
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
+/// Of the files in a folder and below [bytes]; what cannot be read counts nothing.
+double bytes_in(const std::filesystem::path& folder)
+{
+  double bytes = 0;
+  std::error_code unreadable;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(folder, unreadable)) {
+    const auto size = entry.is_regular_file(unreadable) ? entry.file_size(unreadable) : 0;
+    if (!unreadable) bytes += static_cast<double>(size);
+  }
+  return bytes;
+}
+
 /// Requests that one rank may make of all with a step, as bits.
 constexpr unsigned write_checkpoint = 1;
 constexpr unsigned end_as_output_has_failed = 1U << 1;
@@ -353,7 +365,9 @@ class Runner
     const components::UpdateCounts& updates = simulation_->updates();
     if (updates.failures > 0) warn(fmt::format("{} stress updates have failed", updates.failures));
     history_.measure();
-    for (const Monitor& monitor : monitors_of(*simulation_, history_)) {
+    output_.finish();
+    missed_ = miss_of_forecast();
+    for (const Monitor& monitor : monitors_of(*simulation_, history_, missed_)) {
       if (monitor.warns()) warn(warning_of(monitor, checked_.scene));
     }
     const bool warned = common_warnings() > 0;
@@ -361,6 +375,21 @@ class Runner
     if (!warned || !options_.strict) return;
     const std::string reason = "completed with warnings, which --strict does not take";
     throw tasks::SimulationError(reason, "", -1, {});
+  }
+
+  /// After a run that has come to its end. Known to the first rank alone, whose forecast it is.
+  ForecastMiss miss_of_forecast() const
+  {
+    const runtime::MemoryLedger& ledger = simulation_->engine().warehouse().ledger();
+    const auto fields = options_.communicator.sum(static_cast<std::size_t>(ledger.total().peak()));
+    UsedByRun taken{static_cast<double>(fields), static_cast<double>(simulation_->forecast_bytes())};
+    if (simulation_->time() >= checked_.scene.time.end) taken.n_steps = simulation_->n_steps();
+    ForecastMiss missed;
+    on_first_rank([&] {
+      if (options_.checkpoints.keep <= n_checkpoints_forecast) taken.disk = bytes_in(options_.folder);
+      missed = miss_of(forecast_, taken);
+    });
+    return missed;
   }
 
   /// Those of files are the first rank's alone.
@@ -398,10 +427,10 @@ class Runner
     history_.measure();
     const runtime::Profile profile = simulation_->engine().profile();
     const nlohmann::json json = to_json(profile, simulation_->engine().warehouse().ledger(), options_.communicator);
-    const nlohmann::ordered_json summary =
-        run_summary(*simulation_, history_,
-                    {status, reason, seconds_since(start_), median({step_seconds_.begin(), step_seconds_.end()}),
-                     restarted_at_, output_.in_background(), output_time, forecast_, checked_.inputs, warnings_});
+    const nlohmann::ordered_json summary = run_summary(
+        *simulation_, history_,
+        {status, reason, seconds_since(start_), median({step_seconds_.begin(), step_seconds_.end()}), restarted_at_,
+         output_.in_background(), output_time, forecast_, missed_, checked_.inputs, warnings_});
     on_first_rank([&] {
       runtime::write_whole_file(options_.folder / "summary.json", json_text(summary, 2) + "\n");
       runtime::write_whole_file(options_.folder / "profile.json", json.dump(1) + "\n");
@@ -442,6 +471,7 @@ class Runner
   Outputs written_;
   long restarted_at_ = -1;
   bool state_is_good_ = true;
+  ForecastMiss missed_;
   double history_seconds_ = 0;
   std::vector<float> step_seconds_;
   std::vector<std::string> warnings_;

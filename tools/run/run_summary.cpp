@@ -142,10 +142,10 @@ Json rebalances(const tasks::Simulation& simulation)
 }
 
 /// Those with limits, the worst first, then what is only counted.
-Json monitors(const tasks::Simulation& simulation, const RunHistory& history)
+Json monitors(const tasks::Simulation& simulation, const RunHistory& history, const ForecastMiss& missed)
 {
   Json all;
-  for (const Monitor& monitor : monitors_of(simulation, history)) {
+  for (const Monitor& monitor : monitors_of(simulation, history, missed)) {
     all[monitor.name] = to_json(monitor, simulation.scene());
   }
   const components::UpdateCounts& updates = simulation.updates();
@@ -213,7 +213,7 @@ Json run_summary(tasks::Simulation& simulation, const RunHistory& history, const
           {"materials", materials(simulation, history)},
           {"greatest", greatest(history)},
           {"load_balance", rebalances(simulation)},
-          {"monitors", monitors(simulation, history)}};
+          {"monitors", monitors(simulation, history, outcome.missed)}};
 }
 
 namespace

@@ -27,6 +27,7 @@ struct RunOutcome {
   bool in_background = false;
   OutputTime output;
   Forecast forecast;
+  ForecastMiss missed;
   std::vector<InputFile> inputs;
   std::vector<std::string> warnings;
 };

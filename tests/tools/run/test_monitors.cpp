@@ -1,11 +1,15 @@
+#include <algorithm>
 #include <catch2/catch.hpp>
 
 #include "tests/tools/run/run_with.hpp"
+#include "tools/run/forecast.hpp"
 
 namespace test_monitors
 {
 
+using namespace tamp;
 using namespace tamp::test;
+using namespace tamp::tools;
 
 namespace
 {
@@ -86,6 +90,36 @@ TEST_CASE("contact along a wrong normal, with one body within the other, is told
   CHECK(seen["first"]["materials"] == nlohmann::json({"ground", "block"}));
   CHECK(right.summary["monitors"]["interpenetration"]["share"] == 0);
   CHECK(right.summary["monitors"]["interpenetration"]["first"] == nullptr);
+}
+
+TEST_CASE("a forecast that was missed is told with what it was of, and only a run to the end is held against its steps")
+{
+  const std::string exact = inputs + "stability/scenes/approach.json --set /limits/forecast_missed=1";
+  const Run whole = run_with(exact), part = run_with(exact + " --steps 20");
+
+  const nlohmann::json missed = whole.summary["monitors"]["forecast_missed"];
+  const double steps = whole.summary["steps"].get<double>() / whole.summary["forecast"]["steps"].get<double>();
+  CHECK(missed["share"].get<double>() == Approx(std::max(steps, 1 / steps)));
+  CHECK(missed["warns"] == true);
+  CHECK_THAT(whole.outcome.err, Catch::Contains("times off was the forecast of the run's steps"));
+  CHECK(part.summary["monitors"]["forecast_missed"]["share"] == 1);
+  CHECK(part.summary["monitors"]["forecast_missed"]["warns"] == false);
+}
+
+TEST_CASE("more memory, disk space or steps than forecast are missed by their factor, and fewer steps too")
+{
+  Forecast forecast;
+  forecast.disk = 1e6;
+  forecast.pace = tasks::Pace{.n_steps = 100, .core_seconds = 1};
+  const auto missed = [&](const UsedByRun& taken) { return miss_of(forecast, taken); };
+
+  CHECK(missed({.fields = 50, .fields_forecast = 100, .disk = 5e5, .n_steps = 100}).factor == 1);
+  CHECK(missed({.fields = 300, .fields_forecast = 100, .disk = 2e6, .n_steps = 100}).factor == 3);
+  CHECK(missed({.fields = 300, .fields_forecast = 100, .disk = 2e6, .n_steps = 100}).what == "memory");
+  CHECK(missed({.fields = 100, .fields_forecast = 100, .disk = 4e6, .n_steps = 300}).what == "disk space");
+  CHECK(missed({.fields = 100, .fields_forecast = 100, .disk = 0, .n_steps = 250}).factor == 2.5);
+  CHECK(missed({.fields = 100, .fields_forecast = 100, .disk = 0, .n_steps = 25}).factor == 4);
+  CHECK(missed({.fields = 100, .fields_forecast = 100, .disk = 0, .n_steps = {}}).factor == 1);
 }
 
 TEST_CASE("the monitor that is furthest beyond its limit comes first")
