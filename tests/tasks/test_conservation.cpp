@@ -26,6 +26,20 @@ Scene collision(int dimension)
   return scene;
 }
 
+/// A rigid block hits two soft ones, which lie side by side and rub on each other, at the joint between them.
+Scene squeeze()
+{
+  Scene scene = empty_scene(2, {20, 20, 1}, 0.05);
+  scene.n_patches = {2, 2, 1};
+  const int left = add_elastic(scene, 1000, 1e6, 0.3), right = add_elastic(scene, 2000, 2e6, 0.2),
+            steel = add_elastic(scene, 8000, 1e9, 0.3);
+  add_box(scene, left, {0.2, 0.2, 0}, {0.5, 0.5, 0});
+  add_box(scene, right, {0.5, 0.2, 0}, {0.8, 0.45, 0});
+  add_box(scene, steel, {0.4, 0.55, 0}, {0.6, 0.7, 0}, {1, -5, 0}).rigid = true;
+  scene.contacts = {{left, right, 0.2}, {left, steel, 0.3}, {right, steel, 0.1}};
+  return scene;
+}
+
 /// A punch of steel goes into sand in its own weight; half of both, at a mirror.
 Scene punch()
 {
@@ -73,6 +87,26 @@ TEST_CASE("bodies that collide in free space keep their mass and momentum")
   CHECK(simulation->energies().viscous > 0);
   const std::array<double, 3>& impulse = simulation->grid_totals().impulse;
   for (const double value : impulse) CHECK(std::abs(value) < 1e-12 * before.momentum().norm());
+}
+
+TEST_CASE("contact of three bodies, one of them rigid, gives impulses that sum to zero and are what each gains")
+{
+  const auto simulation = Simulation::make(squeeze(), 2);
+  const ParticleReport before = simulation->report();
+
+  for (int i = 0; i < 200; ++i) simulation->advance(1e30);
+
+  const ParticleReport after = simulation->report();
+  const std::vector<ContactForce> forces = simulation->take_mean_forces().contact;
+  const double size = before.bodies[2].momentum.norm();
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  for (std::size_t b = 0; b < forces.size(); ++b) {
+    const Eigen::Vector3d impulse = simulation->time() * forces[b].force;
+    CHECK((after.bodies[b].momentum - before.bodies[b].momentum - impulse).norm() < 1e-12 * size);
+    CHECK(impulse.norm() > 0.01 * size);
+    sum += impulse;
+  }
+  CHECK(sum.norm() < 1e-12 * size);
 }
 
 TEST_CASE("what walls and gravity give is what the particles have gained")
