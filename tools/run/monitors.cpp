@@ -180,7 +180,9 @@ std::vector<Monitor> monitors_of(const tasks::Simulation& simulation, const RunH
 std::string warning_of(const Monitor& monitor, const tasks::Scene& scene)
 {
   const auto amount = [&](double share) {
-    return monitor.is_factor ? fmt::format("{:.2g}", share) : fmt::format("{:.2g} %", 100 * share);
+    // Two digits, but no exponent where these end before the point.
+    const double shown = monitor.is_factor ? share : 100 * share;
+    return fmt::format(fmt::runtime(shown < 99.5 ? "{:.2g}{}" : "{:.0f}{}"), shown, monitor.is_factor ? "" : " %");
   };
   return fmt::format("{} {} (more than /limits/{}, {}{})", amount(monitor.share), monitor.words, monitor.name,
                      amount(monitor.limit), place_of_first(monitor.first, scene));

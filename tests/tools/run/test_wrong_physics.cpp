@@ -102,7 +102,7 @@ TEST_CASE("what is hardly ever meant is warned of")
 TEST_CASE("the check says on how many cells a body goes into another one, and the run warns where they are few")
 {
   const Outcome as_shipped = tamp_with("check " + punch);
-  const Run coarse = run_with("--steps 1 --set /grid/cell_size=0.05");
+  const Run coarse = run_with(quiet_punch + "--steps 1 --set /grid/cell_size=0.05");
 
   CHECK_THAT(as_shipped.err, Catch::Contains("6.0 cells to its half width, on its way into sand"));
   CHECK_FALSE(warns("/grid/cell_size=0.025", "half its width"));
