@@ -5,14 +5,13 @@
 #include <algorithm>
 #include <utility>
 
-#include "runtime/grid/curve_order.hpp"
-#include "runtime/ranks/deal_patches.hpp"
 #include "tasks/graphs.hpp"
 #include "tasks/report/field_columns.hpp"
 #include "tasks/report/state_digest.hpp"
 #include "tasks/set_up/fill_bodies.hpp"
 #include "tasks/set_up/initial_step.hpp"
 #include "tasks/simulation_error.hpp"
+#include "tasks/step_graph.hpp"
 #include "tasks/step_refusal.hpp"
 
 namespace tamp::tasks
@@ -20,22 +19,6 @@ namespace tamp::tasks
 
 namespace
 {
-
-std::vector<std::string> material_names(const Scene& scene)
-{
-  std::vector<std::string> names;
-  for (const SceneMaterial& m : scene.materials) names.push_back(m.name);
-  return names;
-}
-
-/// The patches dealt to the ranks by the particles that start on them.
-runtime::PatchLayout dealt(const Scene& scene, const std::vector<double>& particles_per_patch, int n_ranks)
-{
-  runtime::PatchLayout layout(scene.grid, scene.n_patches);
-  const std::vector<int> order = runtime::curve_order(scene.n_patches);
-  layout.give_to_ranks(runtime::deal_patches(order, particles_per_patch, n_ranks), n_ranks);
-  return layout;
-}
 
 bool uses(const runtime::TaskGraph& graph, const runtime::Label& label)
 {

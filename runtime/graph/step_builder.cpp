@@ -108,6 +108,11 @@ CompiledStep StepBuilder::finish()
   for (Message& message : step_.messages) {
     if (message.purpose != InstanceKind::receive_particles) measure(message);
   }
+  for (Edge& e : step_.edges) {
+    if (e.message < 0) continue;
+    const Message& message = step_.messages[static_cast<std::size_t>(e.message)];
+    if (e.from == message.send && e.to == message.receive) e.bytes = message.bytes;
+  }
   return std::move(step_);
 }
 

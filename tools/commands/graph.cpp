@@ -4,7 +4,8 @@
 
 #include "runtime/graph/dump.hpp"
 #include "runtime/storage/whole_file.hpp"
-#include "tasks/simulation.hpp"
+#include "tasks/forecast/demand.hpp"
+#include "tasks/step_graph.hpp"
 #include "tools/commands/command_line/assignments.hpp"
 #include "tools/commands/command_line/help_text.hpp"
 #include "tools/commands/command_line/option_checks.hpp"
@@ -25,22 +26,37 @@ struct GraphArguments {
   std::vector<std::string> assignments;
   std::string format = "dot";
   std::string out;
+  int n_ranks = 1;
   int patch = -1;
 };
+
+constexpr int most_ranks = 1024;
+
+void expect_patch(int patch, const std::string& format, int n_patches)
+{
+  if (patch < 0) return;
+  if (format != "dot") throw InputError({"--patch", "--format " + format, "--format dot"});
+  if (patch >= n_patches) {
+    throw InputError({"--patch", std::to_string(patch), "a patch from 0 to " + std::to_string(n_patches - 1)});
+  }
+}
+
+std::string text_of(const runtime::TaskGraph& graph, const tasks::Scene& scene, const GraphArguments& options)
+{
+  if (options.format == "json") {
+    return to_json(graph, static_cast<std::size_t>(tasks::demand_of(scene).fields)).dump(1) + "\n";
+  }
+  return to_dot(graph, options.patch);
+}
 
 void dump_graph(const GraphArguments& options)
 {
   const CheckedScene scene = read_scene(options.scene, options.assignments);
   print_notes(scene.notes);
   expect_outputs({{"--out", options.out}});
-  const auto simulation = tasks::Simulation::make(scene.scene, 1);
-  const runtime::TaskGraph& graph = simulation->engine().graph();
-  if (options.patch >= graph.layout().size()) {
-    throw InputError(
-        {"--patch", std::to_string(options.patch), "a patch from 0 to " + std::to_string(graph.layout().size() - 1)});
-  }
-  const std::string text = options.format == "json" ? to_json(graph, simulation->forecast_bytes()).dump(1) + "\n"
-                                                    : to_dot(graph, options.patch);
+  const tasks::StepGraph step(scene.scene, options.n_ranks);
+  expect_patch(options.patch, options.format, step.graph().layout().size());
+  const std::string text = text_of(step.graph(), scene.scene, options);
   if (options.out.empty()) {
     print_out("{}", text);
   } else {
@@ -52,15 +68,19 @@ void dump_graph(const GraphArguments& options)
 
 CLI::App* add_graph_command(CLI::App& app)
 {
-  CLI::App* command = app.add_subcommand("graph", "Dump the task graph of a scene's time step");
+  CLI::App* command = app.add_subcommand("graph", "Draw or dump the task graph of a scene's time step");
   const auto options = std::make_shared<GraphArguments>();
   command->add_option("SCENE", options->scene, "the scene's JSON file")->type_name("FILE")->required();
   add_assignments(*command, options->assignments, "scene");
-  command->add_option("--format", options->format, "dot, for graphviz, or json")->check(is_one_of({"dot", "json"}));
+  command->add_option("--format", options->format, "dot (for graphviz) or json")
+      ->check(is_one_of({"dot", "json"}));
+  command->add_option("--ranks", options->n_ranks, "as so many ranks would have it, with their messages")
+      ->check(is_from_to(1, most_ranks));
   command->add_option("--out", options->out, "write to this file")->type_name("FILE");
   command->add_option("--patch", options->patch, "only this patch and what it touches (dot)")->check(is_whole_from(0));
   command->footer(examples(
-      {{"tamp graph inputs/punch/quick.json --patch 0 | dot -Tsvg > graph.svg", "what one patch does in a step"},
+      {{"tamp graph inputs/punch/quick.json --ranks 2 | dot -Tsvg > graph.svg", "the tasks, with messages"},
+       {"tamp graph inputs/punch/quick.json --patch 0 | dot -Tsvg > patch.svg", "what one patch does in a step"},
        {"tamp graph inputs/punch/quick.json --format json --out graph.json", "for other programs"}}));
   command->callback([options] { dump_graph(*options); });
   return command;
