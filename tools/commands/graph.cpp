@@ -46,7 +46,7 @@ std::string text_of(const runtime::TaskGraph& graph, const tasks::Scene& scene, 
   if (options.format == "json") {
     return to_json(graph, static_cast<std::size_t>(tasks::demand_of(scene).fields)).dump(1) + "\n";
   }
-  return to_dot(graph, options.patch);
+  return options.patch < 0 ? to_dot(graph, fold(graph)) : to_dot(graph, options.patch);
 }
 
 void dump_graph(const GraphArguments& options)
