@@ -1,0 +1,70 @@
+#include <catch2/catch.hpp>
+#include <nlohmann/json.hpp>
+#include <set>
+#include <string>
+
+#include "tests/tools/program.hpp"
+
+namespace test_graph_command
+{
+
+using namespace tamp::test;
+
+namespace
+{
+
+const std::string scene = TAMP_SOURCE_DIR "/inputs/punch/quick.json";
+
+nlohmann::json dump_on(int n_ranks)
+{
+  const Outcome outcome = tamp_with("graph " + scene + " --format json --ranks " + std::to_string(n_ranks));
+  REQUIRE(outcome.exit_code == 0);
+  return nlohmann::json::parse(outcome.out);
+}
+
+/// How many edges are messages, and the ranks that have tasks.
+struct Seen {
+  std::size_t n_messages = 0;
+  std::set<int> ranks;
+};
+
+Seen seen_in(const nlohmann::json& dump)
+{
+  Seen seen;
+  for (const auto& edge : dump["edges"]) seen.n_messages += std::size_t{edge["message"].get<bool>()};
+  for (const auto& task : dump["tasks"]) seen.ranks.insert(task["rank"].get<int>());
+  return seen;
+}
+
+}  // namespace
+
+TEST_CASE("the graph of one rank has no messages, and that of several has those between them")
+{
+  CHECK(seen_in(dump_on(1)).n_messages == 0);
+  for (const int n_ranks : {2, 3}) {
+    const Seen seen = seen_in(dump_on(n_ranks));
+    CHECK(seen.n_messages > 0);
+    CHECK(static_cast<int>(seen.ranks.size()) == n_ranks);
+  }
+}
+
+TEST_CASE("ranks and patches that cannot be are refused, and so is a patch where none is drawn")
+{
+  const std::string graph = "graph " + scene;
+  CHECK(tamp_with(graph + " --ranks 0").err == "tamp: --ranks: 0; expected 1 to 1024\n");
+  CHECK_THAT(tamp_with(graph + " --patch 999").err, Catch::Contains("--patch: 999; expected a patch from 0 to "));
+  CHECK(tamp_with(graph + " --patch 0 --format svg").err == "tamp: --patch: --format svg; expected --format dot\n");
+  CHECK(tamp_with(graph + " --patch 0 --format svg").exit_code == 2);
+}
+
+TEST_CASE("under a launcher the first rank alone writes the graph", "[mpiexec]")
+{
+  const Outcome alone = tamp_with("graph " + scene);
+
+  const Outcome launched = tamp_on_ranks(2, "graph " + scene);
+
+  CHECK(launched.exit_code == 0);
+  CHECK(launched.out == alone.out);
+}
+
+}  // namespace test_graph_command
