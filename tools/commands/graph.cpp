@@ -3,6 +3,7 @@
 #include <memory>
 
 #include "runtime/graph/dump.hpp"
+#include "runtime/graph/page.hpp"
 #include "runtime/graph/svg.hpp"
 #include "runtime/storage/whole_file.hpp"
 #include "tasks/forecast/demand.hpp"
@@ -47,6 +48,7 @@ std::string text_of(const runtime::TaskGraph& graph, const tasks::Scene& scene, 
   if (options.format == "json") {
     return to_json(graph, static_cast<std::size_t>(tasks::demand_of(scene).fields)).dump(1) + "\n";
   }
+  if (options.format == "html") return to_html(graph, "A time step of " + options.scene);
   if (options.format == "svg") return to_svg(graph, fold(graph));
   return options.patch < 0 ? to_dot(graph, fold(graph)) : to_dot(graph, options.patch);
 }
@@ -74,14 +76,16 @@ CLI::App* add_graph_command(CLI::App& app)
   const auto options = std::make_shared<GraphArguments>();
   command->add_option("SCENE", options->scene, "the scene's JSON file")->type_name("FILE")->required();
   add_assignments(*command, options->assignments, "scene");
-  command->add_option("--format", options->format, "dot (for graphviz), json or svg")
-      ->check(is_one_of({"dot", "json", "svg"}));
+  command->add_option("--format", options->format, "dot (for graphviz), json, html (a page) or svg")
+      ->check(is_one_of({"dot", "json", "html", "svg"}));
   command->add_option("--ranks", options->n_ranks, "as so many ranks would have it, with their messages")
       ->check(is_from_to(1, most_ranks));
   command->add_option("--out", options->out, "write to this file")->type_name("FILE");
   command->add_option("--patch", options->patch, "only this patch and what it touches (dot)")->check(is_whole_from(0));
   command->footer(examples(
-      {{"tamp graph inputs/punch/quick.json --ranks 2 --format svg --out graph.svg", "a drawing, with the messages"},
+      {{"tamp graph inputs/punch/quick.json --format html --out graph.html",
+        "a page: tasks, and behind each its patches"},
+       {"tamp graph inputs/punch/quick.json --ranks 2 --format svg --out graph.svg", "a drawing, with the messages"},
        {"tamp graph inputs/punch/quick.json --patch 0 | dot -Tsvg > patch.svg", "what one patch does in a step"},
        {"tamp graph inputs/punch/quick.json --format json --out graph.json", "for other programs"}}));
   command->callback([options] { dump_graph(*options); });

@@ -94,7 +94,7 @@ TEST_CASE("bash completes commands, options, values and files")
   CHECK(bash_offers("tamp veri") == "verify\n");
   CHECK(bash_offers("tamp verify --sh") == "--short\n");
   CHECK(bash_offers("tamp run a.json --checkpoint-k") == "--checkpoint-keep\n");
-  CHECK(bash_offers("tamp graph a.json --format ''") == "dot json svg\n");
+  CHECK(bash_offers("tamp graph a.json --format ''") == "dot json html svg\n");
   CHECK(bash_offers("tamp run READ") == "README.md\n");
   CHECK_THAT(bash_offers("tamp ''"), Catch::Contains("run") && !Catch::Contains("README.md"));
 }
