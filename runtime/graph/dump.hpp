@@ -24,7 +24,7 @@ std::string to_dot(const TaskGraph& graph, const FoldedGraph& folded);
 /// The instances of one patch and what they touch, for graphviz, a cluster for each patch.
 std::string to_dot(const TaskGraph& graph, int patch);
 
-/// In words: "task", "halo sum", "halo fill", "combining", "sender", "receiver" and so on.
+/// In words: "task", "halo sum", "message sent" and so on.
 const char* to_string(InstanceKind kind);
 
 }  // namespace tamp::runtime

@@ -32,7 +32,7 @@ double mean(const std::vector<double>& values)
   return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
 }
 
-/// Slots stretching over pooled places, all shifted alike.
+/// Neighbours that want to overlap, and so all get one place: the mean of what they want.
 struct Pool {
   double sum;
   double weight;
