@@ -18,6 +18,7 @@ PatchLayout row(int n_patches, int n_ranks = 1)
 {
   PatchLayout layout({2, {0, 0, 0}, 1, {3 * n_patches, 3, 1}}, {n_patches, 1, 1});
   std::vector<int> ranks;
+  ranks.reserve(static_cast<std::size_t>(n_patches));
   for (int p = 0; p < n_patches; ++p) ranks.push_back(p * n_ranks / n_patches);
   layout.give_to_ranks(ranks, n_ranks);
   return layout;
