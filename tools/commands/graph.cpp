@@ -37,9 +37,9 @@ constexpr int most_ranks = 1024;
 void expect_patch(int patch, const std::string& format, int n_patches)
 {
   if (patch < 0) return;
-  if (format != "dot") throw InputError({"--patch", "--format " + format, "--format dot"});
+  if (format != "dot") throw InputError({"--patch", "--format " + format, "expected --format dot"});
   if (patch >= n_patches) {
-    throw InputError({"--patch", std::to_string(patch), "a patch from 0 to " + std::to_string(n_patches - 1)});
+    throw InputError({"--patch", std::to_string(patch), "expected a patch from 0 to " + std::to_string(n_patches - 1)});
   }
 }
 

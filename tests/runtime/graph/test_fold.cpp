@@ -27,6 +27,7 @@ struct HeatGraph {
   static PatchLayout on_ranks(PatchLayout layout, int n_ranks)
   {
     std::vector<int> ranks;
+    ranks.reserve(static_cast<std::size_t>(layout.size()));
     for (int i = 0; i < layout.size(); ++i) ranks.push_back(i % n_ranks);
     layout.give_to_ranks(ranks, n_ranks);
     return layout;
@@ -115,7 +116,8 @@ TEST_CASE("the dumps of the folded graph have each task and each edge once", "[g
   const std::string dot = to_dot(heat.graph, folded);
 
   CHECK(dump["tasks"].size() == folded.tasks.size());
-  CHECK(dump["tasks"][folded.task_of[0]]["name"] == heat.graph.name(heat.graph.instances()[0]));
+  CHECK(dump["tasks"][static_cast<std::size_t>(folded.task_of[0])]["name"] ==
+        heat.graph.name(heat.graph.instances()[0]));
   REQUIRE(dump["edges"].size() == folded.edges.size());
   for (std::size_t i = 0; i < folded.edges.size(); ++i) {
     CHECK(dump["edges"][i]["from"] == folded.edges[i].from);

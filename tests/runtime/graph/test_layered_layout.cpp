@@ -30,6 +30,7 @@ Edges some_edges(int n_boxes, unsigned seed)
 std::vector<double> some_widths(int n_boxes)
 {
   std::vector<double> widths;
+  widths.reserve(static_cast<std::size_t>(n_boxes));
   for (int i = 0; i < n_boxes; ++i) widths.push_back(40 + 37 * (i % 5));
   return widths;
 }
