@@ -54,8 +54,8 @@ class Engine
   unsigned asked() const { return asked_; }
 
   /// How many steps there are between two looks at the load of the ranks, the second of which in a row that finds too
-  /// much of it on one rank deals the patches anew; 0:
-  /// patches stay where they are. References to the layout and the graphs do not outlive a deal.
+  /// much of it on one rank deals the patches anew; 0: patches stay where they are. References to the layout and the
+  /// graphs do not outlive a deal.
   void balance_every(long n_steps);
   const std::vector<Rebalance>& rebalances() const { return balance_.rebalances(); }
   /// Gives each patch, between steps, to the rank that stands at its place in `ranks`.

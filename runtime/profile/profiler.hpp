@@ -17,8 +17,8 @@ namespace tamp::runtime
 {
 
 /// Gathers what the workers of a rank recorded, after each step and outside of it. How long everything took is taken in
-/// of every step; what needs more looking (waits, chains, bytes, particles) of every
-/// eighth, or of as many as the host asks for.
+/// of every step; what needs more looking (waits, chains, bytes, particles) of every eighth, or of as many as the host
+/// asks for.
 class Profiler
 {
  public:

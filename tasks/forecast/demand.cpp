@@ -1,16 +1,15 @@
 #include "tasks/forecast/demand.hpp"
 
 #include <algorithm>
-#include <deque>
 #include <set>
 #include <span>
-#include <string>
 #include <utility>
 #include <vector>
 
 #include "runtime/warehouse/warehouse.hpp"
 #include "tasks/graphs.hpp"
 #include "tasks/report/field_columns.hpp"
+#include "tasks/step_graph.hpp"
 
 namespace tamp::tasks
 {
@@ -66,14 +65,9 @@ template <int D>
 void add_fields(const Scene& scene, const std::vector<std::size_t>& n_particles, Demand& demand)
 {
   const Method<D> method(scene);
-  std::vector<std::string> names;
-  for (const SceneMaterial& material : scene.materials) names.push_back(material.name);
-  const runtime::PatchLayout layout(scene.grid, scene.n_patches);
-  std::deque<runtime::TaskGraph> graphs;
-  std::vector<const runtime::TaskGraph*> pointers;
-  for (auto& [tasks, host] : graphs_of(method)) {
-    pointers.push_back(&graphs.emplace_back(tasks, layout, names, host));
-  }
+  const runtime::CompiledGraphs compiled(runtime::PatchLayout(scene.grid, scene.n_patches), material_names(scene),
+                                         graphs_of(method));
+  const std::vector<const runtime::TaskGraph*> pointers = compiled.pointers();
   demand.fields = runtime::Warehouse::forecast_bytes(pointers, n_particles);
   demand.checkpoint_file = state_bytes(pointers, n_particles);
 }
