@@ -27,6 +27,8 @@ namespace tamp::runtime
 namespace
 {
 
+/// Begins the names of the files that read the clock.
+constexpr const char* clock_prefix = ".run.lock.";
 constexpr std::chrono::seconds touched_every{10};
 /// [s]
 constexpr double stale_after = 60;
@@ -68,7 +70,7 @@ std::string text_of_own_lock()
 /// The time by the clock of the folder's disk, which may be another machine's.
 std::time_t now_in(const std::filesystem::path& folder)
 {
-  std::string name = (folder / ".run.lock.XXXXXX").string();
+  std::string name = (folder / (std::string(clock_prefix) + "XXXXXX")).string();
   const Descriptor file(mkstemp(name.data()));
   struct stat made {
   };
@@ -135,6 +137,12 @@ std::string LockHolder::description() const
                                 : fmt::format("its lock dated {:.0f} s ahead of now", -untouched);
   return fmt::format("process {} on {} since {}, {}", process, host.empty() ? "an unknown machine" : host,
                      since.empty() ? "an unknown time" : since, heard);
+}
+
+bool FolderLock::makes(const std::filesystem::path& file)
+{
+  const std::string name = file.filename().string();
+  return name == file_name || name.starts_with(clock_prefix);
 }
 
 FolderLock::FolderLock(const std::filesystem::path& folder) : folder_(folder), file_(folder / file_name)

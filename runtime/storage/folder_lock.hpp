@@ -40,6 +40,9 @@ class FolderLock
  public:
   static constexpr const char* file_name = "run.lock";
 
+  /// Whether a file of the folder is the lock, or one that a program makes there for a moment to read the disk's clock.
+  static bool makes(const std::filesystem::path& file);
+
   /// Throws FolderInUse, and FileError if the file cannot be written, something else has its name, or the thread that
   /// touches it cannot be started.
   explicit FolderLock(const std::filesystem::path& folder);

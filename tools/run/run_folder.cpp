@@ -54,12 +54,11 @@ void remove_run(const fs::path& folder)
   if (fs::is_empty(checkpoints)) fs::remove(checkpoints);
 }
 
-/// Is nothing in the folder, but for a lock and the mark?
+/// Is nothing in the folder, but for a lock, what others make as they look at it, and the mark?
 bool holds_nothing(const fs::path& folder)
 {
   for (const auto& entry : fs::directory_iterator(folder)) {
-    const fs::path name = entry.path().filename();
-    if (name != runtime::FolderLock::file_name && name != marker) return false;
+    if (!runtime::FolderLock::makes(entry.path()) && entry.path().filename() != marker) return false;
   }
   return true;
 }

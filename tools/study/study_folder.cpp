@@ -46,7 +46,7 @@ std::string mark_text(const std::string& content)
 bool holds_no_file(const fs::path& folder)
 {
   for (const auto& entry : fs::directory_iterator(folder)) {
-    if (entry.path().filename() != runtime::FolderLock::file_name) return false;
+    if (!runtime::FolderLock::makes(entry.path())) return false;
   }
   return true;
 }

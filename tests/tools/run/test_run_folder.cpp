@@ -95,6 +95,16 @@ TEST_CASE("a folder in which lies what the run reads is not replaced")
   use(folder.path() / "run", replace, {folder.write("run2/scene.json", "{}")});
 }
 
+TEST_CASE("a folder is free where another program has only just looked at its lock")
+{
+  const TemporaryFolder folder;
+  folder.write(".run.lock.x7Ab2Q", "");
+
+  use(folder.path(), begin);
+
+  CHECK_THROWS_WITH(use(folder.write("other/.run.locks", "").parent_path(), begin), Catch::Contains("is not empty"));
+}
+
 TEST_CASE("a folder in use is refused, whatever it is wanted for")
 {
   const auto purpose = GENERATE(begin, replace, go_on);
