@@ -9,17 +9,22 @@
 namespace tamp::tasks
 {
 
-/// The cell of the patch that holds a particle of it.
+/// The one of a patch's cells that holds a particle of it.
+template <int D>
+runtime::Index cell_of(const runtime::Grid& grid, const runtime::IndexBox& cells, const Vector<D>& x)
+{
+  runtime::Index cell = cells.lower;
+  for (std::size_t k = 0; k < D; ++k) {
+    const double place = std::floor((x[static_cast<int>(k)] - grid.lower[k]) / grid.cell_size);
+    cell[k] = std::clamp(static_cast<int>(place), cells.lower[k], cells.upper[k] - 1);
+  }
+  return cell;
+}
+
 template <int D>
 runtime::Index cell_of(const runtime::TaskContext& at, const Vector<D>& x)
 {
-  const runtime::Grid& grid = at.layout.grid();
-  runtime::Index cell = at.patch.cells.lower;
-  for (std::size_t k = 0; k < D; ++k) {
-    const double place = std::floor((x[static_cast<int>(k)] - grid.lower[k]) / grid.cell_size);
-    cell[k] = std::clamp(static_cast<int>(place), at.patch.cells.lower[k], at.patch.cells.upper[k] - 1);
-  }
-  return cell;
+  return cell_of<D>(at.layout.grid(), at.patch.cells, x);
 }
 
 }  // namespace tamp::tasks

@@ -21,7 +21,7 @@ std::vector<runtime::GraphTasks> graphs_of(const Method<D>& method)
   const runtime::HostData host = host_data(method);
   return {{time_step(method), host},
           {report_tasks(method), {host.state, {&particle_report, &nose_report}}},
-          {sample_tasks(method), sample_data<D>()},
+          {sample_tasks(method), sample_data(method)},
           {contact_sample_tasks(method), contact_sample_data(method)}};
 }
 

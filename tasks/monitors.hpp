@@ -27,11 +27,12 @@ struct StateSample {
   Share uneven_pressure;
   /// Particles of elastic materials: those whose neighbours are more than 1.2 cells away, and that hold tension; all.
   Share torn_apart;
-  /// Of the torn ones that with the lowest id.
-  ParticlePlace torn;
+  /// Of the torn ones, and of those whose modulus is out of its range in compression, that with the lowest id.
+  ParticlePlace torn, out_of_range;
 
   static constexpr auto fields =
-      std::tuple{&StateSample::uneven_pressure, &StateSample::torn_apart, runtime::Least{&StateSample::torn}};
+      std::tuple{&StateSample::uneven_pressure, &StateSample::torn_apart, runtime::Least{&StateSample::torn},
+                 runtime::Least{&StateSample::out_of_range}};
 };
 
 /// Sums over the nodes at which two materials push each other.

@@ -347,6 +347,11 @@ struct Scene {
   {
     return std::any_of(bodies.begin(), bodies.end(), [](const SceneBody& body) { return !body.rigid; });
   }
+  bool is_rigid(int material) const
+  {
+    return std::any_of(bodies.begin(), bodies.end(),
+                       [&](const SceneBody& body) { return body.rigid && body.material == material; });
+  }
   /// At the start.
   std::size_t n_particles() const
   {

@@ -125,7 +125,9 @@ void Simulation::sample_state()
   if (missed_substeps(updates(), scene_.n_particles()) > limits.missed_substeps) {
     records.missed_substeps.add(n_steps(), time());
   }
-  if (out_of_range(updates()) > limits.out_of_range) records.out_of_range.add(n_steps(), time());
+  if (out_of_range(updates()) > limits.out_of_range) {
+    records.out_of_range.add(n_steps(), time(), sample.out_of_range);
+  }
 }
 
 void Simulation::sample_contact(double step_size)

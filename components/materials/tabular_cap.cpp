@@ -57,6 +57,18 @@ TangentModuli TabularCap::initial_moduli() const
   return {bulk, shear_ratio_ * bulk};
 }
 
+bool TabularCap::is_out_of_range(const CapState& state, double pressure) const
+{
+  if (pressure < 0 || state.separation_volume > 0) return false;
+  const double elastic = state.elastic_volumetric, plastic = state.plastic_volumetric;
+  const bool rate = parameters_.elastic_update == ElasticUpdate::rate;
+  return std::visit(
+      [&](const auto& model) {
+        return !(rate ? model.rate_in_range(pressure, elastic, plastic) : model.in_range(elastic, plastic));
+      },
+      parameters_.modulus);
+}
+
 double TabularCap::pressure(const CapState& state) const
 {
   return std::visit(

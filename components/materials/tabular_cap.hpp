@@ -84,6 +84,9 @@ class TabularCap
   double bulk_modulus(const CapState& state, double pressure) const;
   TangentModuli initial_moduli() const;
 
+  /// Whether a state under `pressure`, which is no tension, lies beyond the strains that the modulus was made for.
+  bool is_out_of_range(const CapState& state, double pressure) const;
+
   /// The pressure that the state form gives a state: what the stress of a particle must have before its first update.
   double pressure(const CapState& state) const;
 

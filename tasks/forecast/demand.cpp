@@ -25,7 +25,7 @@ std::vector<std::size_t> particles_of_materials(const Scene& scene)
 }
 
 /// Numbers that a particle has in an output file.
-std::size_t n_output_numbers(const Scene& scene, const SceneMaterial& material)
+std::size_t n_output_numbers(const Scene& scene, int material)
 {
   std::size_t n = 1;  // id
   for (const FieldName& field : particle_field_names(scene, material)) {
@@ -85,7 +85,7 @@ Demand demand_of(const Scene& scene)
   for (std::size_t m = 0; m < n_particles.size(); ++m) {
     demand.n_particles += n_particles[m];
     demand.output_file +=
-        bytes_of_number * static_cast<double>(n_output_numbers(scene, scene.materials[m]) * n_particles[m]);
+        bytes_of_number * static_cast<double>(n_output_numbers(scene, static_cast<int>(m)) * n_particles[m]);
   }
   scene.grid.dimension == 2 ? add_fields<2>(scene, n_particles, demand) : add_fields<3>(scene, n_particles, demand);
   // Vectors that grow as they are filled have room to spare.

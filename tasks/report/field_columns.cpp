@@ -9,6 +9,7 @@
 #include "runtime/execute/on_workers.hpp"
 #include "runtime/storage/row_share.hpp"
 #include "tasks/labels.hpp"
+#include "tasks/report/flaws.hpp"
 
 namespace tamp::tasks
 {
@@ -32,9 +33,15 @@ void append(std::vector<double>& all, const T& values)
   all.insert(all.end(), values.data(), values.data() + values.size());
 }
 
-/// A field of particles: its name, and what appends the numbers of all of a patch and group. `value` makes them of what
-/// a particle has under the labels.
+/// A field of particles: its name, and what appends the numbers of all of a patch and group.
 struct ParticleField {
+  using Add = std::function<void(runtime::Warehouse&, int patch, int group, std::vector<double>&)>;
+
+  ParticleField(std::string field_name, Add add_all)
+      : name(std::move(field_name)), kind(ColumnKind::scalar), add(std::move(add_all))
+  {
+  }
+  /// `value` makes the numbers of a particle of what it has under the labels.
   template <class Value, class... Labels>
   ParticleField(std::string field_name, ColumnKind field_kind, const Value& value, const Labels&... labels)
       : name(std::move(field_name)),
@@ -50,7 +57,7 @@ struct ParticleField {
 
   std::string name;
   ColumnKind kind;
-  std::function<void(runtime::Warehouse&, int patch, int group, std::vector<double>&)> add;
+  Add add;
 };
 
 template <int D, class Model>
@@ -70,9 +77,55 @@ void add_state_fields(const Model& model, std::vector<ParticleField>& fields)
   }
 }
 
-/// All that can be written of a material's particles, but for id; the material must outlive it.
+/// The pressure of particles less the mean in their cells.
 template <int D>
-std::vector<ParticleField> particle_fields(const Scene& scene, const SceneMaterial& material)
+void add_uneven_pressures(runtime::Warehouse& warehouse, int patch, int group, std::vector<double>& all)
+{
+  const auto position = warehouse.state(particle::position<D>, patch, group);
+  const auto stress = warehouse.state(particle::stress<D>, patch, group);
+  const runtime::PatchLayout& layout = warehouse.layout();
+  const runtime::IndexBox& box = layout[patch].cells;
+  std::vector<components::CellMean> means(static_cast<std::size_t>(box.size()));
+  const runtime::GridView<components::CellMean> cells(
+      means.data(), box, {1, box.extent(0), std::ptrdiff_t{box.extent(0)} * box.extent(1)});
+  average_pressures<D>(layout.grid(), position, warehouse.state(particle::volume, patch, group), stress, cells);
+  for (std::size_t p = 0; p < position.size(); ++p) {
+    const double mean = cells[cell_of<D>(layout.grid(), box, position[p])].mean();
+    all.push_back(pressure_of<D>(stress[p]) - mean);
+  }
+}
+
+/// Of single particles, what the monitors of the same names sum up.
+template <int D>
+void add_flaws(const Scene& scene, int material, std::vector<ParticleField>& fields)
+{
+  using Stress = SymmetricTensor<D>;
+  fields.emplace_back("uneven_pressure", add_uneven_pressures<D>);
+  if (may_tear(scene, material)) {
+    fields.emplace_back(
+        "torn_apart", ColumnKind::scalar,
+        [is_torn = Tearing(scene, material)](const Matrix<D>& gradient, const Stress& stress) {
+          return is_torn.template operator()<D>(gradient, stress) ? 1.0 : 0.0;
+        },
+        particle::deformation_gradient<D>, particle::stress<D>);
+  }
+  std::visit(
+      [&]<class Model>(const Model& model) {
+        if constexpr (HasRange<Model>) {
+          fields.emplace_back(
+              "out_of_range", ColumnKind::scalar,
+              [&model](const typename Model::State& state, const Stress& stress) {
+                return model.is_out_of_range(state, pressure_of<D>(stress)) ? 1.0 : 0.0;
+              },
+              particle::state<Model>, particle::stress<D>);
+        }
+      },
+      scene.materials[static_cast<std::size_t>(material)].model);
+}
+
+/// All that can be written of a material's particles, but for id; the scene must outlive it.
+template <int D>
+std::vector<ParticleField> particle_fields(const Scene& scene, int material)
 {
   using Stress = SymmetricTensor<D>;
   const auto as_it_is = [](const auto& value) { return value; };
@@ -93,7 +146,9 @@ std::vector<ParticleField> particle_fields(const Scene& scene, const SceneMateri
     };
     fields.emplace_back("laps", ColumnKind::vector, along_axes, particle::laps);
   }
-  std::visit([&](const auto& model) { add_state_fields<D>(model, fields); }, material.model);
+  std::visit([&](const auto& model) { add_state_fields<D>(model, fields); },
+             scene.materials[static_cast<std::size_t>(material)].model);
+  if (!scene.is_rigid(material)) add_flaws<D>(scene, material, fields);
   return fields;
 }
 
@@ -178,7 +233,7 @@ class FieldCopier
       const auto own = warehouse_.state(particle::id, patch, group);
       ids.insert(ids.end(), own.begin(), own.end());
     });
-    for (const ParticleField& field : particle_fields<D>(method_.scene, material)) {
+    for (const ParticleField& field : particle_fields<D>(method_.scene, group)) {
       if (!choice_.has(field.name) && !is_always_written(field.name)) continue;
       add_column<double>(block.columns, field.name, field.kind, block.n,
                          [=, this](int patch, auto& numbers) { field.add(warehouse_, patch, group, numbers); });
@@ -244,7 +299,7 @@ class FieldCopier
 }  // namespace
 
 // Names and kinds are the same in two and three dimensions.
-std::vector<FieldName> particle_field_names(const Scene& scene, const SceneMaterial& material)
+std::vector<FieldName> particle_field_names(const Scene& scene, int material)
 {
   std::vector<FieldName> names;
   for (const ParticleField& field : particle_fields<2>(scene, material)) names.push_back({field.name, field.kind});

@@ -18,7 +18,7 @@ struct FieldName {
 };
 
 /// The fields that a run can write of a material's particles, but for id; and of the nodes, as a FieldChoice has them.
-std::vector<FieldName> particle_field_names(const Scene& scene, const SceneMaterial& material);
+std::vector<FieldName> particle_field_names(const Scene& scene, int material);
 std::vector<FieldName> node_field_names();
 
 /// Chosen or not.

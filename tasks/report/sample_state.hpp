@@ -14,6 +14,6 @@ runtime::TaskList sample_tasks(const Method<D>& method);
 
 /// The state that they read, and no more: other groups would get what only one of them has.
 template <int D>
-runtime::HostData sample_data();
+runtime::HostData sample_data(const Method<D>& method);
 
 }  // namespace tamp::tasks

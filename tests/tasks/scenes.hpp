@@ -116,6 +116,17 @@ inline std::vector<Particle> particles_of(Simulation& simulation)
   return particles;
 }
 
+/// The numbers of a field of the first material.
+inline std::vector<double> numbers_of(Simulation& simulation, const std::string& field)
+{
+  const auto blocks = simulation.particle_columns();
+  const auto& columns = blocks[0].columns;
+  const auto at = std::find_if(columns.begin(), columns.end(), [&](const auto& c) { return c.name == field; });
+  REQUIRE(at != columns.end());
+  const auto values = std::get<std::span<const double>>(at->values);
+  return {values.begin(), values.end()};
+}
+
 inline void advance_to(Simulation& simulation, double end)
 {
   while (simulation.time() < end) simulation.advance(end);

@@ -65,7 +65,7 @@ TEST_CASE("fields that are gathered from ranks are those of one process", "[rank
   if (world.is_first()) {
     const Numbers numbers = numbers_of(all);
     CHECK(numbers == numbers_of(own));
-    CHECK(numbers.size() == 2 * (1 + 8) + 2);
+    CHECK(numbers.size() == 2 * (1 + 10) + 2);
     CHECK(all.nodes->boxes == own.nodes->boxes);
   } else {
     CHECK(all.particles.empty());

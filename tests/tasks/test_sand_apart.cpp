@@ -27,17 +27,6 @@ Scene spinning_sand(int dimension)
   return scene;
 }
 
-/// The numbers of a field of the first material.
-std::vector<double> numbers_of(Simulation& simulation, const std::string& field)
-{
-  const auto blocks = simulation.particle_columns();
-  const auto& columns = blocks[0].columns;
-  const auto at = std::find_if(columns.begin(), columns.end(), [&](const auto& c) { return c.name == field; });
-  REQUIRE(at != columns.end());
-  const auto values = std::get<std::span<const double>>(at->values);
-  return {values.begin(), values.end()};
-}
-
 double sum(const std::vector<double>& numbers)
 {
   return std::accumulate(numbers.begin(), numbers.end(), 0.0);

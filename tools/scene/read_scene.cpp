@@ -382,7 +382,7 @@ class SceneReader
     const auto add = [&](const tasks::FieldName& field) {
       if (std::find(known.begin(), known.end(), field.name) == known.end()) known.push_back(field.name);
     };
-    for (const tasks::SceneMaterial& material : scene_.materials) {
+    for (int material = 0; material < static_cast<int>(scene_.materials.size()); ++material) {
       for (const tasks::FieldName& field : tasks::particle_field_names(scene_, material)) add(field);
     }
     for (const tasks::FieldName& field : tasks::node_field_names()) add(field);

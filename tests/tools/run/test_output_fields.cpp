@@ -57,7 +57,8 @@ TEST_CASE("a field file has all fields unless some are chosen")
   CHECK(written_with("") == std::set<std::string>{"nodes", "nodes/density", "nodes/velocity", "particles",
                                                   "particles/steel", steel + "id", steel + "position",
                                                   steel + "velocity", steel + "stress", steel + "p", steel + "q",
-                                                  steel + "density", steel + "J", "vertices"});
+                                                  steel + "density", steel + "J", steel + "uneven_pressure",
+                                                  steel + "torn_apart", "vertices"});
 }
 
 TEST_CASE("a field file has the chosen fields, ids and positions, and nothing else")
@@ -76,7 +77,7 @@ TEST_CASE("the size of a field file is forecast from the fields in it")
 
   const double all = forecast_with({}), some = forecast_with({R"(/output/fields=["p","stress","nodes/density"])"});
 
-  CHECK(all == number * (n_particles * (1 + 3 + 3 + 6 + 1 + 1 + 1 + 1) + n_nodes * (1 + 3)));
+  CHECK(all == number * (n_particles * (1 + 3 + 3 + 6 + 1 + 1 + 1 + 1 + 1 + 1) + n_nodes * (1 + 3)));
   CHECK(some == number * (n_particles * (1 + 3 + 1 + 6) + n_nodes));
 }
 

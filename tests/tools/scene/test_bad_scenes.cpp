@@ -523,7 +523,8 @@ TEST_CASE("a driven body may lie against a mirror along which it goes without tu
 TEST_CASE("fields to be written are named once each, and of the scene's materials")
 {
   const std::string expected =
-      "; expected a list of some of position, velocity, stress, p, q, density, J, nodes/density, nodes/velocity";
+      "; expected a list of some of position, velocity, stress, p, q, density, J, uneven_pressure, torn_apart, "
+      "nodes/density, nodes/velocity";
 
   check(problems_with, {{"/output/fields=['p','nodes/density','J']", ""},
                         {"/output/fields=[]", ""},
