@@ -13,6 +13,7 @@
 
 #include "runtime/engine.hpp"
 #include "runtime/profile/report.hpp"
+#include "runtime/profile/table.hpp"
 
 using namespace tamp::runtime;
 

@@ -30,12 +30,33 @@ struct TaskStatistics {
   double imbalance = 1;
   /// Between the end of the last predecessor and the start, summed: ready, but others had their turn.
   double ready_delay_s = 0;
-  /// In the mean step, what of the longest chain is this task.
+  /// In the mean step, what of the longest chain is this task; and in which part of the steps that were looked at the
+  /// longest chain of a rank goes through it.
   double chain_s = 0;
+  double on_chain = 0;
+  /// Of the busiest rank over the mean of all ranks.
+  double rank_imbalance = 1;
+  /// In each part of the run, of a step in the mean; all ranks and patches together.
+  std::vector<double> over_time_s{};
   /// What part of the mean step is saved if every instance takes a tenth less, and if none takes any time; NaN where
   /// that was not found out.
   double gain_of_tenth = std::numeric_limits<double>::quiet_NaN();
   double gain_of_all = std::numeric_limits<double>::quiet_NaN();
+};
+
+/// What one rank did.
+struct RankStatistics {
+  std::vector<TaskStatistics> tasks{};
+  double step_s = 0;
+  double overhead = 0;
+};
+
+struct PatchStatistics {
+  /// That it belongs to at the end.
+  int rank = 0;
+  double total_s = 0;
+  /// The task that took most.
+  std::string dearest;
 };
 
 /// Workers that stood still because an instance of `task` waited for one of `cause`; seconds over all steps.
@@ -66,6 +87,11 @@ struct Trace {
 struct Profile {
   /// Most expensive first.
   std::vector<TaskStatistics> tasks;
+  std::vector<RankStatistics> ranks;
+  std::vector<PatchStatistics> patches;
+  /// A run in parts of so many steps, the last of which may have fewer: what a step takes in each in the mean.
+  long steps_each_part = 0;
+  std::vector<double> step_over_time_s;
   long n_steps = 0;
   long n_traced_steps = 0;
   /// Mean time of a step, of its longest chain of tasks on one rank, and the share of the workers' time outside of task

@@ -32,19 +32,27 @@ void Profiler::follow(const Schedule& schedule, BoundGraph& graph)
   row_of_instance_.clear();
   for (const Instance& instance : tasks.instances()) {
     const std::string name = tasks.name(instance);
-    auto row = std::find_if(rows_.begin(), rows_.end(), [&](const Row& r) { return r.name == name; });
+    auto row = std::find_if(rows_.begin(), rows_.end(), [&](const TaskRow& r) { return r.name == name; });
     if (row == rows_.end()) {
-      row = rows_.insert(rows_.end(), Row{name, {}, std::vector<std::uint64_t>(instance.patch < 0 ? 1 : n_patches, 0)});
+      const bool over_patches = instance.patch >= 0;
+      row = rows_.insert(rows_.end(),
+                         TaskRow{name, over_patches, {}, std::vector<std::uint64_t>(over_patches ? n_patches : 1, 0)});
     }
     row_of_instance_.push_back(static_cast<std::size_t>(row - rows_.begin()));
   }
   waits_.make_room(rows_.size());
+  on_chain_at_.resize(rows_.size(), 0);
 }
 
 void Profiler::add_step()
 {
   const std::uint64_t start = ticks();
   const std::uint64_t before = steps_.ticks;
+  if (parts_.outgrown_by(n_steps_)) {
+    parts_.join_pairs();
+    steps_.over_time.join_pairs();
+    for (TaskRow& row : rows_) row.totals.over_time.join_pairs();
+  }
   add_durations();
   if (looks_closely()) {
     look_closely();
@@ -62,17 +70,19 @@ void Profiler::add_durations()
   std::uint64_t first = ~std::uint64_t{0};
   std::uint64_t last = 0;
   const bool traced = is_traced(n_steps_);
+  const std::size_t part = parts_.part_of(n_steps_);
   for (std::size_t i = 0; i < records.size(); ++i) {
     if (!graph_->is_local(static_cast<int>(i))) continue;
     const InstanceRecord& record = records[i];
     const std::uint64_t duration = record.end - record.start;
     first = std::min(first, record.start);
     last = std::max(last, record.end);
-    Totals& totals = rows_[row_of_instance_[i]].totals;
+    TaskTotals& totals = rows_[row_of_instance_[i]].totals;
     if (graph_->was_skipped(static_cast<int>(i))) {
       ++totals.skipped;
     } else {
       totals.durations.add(duration);
+      totals.over_time.of_part[part] += duration;
     }
     instance_ticks_[i] += duration;
     const Instance& instance = instances[i];
@@ -80,6 +90,7 @@ void Profiler::add_durations()
   }
   if (last <= first) return;
   steps_.ticks += last - first;
+  steps_.over_time.of_part[part] += last - first;
   if (last_end_ != 0 && first > last_end_) steps_.between += first - last_end_;
   last_end_ = last;
 }
@@ -89,6 +100,7 @@ void Profiler::look_closely()
   const auto& records = schedule_->records();
   const auto& instances = graph_->graph().instances();
   std::uint64_t longest = 0;
+  std::size_t last = 0;
   for (std::size_t i = 0; i < records.size(); ++i) {
     if (!graph_->is_local(static_cast<int>(i))) continue;
     const InstanceRecord& record = records[i];
@@ -99,8 +111,11 @@ void Profiler::look_closely()
       path = std::max(path, path_[static_cast<std::size_t>(p)]);
     }
     path_[i] = path + record.end - record.start;
-    longest = std::max(longest, path_[i]);
-    Totals& totals = rows_[row_of_instance_[i]].totals;
+    if (path_[i] > longest) {
+      longest = path_[i];
+      last = i;
+    }
+    TaskTotals& totals = rows_[row_of_instance_[i]].totals;
     // Time stamps of two cores may differ by a little; a delay is never negative.
     if (ready != 0 && record.start > ready) totals.ready_delay += record.start - ready;
     totals.processor_ns += record.processor_ns;
@@ -113,10 +128,29 @@ void Profiler::look_closely()
   waits_.add_step(*graph_, records, row_of_instance_);
   steps_.path_ticks += longest;
   ++n_looked_at_;
+  if (longest > 0) follow_chain(last);
+}
+
+/// Notes the tasks of the longest chain, from its last instance back to its first.
+void Profiler::follow_chain(std::size_t last)
+{
+  const auto& instances = graph_->graph().instances();
+  for (std::size_t i = last;;) {
+    const std::size_t row = row_of_instance_[i];
+    if (on_chain_at_[row] != n_looked_at_) ++rows_[row].totals.on_chain;
+    on_chain_at_[row] = n_looked_at_;
+    const auto longer = [&](int a, int b) {
+      return path_[static_cast<std::size_t>(a)] < path_[static_cast<std::size_t>(b)];
+    };
+    const auto& before = instances[i].predecessors;
+    const auto next = std::max_element(before.begin(), before.end(), longer);
+    if (next == before.end() || path_[static_cast<std::size_t>(*next)] == 0) return;
+    i = static_cast<std::size_t>(*next);
+  }
 }
 
 /// What each task took on each patch, of the steps since the graph is followed.
-void Profiler::add_patch_ticks(std::vector<Row>& rows) const
+void Profiler::add_patch_ticks(std::vector<TaskRow>& rows) const
 {
   const auto& instances = graph_->graph().instances();
   for (std::size_t i = 0; i < instances.size(); ++i) {
@@ -144,112 +178,96 @@ Traffic Profiler::traffic() const
   return sum;
 }
 
-/// The rows are the same on all ranks, as the graph is: only their numbers travel.
-std::vector<Profiler::Row> Profiler::rows_of_all(const Communicator& communicator) const
-{
-  std::vector<Row> all = rows_;
-  add_patch_ticks(all);
-  std::vector<std::byte> own;
-  const auto add = [&](const auto* first, std::size_t n) {
-    const auto bytes = std::as_bytes(std::span(first, n));
-    own.insert(own.end(), bytes.begin(), bytes.end());
-  };
-  for (const Row& row : all) {
-    add(&row.totals, 1);
-    add(row.per_patch.data(), row.per_patch.size());
-  }
-  const auto from_each = communicator.gather(own);
-  for (int rank = 0; rank < communicator.size(); ++rank) {
-    if (rank == communicator.rank()) continue;
-    const std::byte* from = from_each[static_cast<std::size_t>(rank)].data();
-    for (Row& row : all) {
-      Totals totals;
-      std::vector<std::uint64_t> per_patch(row.per_patch.size());
-      std::memcpy(&totals, from, sizeof totals);
-      std::memcpy(per_patch.data(), from + sizeof totals, per_patch.size() * sizeof(std::uint64_t));
-      from += sizeof totals + per_patch.size() * sizeof(std::uint64_t);
-      row.totals.durations.merge(totals.durations);
-      row.totals.skipped += totals.skipped;
-      row.totals.ready_delay += totals.ready_delay;
-      row.totals.processor_ns += totals.processor_ns;
-      row.totals.bytes += totals.bytes;
-      row.totals.particles += totals.particles;
-      for (std::size_t p = 0; p < per_patch.size(); ++p) row.per_patch[p] += per_patch[p];
-    }
-  }
-  return all;
-}
-
-TaskStatistics Profiler::statistics(const Row& row, std::uint64_t all_ticks, double second) const
-{
-  const DurationHistogram& durations = row.totals.durations;
-  const double of_all_steps = steps_for_each_looked_at();
-  TaskStatistics t;
-  t.name = row.name;
-  t.count = durations.count();
-  t.skipped = row.totals.skipped;
-  t.total_s = static_cast<double>(durations.total()) * second;
-  t.mean_s = t.count > 0 ? t.total_s / static_cast<double>(t.count) : 0;
-  t.min_s = static_cast<double>(durations.least()) * second;
-  t.max_s = static_cast<double>(durations.most()) * second;
-  t.p95_s = durations.quantile(0.95) * second;
-  t.share = static_cast<double>(durations.total()) / static_cast<double>(all_ticks);
-  t.processor_s = 1e-9 * static_cast<double>(row.totals.processor_ns) * of_all_steps;
-  t.bytes = row.totals.bytes * of_all_steps;
-  t.particles = row.totals.particles * of_all_steps;
-  const double sum = static_cast<double>(std::accumulate(row.per_patch.begin(), row.per_patch.end(), std::uint64_t{0}));
-  const double most = static_cast<double>(*std::max_element(row.per_patch.begin(), row.per_patch.end()));
-  t.imbalance = sum > 0 ? most * static_cast<double>(row.per_patch.size()) / sum : 1;
-  t.ready_delay_s = static_cast<double>(row.totals.ready_delay) * second * time_for_each_looked_at();
-  return t;
-}
-
 Profile Profiler::profile(const Communicator& communicator) const
 {
   const double second = rate_.seconds_per_tick();
   Profile profile;
   profile.n_steps = n_steps_;
   while (profile.n_traced_steps < n_steps_ && is_traced(profile.n_traced_steps)) ++profile.n_traced_steps;
-  const std::vector<Row> rows = rows_of_all(communicator);
-  std::uint64_t all = 0;
-  for (const Row& row : rows) all += row.totals.durations.total();
-  for (const Row& row : rows) {
-    if (row.totals.durations.count() + row.totals.skipped > 0) profile.tasks.push_back(statistics(row, all, second));
-  }
-  std::sort(profile.tasks.begin(), profile.tasks.end(),
-            [](const TaskStatistics& a, const TaskStatistics& b) { return a.total_s > b.total_s; });
-
   Steps own = steps_;
   own.traffic = traffic();
-  Steps together;
-  together.first_tick = own.first_tick;
-  std::uint64_t longest = 0;
-  double path_share = 0;
-  for (const Steps& steps : communicator.gather_value(own)) {
-    together.first_tick = std::min(together.first_tick, steps.first_tick);
-    together.ticks += steps.ticks;
-    longest = std::max(longest, steps.ticks);
-    together.recording = std::max(together.recording, steps.recording);
-    together.between = std::max(together.between, steps.between);
-    if (steps.looked_at > 0) {
-      path_share = std::max(path_share, static_cast<double>(steps.path_ticks) / static_cast<double>(steps.looked_at));
-    }
-    together.traffic.add(steps.traffic);
-  }
-  if (n_steps_ > 0) {
-    profile.step_s = static_cast<double>(longest) * second / static_cast<double>(n_steps_);
-    profile.critical_path_s = path_share * profile.step_s;
-    profile.recording_s = static_cast<double>(together.recording) * second / static_cast<double>(n_steps_);
-    profile.between_s = static_cast<double>(together.between) * second / static_cast<double>(n_steps_);
-    profile.overhead = 1 - static_cast<double>(all) / (static_cast<double>(together.ticks) * n_workers_);
-  }
-  profile.n_messages = together.traffic.n_messages;
-  profile.message_bytes = together.traffic.n_bytes;
-  profile.message_s = static_cast<double>(together.traffic.under_way) * second;
-  profile.message_wait_s = static_cast<double>(together.traffic.waited_for) * second;
+  own.in_tasks = ticks_of(rows_);
+  add_tasks(profile, communicator, second);
+  add_steps(profile, communicator.gather_value(own), second);
   profile.waits = waits(communicator, second);
   replay_mean_step(profile, communicator, second);
   return profile;
+}
+
+void Profiler::add_tasks(Profile& profile, const Communicator& communicator, double second) const
+{
+  std::vector<TaskRow> own = rows_;
+  add_patch_ticks(own);
+  const auto ranks = rows_of_ranks(own, communicator);
+  const auto n_ranks = static_cast<double>(ranks.size());
+  const std::vector<TaskRow> all = sum_of(ranks);
+  RowScales scales{ticks_of(all), second, steps_for_each_looked_at(), time_for_each_looked_at(),
+                   static_cast<double>(n_looked_at_) * n_ranks};
+  profile.tasks = statistics(all, scales);
+  profile.patches = patch_statistics(all, graph_->graph().layout().ranks(), second);
+  scales.looked_at = static_cast<double>(n_looked_at_);
+  profile.ranks.reserve(ranks.size());
+  for (const std::vector<TaskRow>& rows : ranks) {
+    scales.all_ticks = ticks_of(rows);
+    profile.ranks.push_back({statistics(rows, scales)});
+  }
+  for (TaskStatistics& t : profile.tasks) {
+    const auto row = static_cast<std::size_t>(std::ranges::find(all, t.name, &TaskRow::name) - all.begin());
+    t.over_time_s = per_step(all[row].totals.over_time, second);
+    std::uint64_t most = 0;
+    for (const std::vector<TaskRow>& rows : ranks) most = std::max(most, rows[row].totals.durations.total());
+    if (t.total_s > 0) t.rank_imbalance = static_cast<double>(most) * second * n_ranks / t.total_s;
+  }
+}
+
+/// What a step takes in each part of the run [s].
+std::vector<double> Profiler::per_step(const TicksOverTime& ticks, double second) const
+{
+  std::vector<double> seconds;
+  seconds.reserve(RunParts::most);
+  for (const long n : parts_.steps_of_parts(n_steps_)) {
+    seconds.push_back(static_cast<double>(ticks.of_part[seconds.size()]) * second / static_cast<double>(n));
+  }
+  return seconds;
+}
+
+void Profiler::add_steps(Profile& profile, const std::vector<Steps>& of_ranks, double second) const
+{
+  const double to_mean = n_steps_ > 0 ? second / static_cast<double>(n_steps_) : 0;
+  Steps sum, most;
+  double path_share = 0;
+  for (std::size_t r = 0; r < of_ranks.size(); ++r) {
+    const Steps& steps = of_ranks[r];
+    profile.ranks[r].step_s = static_cast<double>(steps.ticks) * to_mean;
+    profile.ranks[r].overhead = overhead(steps);
+    sum.ticks += steps.ticks;
+    sum.in_tasks += steps.in_tasks;
+    sum.traffic.add(steps.traffic);
+    most.ticks = std::max(most.ticks, steps.ticks);
+    most.over_time.take_most(steps.over_time);
+    most.recording = std::max(most.recording, steps.recording);
+    most.between = std::max(most.between, steps.between);
+    if (steps.looked_at == 0) continue;
+    path_share = std::max(path_share, static_cast<double>(steps.path_ticks) / static_cast<double>(steps.looked_at));
+  }
+  profile.step_s = static_cast<double>(most.ticks) * to_mean;
+  profile.steps_each_part = parts_.steps_each();
+  profile.step_over_time_s = per_step(most.over_time, second);
+  profile.critical_path_s = path_share * profile.step_s;
+  profile.recording_s = static_cast<double>(most.recording) * to_mean;
+  profile.between_s = static_cast<double>(most.between) * to_mean;
+  profile.overhead = overhead(sum);
+  profile.n_messages = sum.traffic.n_messages;
+  profile.message_bytes = sum.traffic.n_bytes;
+  profile.message_s = static_cast<double>(sum.traffic.under_way) * second;
+  profile.message_wait_s = static_cast<double>(sum.traffic.waited_for) * second;
+}
+
+/// The part of the workers' time in steps that is outside of tasks.
+double Profiler::overhead(const Steps& steps) const
+{
+  if (steps.ticks == 0) return 0;
+  return 1 - static_cast<double>(steps.in_tasks) / (static_cast<double>(steps.ticks) * n_workers_);
 }
 
 /// The longest of the waits between two tasks, over all ranks.
@@ -335,7 +353,7 @@ Trace Profiler::trace(const Communicator& communicator) const
   const double second = rate_.seconds_per_tick();
   const std::uint64_t first_tick = communicator.min(steps_.first_tick);
   Trace trace;
-  for (const Row& row : rows_) trace.tasks.push_back(row.name);
+  for (const TaskRow& row : rows_) trace.tasks.push_back(row.name);
   const auto from_each = communicator.gather(std::as_bytes(std::span(traced_)));
   for (int rank = 0; rank < communicator.size(); ++rank) {
     const auto& bytes = from_each[static_cast<std::size_t>(rank)];

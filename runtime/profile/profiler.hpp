@@ -8,9 +8,10 @@
 #include "runtime/execute/bound_graph.hpp"
 #include "runtime/execute/clock.hpp"
 #include "runtime/execute/executor.hpp"
-#include "runtime/profile/duration_histogram.hpp"
+#include "runtime/profile/over_time.hpp"
 #include "runtime/profile/profile.hpp"
 #include "runtime/profile/replay.hpp"
+#include "runtime/profile/task_rows.hpp"
 #include "runtime/profile/worker_waits.hpp"
 
 namespace tamp::runtime
@@ -47,21 +48,6 @@ class Profiler
   Trace trace(const Communicator& communicator = {}) const;
 
  private:
-  /// Numbers of one task, which may be sent as bytes.
-  struct Totals {
-    DurationHistogram durations;
-    std::uint64_t skipped = 0;
-    // Of the steps that are looked at, like all below.
-    std::uint64_t ready_delay = 0;
-    std::uint64_t processor_ns = 0;
-    double bytes = 0;
-    double particles = 0;
-  };
-  struct Row {
-    std::string name;
-    Totals totals;
-    std::vector<std::uint64_t> per_patch;
-  };
   struct TracedInstance {
     std::size_t row;
     int patch;
@@ -71,6 +57,9 @@ class Profiler
   struct Steps {
     std::uint64_t first_tick = 0;
     std::uint64_t ticks = 0;
+    TicksOverTime over_time;
+    /// Of all workers, in bodies of tasks; filled in for the profile.
+    std::uint64_t in_tasks = 0;
     std::uint64_t recording = 0;
     /// From the end of one step to the start of the next.
     std::uint64_t between = 0;
@@ -80,11 +69,14 @@ class Profiler
     Traffic traffic;
   };
 
-  std::vector<Row> rows_of_all(const Communicator& communicator) const;
-  TaskStatistics statistics(const Row& row, std::uint64_t all_ticks, double second) const;
   void add_durations();
   void look_closely();
-  void add_patch_ticks(std::vector<Row>& rows) const;
+  void follow_chain(std::size_t last);
+  void add_patch_ticks(std::vector<TaskRow>& rows) const;
+  void add_tasks(Profile& profile, const Communicator& communicator, double second) const;
+  std::vector<double> per_step(const TicksOverTime& ticks, double second) const;
+  void add_steps(Profile& profile, const std::vector<Steps>& of_ranks, double second) const;
+  double overhead(const Steps& steps) const;
   double steps_for_each_looked_at() const;
   double time_for_each_looked_at() const;
   std::vector<Wait> waits(const Communicator& communicator, double second) const;
@@ -98,10 +90,13 @@ class Profiler
   int n_workers_;
   long n_traced_steps_ = 0;
   TickRate rate_;
-  std::vector<Row> rows_;
+  std::vector<TaskRow> rows_;
+  RunParts parts_;
   std::vector<std::size_t> row_of_instance_;
   /// By instance: the longest chain up to its end in a step, and what it took in all since this graph is followed.
   std::vector<std::uint64_t> path_;
+  /// By row: the last of the steps looked at, counted from 1, in which it was on the longest chain.
+  std::vector<long> on_chain_at_;
   std::vector<std::uint64_t> instance_ticks_;
   long n_followed_ = 0;
   WorkerWaits waits_;

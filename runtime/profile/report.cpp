@@ -19,7 +19,7 @@ nlohmann::json to_json(const TaskStatistics& t)
                          {"share", t.share},         {"processor_s", t.processor_s},
                          {"bytes", t.bytes},         {"particles", t.particles},
                          {"imbalance", t.imbalance}, {"ready_delay_s", t.ready_delay_s},
-                         {"chain_s", t.chain_s}};
+                         {"chain_s", t.chain_s},     {"on_chain", t.on_chain}};
   // The old name of `ready_delay_s`, for one release.
   json["wait_s"] = t.ready_delay_s;
   if (std::isfinite(t.gain_of_all)) {
@@ -29,12 +29,41 @@ nlohmann::json to_json(const TaskStatistics& t)
   return json;
 }
 
+nlohmann::json to_json(const std::vector<TaskStatistics>& tasks)
+{
+  nlohmann::json list = nlohmann::json::array();
+  for (const TaskStatistics& t : tasks) list.push_back(to_json(t));
+  return list;
+}
+
+/// Each rank with its tasks.
+nlohmann::json to_json(const std::vector<RankStatistics>& ranks)
+{
+  nlohmann::json list = nlohmann::json::array();
+  for (const RankStatistics& rank : ranks) {
+    list.push_back({{"step_s", rank.step_s}, {"overhead", rank.overhead}, {"tasks", to_json(rank.tasks)}});
+  }
+  return list;
+}
+
+nlohmann::json to_json(const std::vector<PatchStatistics>& patches)
+{
+  nlohmann::json list = nlohmann::json::array();
+  for (const PatchStatistics& patch : patches) {
+    list.push_back({{"rank", patch.rank}, {"total_s", patch.total_s}, {"dearest", patch.dearest}});
+  }
+  return list;
+}
+
 }  // namespace
 
 nlohmann::json to_json(const Profile& profile, const MemoryLedger& ledger, const Communicator& communicator)
 {
-  nlohmann::json tasks = nlohmann::json::array();
-  for (const TaskStatistics& t : profile.tasks) tasks.push_back(to_json(t));
+  nlohmann::json tasks = to_json(profile.tasks);
+  for (std::size_t k = 0; k < profile.tasks.size(); ++k) {
+    tasks[k]["rank_imbalance"] = profile.tasks[k].rank_imbalance;
+    tasks[k]["over_time_s"] = profile.tasks[k].over_time_s;
+  }
   nlohmann::json waits = nlohmann::json::array();
   for (const Wait& w : profile.waits) waits.push_back({{"task", w.task}, {"waits_for", w.cause}, {"s", w.total_s}});
   nlohmann::json labels = nlohmann::json::object();
@@ -43,6 +72,9 @@ nlohmann::json to_json(const Profile& profile, const MemoryLedger& ledger, const
   }
   const std::size_t total = communicator.sum(static_cast<std::uint64_t>(ledger.total().peak()));
   return {{"tasks", tasks},
+          {"ranks", to_json(profile.ranks)},
+          {"patches", to_json(profile.patches)},
+          {"over_time", {{"steps_each", profile.steps_each_part}, {"step_s", profile.step_over_time_s}}},
           {"steps", profile.n_steps},
           {"traced_steps", profile.n_traced_steps},
           {"overhead", profile.overhead},
@@ -75,74 +107,6 @@ void write_trace(const Trace& trace, const std::function<void(std::string_view)>
     before = ",\n";
   }
   write("]}\n");
-}
-
-namespace
-{
-
-/// What a step would gain, as percent; of profiles that do not say, nothing.
-std::string percent(const nlohmann::json& task, const char* key)
-{
-  const auto gain = task.find(key);
-  return gain == task.end() ? "" : fmt::format("{:.1f}%", gain->get<double>() * 100);
-}
-
-double microseconds(const nlohmann::json& profile, const char* key)
-{
-  return profile.value(key, 0.0) * 1e6;
-}
-
-std::string messages_text(const nlohmann::json& profile)
-{
-  const auto n = profile.value("messages", 0.0);
-  if (n == 0) return "";
-  const double under_way = profile.at("message_s").get<double>();
-  return fmt::format(
-      "{:.0f} messages between ranks, {:.1f} MiB, {:.1f} us on their way, {:.0f} % of that behind tasks\n", n,
-      profile.at("message_bytes").get<double>() / (1024 * 1024), under_way / n * 1e6,
-      100 * (1 - profile.at("message_wait_s").get<double>() / under_way));
-}
-
-std::string waits_text(const nlohmann::json& profile)
-{
-  std::string text;
-  for (const nlohmann::json& w : profile.value("waits", nlohmann::json::array())) {
-    text += fmt::format("{:>10.2f} ms  {:<36} for {}\n", w.at("s").get<double>() * 1e3, w.at("task").get<std::string>(),
-                        w.at("waits_for").get<std::string>());
-  }
-  return text.empty() ? "" : "\nworkers stood still longest before\n" + text;
-}
-
-}  // namespace
-
-/// Counts are read as what a damaged file may have there, which need not fit into a whole number.
-std::string to_text(const nlohmann::json& profile, int n_rows)
-{
-  std::string text = fmt::format("{:<36} {:>9} {:>9} {:>9} {:>7} {:>9} {:>9} {:>8}\n", "task", "count", "mean us",
-                                 "p95 us", "share", "imbalance", "10% less", "if free");
-  int row = 0;
-  for (const nlohmann::json& t : profile.at("tasks")) {
-    if (n_rows > 0 && row++ == n_rows) break;
-    text += fmt::format("{:<36} {:>9.0f} {:>9.2f} {:>9.2f} {:>6.2f}% {:>9.3f} {:>9} {:>8}\n",
-                        t.at("name").get<std::string>(), t.at("count").get<double>(),
-                        t.at("mean_s").get<double>() * 1e6, t.at("p95_s").get<double>() * 1e6,
-                        t.at("share").get<double>() * 100, t.at("imbalance").get<double>(),
-                        percent(t, "step_gain_if_a_tenth_faster"), percent(t, "step_gain_if_free"));
-  }
-  text += fmt::format(
-      "a step takes {:.1f} us in the mean, its longest chain of tasks {:.1f} us; scheduler overhead {:.2f} %; fields "
-      "{:.1f} MiB\n",
-      profile.at("step_s").get<double>() * 1e6,
-      profile.value("longest_chain_s", profile.at("critical_path_s").get<double>()) * 1e6,
-      profile.at("overhead").get<double>() * 100, profile.at("memory").at("total").get<double>() / (1024 * 1024));
-  text += messages_text(profile);
-  if (n_rows > 0) return text;
-  if (profile.contains("replayed_s")) {
-    text += fmt::format(
-        "replayed, it takes {:.1f} us; between two steps pass {:.1f} us, {:.1f} us of it to record them\n",
-        microseconds(profile, "replayed_s"), microseconds(profile, "between_s"), microseconds(profile, "recording_s"));
-  }
-  return text + waits_text(profile);
 }
 
 }  // namespace tamp::runtime

@@ -2,7 +2,6 @@
 
 #include <functional>
 #include <nlohmann/json.hpp>
-#include <string>
 #include <string_view>
 
 #include "runtime/data/memory_ledger.hpp"
@@ -19,8 +18,5 @@ nlohmann::json to_json(const Profile& profile, const MemoryLedger& ledger, const
 /// Writes the trace in the Chrome / Perfetto event format, one track for each worker of each rank, piece by piece: as a
 /// whole it may be larger than all else that a run keeps in memory.
 void write_trace(const Trace& trace, const std::function<void(std::string_view)>& write);
-
-/// A table of a `profile.json`, most expensive task first; at most `n_rows` rows when positive.
-std::string to_text(const nlohmann::json& profile, int n_rows = 0);
 
 }  // namespace tamp::runtime

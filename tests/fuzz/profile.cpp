@@ -3,6 +3,12 @@
 
 void tamp::fuzz::profile(const std::filesystem::path& file)
 {
-  tools::profile_text(file);
-  tools::profile_json_text(file);
+  const std::filesystem::path run = file.string() + ".run";
+  std::filesystem::create_directories(run);
+  std::filesystem::copy_file(file, run / "profile.json", std::filesystem::copy_options::overwrite_existing);
+  tools::profile_text(run);
+  tools::profile_text(run, {.as_json = true});
+  tools::profile_text(run, {.patches = true});
+  tools::profile_text(run, {.ranks = {0}});
+  tools::profile_text(run, {.other = run});
 }

@@ -19,18 +19,18 @@ namespace
 struct ProfileArguments {
   std::string folder;
   std::string format = "text";
+  std::string other;
+  ProfileView view;
 };
 
-void show_profile(const ProfileArguments& options)
+void show_profile(ProfileArguments& options)
 {
-  const std::filesystem::path folder = options.folder, file = folder / "profile.json";
-  if (options.format == "json") {
-    print_out("{}", profile_json_text(file));
-    return;
-  }
+  const std::filesystem::path folder = options.folder;
+  if (!options.other.empty()) options.view.other = options.other;
+  options.view.as_json = options.format == "json";
   // Read in any case: where the run left none, or a damaged one, this says so.
-  const std::string text = profile_text(file);
-  if (options.format == "text") {
+  const std::string text = profile_text(folder, options.view);
+  if (options.format != "html") {
     print_out("{}", text);
     return;
   }
@@ -47,8 +47,25 @@ CLI::App* add_profile_command(CLI::App& app)
   command->add_option("RUN_DIR", options->folder, "the run's folder")->type_name("DIR")->required();
   command->add_option("--format", options->format, "text, json, or html: the page of the run")
       ->check(is_one_of({"text", "json", "html"}));
+  CLI::Option* const phase =
+      command->add_option("--phase", options->view.phase, "only tasks of this phase: what stands before the colon")
+          ->type_name("NAME")
+          ->check(is_not_empty());
+  CLI::Option* const rank = command->add_option("--rank", options->view.ranks, "what these ranks did, each by itself")
+                                ->type_name("R,R...")
+                                ->delimiter(',')
+                                ->check(is_whole_from(0));
+  CLI::Option* const patches =
+      command->add_flag("--patches", options->view.patches, "the dearest patches")->excludes(rank)->excludes(phase);
+  command->add_option("--compare", options->other, "task by task with another run, and which differences are no noise")
+      ->type_name("RUN_DIR")
+      ->check(is_not_empty())
+      ->excludes(rank)
+      ->excludes(patches);
   command->footer(
       examples({{"tamp profile runs/punch", "the tasks, the most expensive first"},
+                {"tamp profile runs/punch --patches", "which patches take longest"},
+                {"tamp profile runs/svr --compare runs/table", "what another model costs, task by task"},
                 {"tamp profile runs/punch --format json", "as it was written"},
                 {"tamp profile runs/punch --format html", "runs/punch/report.html, with the run's plots"}}));
   command->callback([options] { show_profile(*options); });

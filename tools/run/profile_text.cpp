@@ -1,16 +1,25 @@
 #include "tools/run/profile_text.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <stdexcept>
 
 #include "runtime/file_error.hpp"
-#include "runtime/profile/report.hpp"
+#include "runtime/profile/compare.hpp"
+#include "runtime/profile/table.hpp"
+#include "tools/run/run_folder.hpp"
 #include "tools/scene/parse_json.hpp"
+#include "tools/system/suggestion.hpp"
 
 namespace tamp::tools
 {
 
 namespace
 {
+
+namespace fs = std::filesystem;
 
 /// Describes what is wrong with a profile that is JSON, in place of the library's text.
 std::string damage(const nlohmann::json::exception& error)
@@ -22,29 +31,83 @@ std::string damage(const nlohmann::json::exception& error)
   return fmt::format("the key \"{}\" is missing", text.substr(begin + 1, end - begin - 1));
 }
 
+/// Has `render` read what a run has written.
 template <class Render>
-std::string rendered(const std::filesystem::path& file, const Render& render)
+auto rendered(const fs::path& file, const Render& render)
 {
-  if (!std::filesystem::exists(file)) throw InputError({file.string(), "no such file", "expected the folder of a run"});
   try {
-    return render(nlohmann::json(parse_json(file)));
-  } catch (const InputError& error) {
-    throw runtime::FileError(file, std::string("is damaged: ") + error.what());
+    return render();
   } catch (const nlohmann::json::exception& error) {
     throw runtime::FileError(file, "is damaged: " + damage(error) + "; expected what a run has written");
+  } catch (const std::out_of_range&) {
+    throw runtime::FileError(file, "is damaged: a value is out of range; expected what a run has written");
   }
+}
+
+nlohmann::json read_profile(const fs::path& run)
+{
+  const fs::path file = run / "profile.json";
+  if (!fs::exists(file)) {
+    if (!fs::exists(run / run_mark)) throw InputError({run.string(), "no run", "expected the folder of a run"});
+    throw runtime::FileError(file, "is missing: the run has not come to its end, or the file was removed");
+  }
+  try {
+    return parse_json(file);
+  } catch (const InputError& error) {
+    throw runtime::FileError(file, std::string("is damaged: ") + error.what());
+  }
+}
+
+void expect_phase(const nlohmann::json& profile, const std::string& phase)
+{
+  const std::vector<std::string> phases = runtime::phases_of(profile);
+  if (phase.empty() || std::ranges::find(phases, phase) != phases.end()) return;
+  const std::string any = fmt::format("expected one of {}", fmt::join(phases, ", "));
+  throw InputError({"--phase", fmt::format("\"{}\"", phase), meant_or(phase, phases, any)});
+}
+
+void expect_ranks(const nlohmann::json& profile, const std::vector<std::size_t>& ranks)
+{
+  for (const std::size_t rank : ranks) {
+    const std::size_t n = profile.at("ranks").size();
+    if (rank >= n) throw InputError({"--rank", std::to_string(rank), fmt::format("expected 0 to {}", n - 1)});
+  }
+}
+
+std::string view_of(const nlohmann::json& profile, const ProfileView& view)
+{
+  expect_phase(profile, view.phase);
+  expect_ranks(profile, view.ranks);
+  if (view.as_json) return profile.dump(1) + "\n";
+  if (view.patches) return runtime::patches_text(profile);
+  if (view.ranks.empty()) return runtime::to_text(profile, {.phase = view.phase});
+  std::vector<std::string> tables;
+  tables.reserve(view.ranks.size());
+  for (const std::size_t rank : view.ranks) tables.push_back(runtime::rank_text(profile, rank, {.phase = view.phase}));
+  return fmt::format("{}", fmt::join(tables, "\n"));
+}
+
+std::string comparison_of(const nlohmann::json& here, const nlohmann::json& there, const ProfileView& view)
+{
+  std::vector<runtime::TaskComparison> tasks = runtime::compare_profiles(here, there);
+  expect_phase(here, view.phase);
+  if (!view.phase.empty()) {
+    std::erase_if(tasks, [&](const auto& task) { return runtime::phase_of(task.name) != view.phase; });
+  }
+  return view.as_json ? runtime::to_json(tasks).dump(1) + "\n" : runtime::to_text(tasks);
 }
 
 }  // namespace
 
-std::string profile_text(const std::filesystem::path& file)
+std::string profile_text(const fs::path& run, const ProfileView& view)
 {
-  return rendered(file, [](const nlohmann::json& profile) { return runtime::to_text(profile); });
-}
-
-std::string profile_json_text(const std::filesystem::path& file)
-{
-  return rendered(file, [](const nlohmann::json& profile) { return profile.dump(1) + "\n"; });
+  const nlohmann::json profile = read_profile(run);
+  const fs::path file = run / "profile.json";
+  if (!view.other) return rendered(file, [&] { return view_of(profile, view); });
+  const nlohmann::json other = read_profile(*view.other);
+  // Compared with itself, what is damaged says so; after that it is the other one.
+  rendered(file, [&] { return runtime::compare_profiles(profile, profile).size(); });
+  return rendered(*view.other / "profile.json", [&] { return comparison_of(profile, other, view); });
 }
 
 }  // namespace tamp::tools

@@ -11,6 +11,7 @@
 #include "runtime/data/byte_stream.hpp"
 #include "runtime/file_error.hpp"
 #include "runtime/profile/report.hpp"
+#include "runtime/profile/table.hpp"
 #include "runtime/ranks/on_all_ranks.hpp"
 #include "runtime/storage/whole_file.hpp"
 #include "tasks/simulation.hpp"
@@ -438,7 +439,7 @@ class Runner
     // Last, as it may be large, and a run can do without.
     if (options_.n_traced_steps > 0) write_trace();
     if (options_.quiet || !is_first()) return;
-    print_out("{}\n{}  written to {}\n", runtime::to_text(json, 10), summary_text(summary), options_.folder.string());
+    print_out("{}\n{}  written to {}\n", runtime::to_text(json, {.n_rows = 10}), summary_text(summary), options_.folder.string());
   }
 
   void write_trace()

@@ -18,8 +18,6 @@ namespace
 
 namespace fs = std::filesystem;
 
-constexpr const char* marker = ".tamp-run";
-
 /// All that a run or a comparison writes into its folder. `.part` files are left by one that was killed while it wrote,
 /// `.damaged` ones by one that found them so.
 bool is_of_run(const fs::path& file)
@@ -58,7 +56,7 @@ void remove_run(const fs::path& folder)
 bool holds_nothing(const fs::path& folder)
 {
   for (const auto& entry : fs::directory_iterator(folder)) {
-    if (!runtime::FolderLock::makes(entry.path()) && entry.path().filename() != marker) return false;
+    if (!runtime::FolderLock::makes(entry.path()) && entry.path().filename() != run_mark) return false;
   }
   return true;
 }
@@ -70,8 +68,8 @@ void expect_free(const fs::path& folder, RunFolder::Use use)
     throw InputError({folder.string(), "the folder is not empty",
                       "expected an empty or new folder (--out), or --force to replace the run in it"});
   }
-  if (!fs::exists(folder / marker)) {
-    throw InputError({folder.string(), fmt::format("a folder that no run has marked as its own ({})", marker),
+  if (!fs::exists(folder / run_mark)) {
+    throw InputError({folder.string(), fmt::format("a folder that no run has marked as its own ({})", run_mark),
                       "expected one that a run has made; remove what is in this one yourself, or choose another"});
   }
 }
@@ -117,7 +115,7 @@ RunFolder::RunFolder(const fs::path& folder, Use use, std::span<const fs::path> 
     expect_free(folder, use);
     if (use == Use::replace) remove_run(folder);
     if (use != Use::go_on) {
-      runtime::write_whole_file(folder / marker,
+      runtime::write_whole_file(folder / run_mark,
                                 "Written by tamp. With --force, what a run writes is replaced here.\n");
     }
   } catch (const fs::filesystem_error& error) {

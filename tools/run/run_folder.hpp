@@ -10,6 +10,9 @@
 namespace tamp::tools
 {
 
+/// The file that marks a folder as a run's.
+inline constexpr const char* run_mark = ".tamp-run";
+
 /// A run's folder, which is that run's alone while this lives. The first run in it marks it with the file `.tamp-run`;
 /// only what is marked is ever replaced, and of that only files that a run or a comparison writes.
 class RunFolder

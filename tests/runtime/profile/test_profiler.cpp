@@ -1,5 +1,6 @@
 #include "runtime/profile/profiler.hpp"
 
+#include <algorithm>
 #include <catch2/catch.hpp>
 
 #include "runtime/profile/report.hpp"
@@ -38,6 +39,61 @@ TEST_CASE("the profile counts every instance and its shares sum to one", "[profi
   CHECK(count == 10 * heat.engine.graph().instances().size());
   CHECK(json["critical_path_s"].get<double>() <= json["step_s"].get<double>() * 1.001);
   CHECK(json["memory"]["total"].get<std::size_t>() >= heat.engine.warehouse().forecast_bytes());
+}
+
+TEST_CASE("ranks, patches and parts of a run each sum up to what the tasks took", "[profile]")
+{
+  test::Heat heat(16, {2, 2, 1}, 2);
+  heat.run(100, 1e-4);
+
+  const Profile profile = heat.engine.profile();
+
+  double all = 0, over_patches = 0, of_patches = 0, of_rank = 0, on_chains = 0;
+  for (const TaskStatistics& t : profile.tasks) {
+    all += t.total_s;
+    double over_time = 0;
+    for (std::size_t k = 0; k < t.over_time_s.size(); ++k) {
+      const long last = profile.n_steps - profile.steps_each_part * static_cast<long>(k);
+      over_time += t.over_time_s[k] * static_cast<double>(std::min(profile.steps_each_part, last));
+    }
+    CHECK(over_time == Approx(t.total_s));
+    if (t.count >= 400) over_patches += t.total_s;
+    CHECK(t.on_chain <= 1);
+    on_chains += t.on_chain;
+  }
+  for (const PatchStatistics& patch : profile.patches) of_patches += patch.total_s;
+  for (const TaskStatistics& t : profile.ranks.at(0).tasks) of_rank += t.total_s;
+  CHECK(profile.steps_each_part == 2);
+  CHECK(profile.step_over_time_s.size() == 50);
+  CHECK(profile.patches.size() == 4);
+  CHECK(of_patches == Approx(over_patches));
+  CHECK(of_rank == Approx(all));
+  // Each step has a longest chain, of one task at least.
+  CHECK(on_chains >= 1);
+}
+
+TEST_CASE("each rank has its own numbers, and together they are those of the run", "[profile][ranks]")
+{
+  const Communicator world = Communicator::world();
+  test::Heat heat(16, {4, 4, 1}, 2, world);
+  heat.run(20, 1e-4);
+
+  const Profile profile = heat.engine.profile();
+
+  REQUIRE(profile.ranks.size() == static_cast<std::size_t>(world.size()));
+  std::uint64_t of_ranks = 0, all = 0;
+  for (const RankStatistics& rank : profile.ranks) {
+    for (const TaskStatistics& t : rank.tasks) of_ranks += t.count;
+    CHECK(rank.step_s > 0);
+    CHECK(rank.step_s <= profile.step_s);
+  }
+  for (const TaskStatistics& t : profile.tasks) {
+    all += t.count;
+    CHECK(t.rank_imbalance >= 0.999);
+    CHECK(t.rank_imbalance <= world.size() * 1.001);
+  }
+  CHECK(of_ranks == all);
+  for (const PatchStatistics& patch : profile.patches) CHECK(patch.rank < world.size());
 }
 
 TEST_CASE("the trace has every instance of the first steps, as JSON that other programs read", "[profile]")

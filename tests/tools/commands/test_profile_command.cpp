@@ -1,4 +1,6 @@
 #include <catch2/catch.hpp>
+#include <filesystem>
+#include <nlohmann/json.hpp>
 
 #include "tests/tools/program.hpp"
 
@@ -6,6 +8,7 @@ namespace test_profile_command
 {
 
 using namespace tamp::test;
+namespace fs = std::filesystem;
 
 TEST_CASE("a profile that is damaged is reported with the key that it lacks")
 {
@@ -22,6 +25,46 @@ TEST_CASE("a profile that is damaged is reported with the key that it lacks")
   CHECK(odd.exit_code == 4);
   CHECK(odd.err ==
         "tamp: " + file + ": is damaged: a value is not what it was written as; expected what a run has written\n");
+}
+
+TEST_CASE("a profile is shown by rank, by phase and by patch, and beside that of another run")
+{
+  const TemporaryFolder folder;
+  const std::string out = (folder.path() / "run").string();
+  REQUIRE(tamp_with("run " TAMP_SOURCE_DIR "/inputs/punch/quick.json --steps 60 --quiet --out " + out).exit_code == 0);
+  const auto shown = [&](const std::string& options) { return tamp_with("profile " + out + " " + options).out; };
+
+  CHECK_THAT(shown("--phase 'update stress'"), Catch::Contains("update stress: sand") &&
+                                                   Catch::Contains("update stress: steel") &&
+                                                   !Catch::Contains("grid to particles"));
+  CHECK_THAT(shown("--rank 0,0"), Catch::StartsWith("rank 0: a step takes") && Catch::Contains("\n\nrank 0: "));
+  CHECK_THAT(shown("--patches"), Catch::Contains("4 patches: ") && Catch::Contains("update stress: sand"));
+  const std::string beside_itself = shown("--compare " + out);
+  CHECK_THAT(beside_itself,
+             Catch::Contains("a step ") && Catch::Contains("1.000 +- 0.000") && !Catch::Contains("slower there"));
+  CHECK(nlohmann::json::parse(shown("--compare " + out + " --format json"))[0]["ratio"] == 1);
+}
+
+TEST_CASE("what is not in a profile, or no run, is refused with what there is")
+{
+  const TemporaryFolder folder;
+  const std::string out = (folder.path() / "run").string();
+  REQUIRE(tamp_with("run " TAMP_SOURCE_DIR "/inputs/punch/quick.json --steps 2 --quiet --out " + out).exit_code == 0);
+  const auto refused = [&](const std::string& options, int code, const std::string& words) {
+    const Outcome outcome = tamp_with("profile " + options);
+    CHECK(outcome.exit_code == code);
+    CHECK_THAT(outcome.err, Catch::Contains(words));
+  };
+
+  refused(out + " --rank 0,1", 2, "--rank: 1; expected 0 to 0");
+  refused(out + " --rank ''", 2, "expected a whole number, at least 0");
+  refused(out + " --rank 99999999999999999999", 2, "expected a whole number, at least 0");
+  refused(out + " --phase 'update stres'", 2, "did you mean update stress?");
+  refused(out + " --patches --rank 0", 2, "--patches");
+  refused(folder.path().string(), 2, "no run; expected the folder of a run");
+  fs::rename(out + "/profile.json", out + "/old.json");
+  refused(out, 4, "profile.json: is missing");
+  refused(out + " --format html", 4, "profile.json: is missing");
 }
 
 TEST_CASE("the page of a run says how it ended, how far to trust it, and where its time went")

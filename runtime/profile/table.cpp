@@ -1,0 +1,171 @@
+#include "runtime/profile/table.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <numeric>
+
+namespace tamp::runtime
+{
+
+// Counts are read as what a damaged file may have there, which need not fit into a whole number.
+
+namespace
+{
+
+/// A share as percent; of profiles that do not say, nothing.
+std::string percent(const nlohmann::json& task, const char* key)
+{
+  const auto share = task.find(key);
+  return share == task.end() ? "" : fmt::format("{:.1f}%", share->get<double>() * 100);
+}
+
+/// How many in a second, in units of `unit`; nothing for none.
+std::string rate(const nlohmann::json& task, const char* key, double unit)
+{
+  const double n = task.value(key, 0.0), seconds = task.at("total_s").get<double>();
+  return n > 0 && seconds > 0 ? fmt::format("{:.3g}", n / seconds / unit) : "";
+}
+
+std::string header()
+{
+  return fmt::format("{:<32} {:>8} {:>9} {:>9} {:>7} {:>7} {:>8} {:>6} {:>8} {:>8} {:>7}\n", "task", "count", "mean us",
+                     "p95 us", "share", "uneven", "Mpart/s", "GB/s", "on chain", "10% less", "if free");
+}
+
+std::string row(const nlohmann::json& t)
+{
+  return fmt::format("{:<32} {:>8.0f} {:>9.2f} {:>9.2f} {:>6.2f}% {:>7.3f} {:>8} {:>6} {:>8} {:>8} {:>7}\n",
+                     t.at("name").get<std::string>(), t.at("count").get<double>(), t.at("mean_s").get<double>() * 1e6,
+                     t.at("p95_s").get<double>() * 1e6, t.at("share").get<double>() * 100,
+                     t.at("imbalance").get<double>(), rate(t, "particles", 1e6), rate(t, "bytes", 1e9),
+                     percent(t, "on_chain"), percent(t, "step_gain_if_a_tenth_faster"),
+                     percent(t, "step_gain_if_free"));
+}
+
+/// The chosen ones of a list of tasks.
+std::string tasks_text(const nlohmann::json& tasks, const TableChoice& choice)
+{
+  std::string text = header();
+  int n = 0;
+  for (const nlohmann::json& t : tasks) {
+    if (!choice.phase.empty() && phase_of(t.at("name").get<std::string>()) != choice.phase) continue;
+    if (choice.n_rows > 0 && n++ == choice.n_rows) break;
+    text += row(t);
+  }
+  return text;
+}
+
+double microseconds(const nlohmann::json& profile, const char* key)
+{
+  return profile.value(key, 0.0) * 1e6;
+}
+
+std::string messages_text(const nlohmann::json& profile)
+{
+  const auto n = profile.value("messages", 0.0);
+  if (n == 0) return "";
+  const double under_way = profile.at("message_s").get<double>();
+  return fmt::format(
+      "{:.0f} messages between ranks, {:.1f} MiB, {:.1f} us on their way, {:.0f} % of that behind tasks\n", n,
+      profile.at("message_bytes").get<double>() / (1024 * 1024), under_way / n * 1e6,
+      100 * (1 - profile.at("message_wait_s").get<double>() / under_way));
+}
+
+std::string waits_text(const nlohmann::json& profile)
+{
+  std::string text;
+  for (const nlohmann::json& w : profile.value("waits", nlohmann::json::array())) {
+    text += fmt::format("{:>10.2f} ms  {:<36} for {}\n", w.at("s").get<double>() * 1e3, w.at("task").get<std::string>(),
+                        w.at("waits_for").get<std::string>());
+  }
+  return text.empty() ? "" : "\nworkers stood still longest before\n" + text;
+}
+
+/// Over the mean of the ranks, the busiest one: of all that they ran.
+std::string ranks_text(const nlohmann::json& profile)
+{
+  const nlohmann::json ranks = profile.value("ranks", nlohmann::json::array());
+  if (ranks.size() < 2) return "";
+  std::vector<double> seconds;
+  for (const nlohmann::json& rank : ranks) {
+    double sum = 0;
+    for (const nlohmann::json& t : rank.at("tasks")) sum += t.at("total_s").get<double>();
+    seconds.push_back(sum);
+  }
+  const auto [least, most] = std::minmax_element(seconds.begin(), seconds.end());
+  const double mean = std::accumulate(seconds.begin(), seconds.end(), 0.0) / static_cast<double>(seconds.size());
+  return fmt::format(
+      "{} ranks: tasks of one take {:.4g} s at least, {:.4g} s in the mean, {:.4g} s at most (rank {})\n",
+      seconds.size(), *least, mean, *most, most - seconds.begin());
+}
+
+}  // namespace
+
+std::string phase_of(const std::string& task)
+{
+  return task.substr(0, task.find(':'));
+}
+
+std::vector<std::string> phases_of(const nlohmann::json& profile)
+{
+  std::vector<std::string> phases;
+  for (const nlohmann::json& t : profile.at("tasks")) {
+    const std::string phase = phase_of(t.at("name").get<std::string>());
+    if (std::find(phases.begin(), phases.end(), phase) == phases.end()) phases.push_back(phase);
+  }
+  return phases;
+}
+
+std::string to_text(const nlohmann::json& profile, const TableChoice& choice)
+{
+  std::string text = tasks_text(profile.at("tasks"), choice);
+  text += fmt::format(
+      "a step takes {:.1f} us in the mean, its longest chain of tasks {:.1f} us; scheduler overhead {:.2f} %; fields "
+      "{:.1f} MiB\n",
+      profile.at("step_s").get<double>() * 1e6,
+      profile.value("longest_chain_s", profile.at("critical_path_s").get<double>()) * 1e6,
+      profile.at("overhead").get<double>() * 100, profile.at("memory").at("total").get<double>() / (1024 * 1024));
+  text += messages_text(profile);
+  if (choice.n_rows > 0 || !choice.phase.empty()) return text;
+  if (profile.contains("replayed_s")) {
+    text += fmt::format(
+        "replayed, it takes {:.1f} us; between two steps pass {:.1f} us, {:.1f} us of it to record them\n",
+        microseconds(profile, "replayed_s"), microseconds(profile, "between_s"), microseconds(profile, "recording_s"));
+  }
+  return text + ranks_text(profile) + waits_text(profile);
+}
+
+std::string rank_text(const nlohmann::json& profile, std::size_t rank, const TableChoice& choice)
+{
+  const nlohmann::json& own = profile.at("ranks").at(rank);
+  return fmt::format("rank {}: a step takes {:.1f} us in the mean; scheduler overhead {:.2f} %\n", rank,
+                     own.at("step_s").get<double>() * 1e6, own.at("overhead").get<double>() * 100) +
+         tasks_text(own.at("tasks"), choice);
+}
+
+std::string patches_text(const nlohmann::json& profile, std::size_t n_rows)
+{
+  const nlohmann::json& patches = profile.at("patches");
+  std::vector<std::size_t> order(patches.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  const auto seconds = [&](std::size_t p) { return patches.at(p).at("total_s").get<double>(); };
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return seconds(a) > seconds(b); });
+  double sum = 0;
+  for (const std::size_t p : order) sum += seconds(p);
+  const double steps = std::max(profile.at("steps").get<double>(), 1.0);
+  const double mean = patches.empty() ? 0 : sum / static_cast<double>(patches.size());
+  std::string text =
+      fmt::format("{:>7} {:>5} {:>10} {:>10}  {}\n", "patch", "rank", "us a step", "over mean", "dearest");
+  for (const std::size_t p : order) {
+    if (n_rows-- == 0) break;
+    text += fmt::format("{:>7} {:>5.0f} {:>10.2f} {:>10.3f}  {}\n", p, patches[p].at("rank").get<double>(),
+                        seconds(p) / steps * 1e6, mean > 0 ? seconds(p) / mean : 1,
+                        patches[p].at("dearest").get<std::string>());
+  }
+  const double median = order.empty() ? 0 : seconds(order[order.size() / 2]);
+  return text + fmt::format("{} patches: {:.2f} us a step in the mean, half of them {:.2f} us or less\n", order.size(),
+                            mean / steps * 1e6, median / steps * 1e6);
+}
+
+}  // namespace tamp::runtime

@@ -1,0 +1,32 @@
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+/// A `profile.json` as tables for people. All throw nlohmann's exceptions for what no run has written.
+namespace tamp::runtime
+{
+
+/// What of a profile is shown.
+struct TableChoice {
+  /// Only tasks of this phase, which is what stands before the colon in their names; empty: all.
+  std::string phase{};
+  /// At most so many rows; 0: all, and what workers waited for.
+  int n_rows = 0;
+};
+
+/// The run as a whole, most expensive task first.
+std::string to_text(const nlohmann::json& profile, const TableChoice& choice = {});
+
+/// What one of the ranks did.
+std::string rank_text(const nlohmann::json& profile, std::size_t rank, const TableChoice& choice = {});
+
+/// The dearest patches, and how the others compare.
+std::string patches_text(const nlohmann::json& profile, std::size_t n_rows = 20);
+
+/// In the order of their dearest tasks.
+std::vector<std::string> phases_of(const nlohmann::json& profile);
+std::string phase_of(const std::string& task);
+
+}  // namespace tamp::runtime
