@@ -2,9 +2,12 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <set>
 #include <tuple>
+#include <utility>
 #include <vector>
 
 #include "runtime/graph/dump.hpp"
@@ -74,6 +77,33 @@ nlohmann::json columns_of(const TaskGraph& graph, const FoldedGraph& folded)
   return columns;
 }
 
+/// Adds what a run took to the tasks of the drawing, and marks the edges along its longest chain.
+void add_measured(const nlohmann::json& profile, nlohmann::json& folded)
+{
+  std::map<std::string, int> number;
+  for (nlohmann::json& task : folded["tasks"]) number.emplace(task["name"], static_cast<int>(number.size()));
+  for (const nlohmann::json& measured : profile.at("tasks")) {
+    const auto found = number.find(measured.at("name").get<std::string>());
+    if (found == number.end()) continue;
+    nlohmann::json& task = folded["tasks"][static_cast<std::size_t>(found->second)]["measured"];
+    for (const char* key : {"count", "mean_s", "p95_s", "share", "imbalance", "chain_s", "on_chain",
+                            "step_gain_if_a_tenth_faster", "step_gain_if_free"}) {
+      if (measured.contains(key)) task[key] = measured[key].get<double>();
+    }
+  }
+  std::set<std::pair<int, int>> along;
+  int before = -1;
+  for (const nlohmann::json& link : profile.at("longest_chain")) {
+    const auto found = number.find(link.at("task").get<std::string>());
+    const int now = found == number.end() ? -1 : found->second;
+    if (before >= 0 && now >= 0) along.emplace(before, now);
+    before = now;
+  }
+  for (nlohmann::json& edge : folded["edges"]) {
+    if (along.contains({edge["from"].get<int>(), edge["to"].get<int>()})) edge["critical"] = true;
+  }
+}
+
 /// JSON in a script element: nothing in it can end that.
 std::string in_script(const char* id, const nlohmann::json& data)
 {
@@ -103,11 +133,31 @@ constexpr const char* page_hint =
     "instances. Boxes are tasks as declared, round ones the runtime's own work; what is dashed goes from rank to "
     "rank.</p>";
 
+std::string times_hint(const nlohmann::json& profile)
+{
+  return fmt::format(
+      "<p class=\"faint\">The darker a task, the more of the time of all tasks it took. A step took {:.4g} "
+      "microseconds "
+      "in the mean; the longest chain, drawn thick, {:.4g}.</p>",
+      profile.at("step_s").get<double>() * 1e6, profile.at("longest_chain_s").get<double>() * 1e6);
+}
+
 }  // namespace
 
-std::string to_html(const TaskGraph& graph, const std::string& title)
+std::size_t n_measured(const TaskGraph& graph, const nlohmann::json& profile)
+{
+  std::set<std::string> names;
+  for (const nlohmann::json& task : profile.at("tasks")) names.insert(task.at("name").get<std::string>());
+  const FoldedGraph folded = fold(graph);
+  return static_cast<std::size_t>(
+      std::ranges::count_if(folded.tasks, [&](const FoldedTask& task) { return names.contains(task.name); }));
+}
+
+std::string to_html(const TaskGraph& graph, const std::string& title, const nlohmann::json& profile)
 {
   const FoldedGraph folded = fold(graph);
+  nlohmann::json drawn = to_json(graph, folded);
+  if (!profile.is_null()) add_measured(profile, drawn);
   std::string page = fmt::format(
       "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">"
       "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\"><link rel=\"icon\" href=\"data:,\">\n"
@@ -116,8 +166,9 @@ std::string to_html(const TaskGraph& graph, const std::string& title)
   page += "<div class=\"search\"><input type=\"search\" aria-label=\"search\" placeholder=\"a task or a label\">";
   page += "<span class=\"hits faint\" role=\"status\"></span></div>\n<main><div class=\"drawing\">\n";
   page += to_svg(graph, folded);
-  page += fmt::format("</div><aside class=\"resting\">{}</aside></main>\n", page_hint);
-  page += in_script("folded", to_json(graph, folded));
+  page += fmt::format("</div><aside class=\"resting\">{}{}</aside></main>\n", page_hint,
+                      profile.is_null() ? "" : times_hint(profile));
+  page += in_script("folded", drawn);
   page += in_script("instances", columns_of(graph, folded));
   return page + "<script>" + graph_page_script + "</script></body></html>\n";
 }

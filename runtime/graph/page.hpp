@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstddef>
+#include <nlohmann/json.hpp>
 #include <string>
 
 #include "runtime/graph/task_graph.hpp"
@@ -9,8 +11,13 @@ namespace tamp::runtime
 
 /// One page that loads nothing: the drawing of the folded graph, what each task and edge is for, a search, and behind
 /// each task its instances by patch and group with what they wait for. The page reads them from JSON within it, columns
-/// of numbers, when the first task is opened; a further number of a task, such as its time, is a further key of
-/// `tasks`.
-std::string to_html(const TaskGraph& graph, const std::string& title);
+/// of numbers, when the first task is opened.
+///
+/// With the `profile.json` of a run, tasks have the time that they took, darker where it was more, and the longest
+/// chain of the mean step is drawn. Tasks are known by their names; how many of them are in the graph, see n_measured.
+std::string to_html(const TaskGraph& graph, const std::string& title, const nlohmann::json& profile = nullptr);
+
+/// How many tasks of a graph a profile has.
+std::size_t n_measured(const TaskGraph& graph, const nlohmann::json& profile);
 
 }  // namespace tamp::runtime

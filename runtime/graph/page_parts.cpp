@@ -5,9 +5,9 @@ namespace tamp::runtime
 
 const char* const graph_page_style = R"css(
 :root { color-scheme: light dark; --paper: #ffffff; --ink: #1c1d1f; --faint: #5a5e66; --rule: #e2e5ea; --box: #edf1f6;
-  --declared: #0b4fae; --message: #b84a00; }
+  --declared: #0b4fae; --message: #b84a00; --critical: #a3123f; }
 @media (prefers-color-scheme: dark) { :root { --paper: #15171a; --ink: #e4e5e7; --faint: #a5aab3; --rule: #2c3037;
-  --box: #20252c; --declared: #5aa0ff; --message: #ff9440; } }
+  --box: #20252c; --declared: #5aa0ff; --message: #ff9440; --critical: #ff6f91; } }
 body { margin: 0; padding: 1.2rem 1rem 3rem; font: 15px/1.5 system-ui, sans-serif; color: var(--ink);
   background: var(--paper); overflow-wrap: anywhere; }
 h1 { font-size: 1.4rem; line-height: 1.25; margin: 0 0 0.3rem; }
@@ -39,6 +39,11 @@ ul { margin: 0.2rem 0; padding-left: 1.1rem; }
 .place.near { border: 2px solid var(--declared); }
 .place.chosen { background: var(--declared); color: var(--paper); border-color: var(--declared); }
 .task-graph .task { cursor: pointer; }
+.task-graph .task.measured rect { fill: color-mix(in srgb, var(--declared) var(--heat), var(--box)); }
+.task-graph .task.measured .small { fill: var(--ink); }
+.task-graph .task.critical rect { stroke: var(--critical); stroke-width: 3; stroke-dasharray: none; }
+.task-graph .edge.critical .line { stroke: var(--critical); stroke-width: 2.6; }
+.task-graph .edge.critical .head { fill: var(--critical); }
 .task-graph .dim { opacity: 0.16; }
 .task-graph .lit rect { stroke-width: 2.6; }
 .task-graph .edge.lit .line { stroke: var(--declared); stroke-width: 2; }
@@ -172,11 +177,28 @@ function foldedEdges(near, t, far) {
      make("span", {class: "faint"}, labelTexts(edge).join("; "))]));
 }
 
+// What a run took for a task, if the page has it.
+const secondsText = s => s >= 0.1 ? `${Number(s.toPrecision(3))} s` : s >= 1e-4 ? `${Number((s * 1e3).toPrecision(3))} ms`
+                                                                              : `${Number((s * 1e6).toPrecision(3))} µs`;
+const percentText = share => `${(100 * share).toFixed(1)} %`;
+function measuredOf(task) {
+  const m = task.measured;
+  if (!m) return [];
+  const rows = [["ran", `${m.count} times`], ["mean", secondsText(m.mean_s)], ["95 % below", secondsText(m.p95_s)],
+    ["share", percentText(m.share)], ["uneven", Number(m.imbalance.toPrecision(3)).toString()],
+    ["in longest chain", secondsText(m.chain_s)], ["on a longest chain", `in ${percentText(m.on_chain || 0)} of steps`]];
+  if (m.step_gain_if_free !== undefined) {
+    rows.push(["a tenth faster", `saves ${percentText(m.step_gain_if_a_tenth_faster)} of a step`],
+              ["free", `saves ${percentText(m.step_gain_if_free)} of a step`]);
+  }
+  return [make("h3", {}, "Measured"), make("dl", {}, ...rows.flatMap(([name, text]) => [make("dt", {}, name), make("dd", {}, text)]))];
+}
+
 function taskView(t, opened) {
   const task = tasks[t];
   const about = `${task.kind}, ${task.instances} ${task.instances > 1 ? "instances" : "instance"}` +
     (task.materials.length ? ` for ${task.materials.join(", ")}` : "");
-  return [make("h2", {}, task.name), make("p", {class: "faint"}, about), usesOf(task),
+  return [make("h2", {}, task.name), make("p", {class: "faint"}, about), usesOf(task), ...measuredOf(task),
           ...(opened ? [make("h3", {}, "Instances"), ...maps(t, -1, new Set())] : []),
           make("h3", {}, "Waits for"), foldedEdges("to", t, "from"),
           make("h3", {}, "Is waited for by"), foldedEdges("from", t, "to")];
@@ -284,6 +306,17 @@ drawn.task.forEach((g, t) => {
 field.addEventListener("input", () => { location.hash = ""; search(); });
 document.addEventListener("keydown", event => { if (event.key === "Escape") location.hash = ""; });
 window.addEventListener("hashchange", follow);
+
+// Tasks darker by their share of the time; the longest chain.
+const most = Math.max(...tasks.map(task => task.measured ? task.measured.share : 0));
+drawn.task.forEach((g, t) => {
+  const m = tasks[t].measured;
+  if (!m) return;
+  g.classList.add("measured");
+  g.style.setProperty("--heat", `${(45 * m.share / most).toFixed(1)}%`);
+  if (m.chain_s > 0) g.classList.add("critical");
+});
+drawn.edge.forEach((g, e) => { if (edges[e].critical) g.classList.add("critical"); });
 
 // The drawing shrinks to fit, as far as it can still be read; beyond that it is scrolled, from its middle.
 const drawing = document.querySelector(".drawing"), svg = drawing.firstElementChild;

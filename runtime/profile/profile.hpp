@@ -59,6 +59,17 @@ struct PatchStatistics {
   std::string dearest;
 };
 
+/// A task of the longest chain of the mean step.
+struct ChainLink {
+  std::string task;
+  /// -1 for what belongs to a rank as a whole.
+  int patch = -1;
+  int rank = 0;
+  double task_s = 0;
+  /// Before it, from being sent to being seen: of a message that it receives.
+  double message_s = 0;
+};
+
 /// Workers that stood still because an instance of `task` waited for one of `cause`; seconds over all steps.
 struct Wait {
   std::string task;
@@ -103,6 +114,8 @@ struct Profile {
   /// threads. And how long the mean step takes when it is replayed, beside `step_s`; 0 where it was not.
   double longest_chain_s = 0;
   double replayed_s = 0;
+  /// That chain, first to last.
+  std::vector<ChainLink> chain;
   /// What the record itself takes, and all that the host does between steps, for each step.
   double recording_s = 0;
   double between_s = 0;

@@ -324,9 +324,14 @@ void Profiler::replay_mean_step(Profile& profile, const Communicator& communicat
     return std::find_if(profile.tasks.begin(), profile.tasks.end(),
                         [&](const TaskStatistics& t) { return t.name == rows_[row].name; });
   };
-  for (const int i : chain.instances) {
-    const auto t = task(row_of_instance_[static_cast<std::size_t>(i)]);
-    if (t != profile.tasks.end()) t->chain_s += mean.instance_s[static_cast<std::size_t>(i)];
+  profile.chain.reserve(chain.instances.size());
+  for (std::size_t k = 0; k < chain.instances.size(); ++k) {
+    const auto i = static_cast<std::size_t>(chain.instances[k]);
+    const Instance& instance = mean.graph->instances()[i];
+    profile.chain.push_back(
+        {rows_[row_of_instance_[i]].name, instance.patch, instance.rank, mean.instance_s[i], chain.message_s[k]});
+    const auto t = task(row_of_instance_[i]);
+    if (t != profile.tasks.end()) t->chain_s += mean.instance_s[i];
   }
   // About a microsecond an instance: together some seconds at most.
   constexpr std::size_t most_instances = 4'000'000, most_tasks = 16;

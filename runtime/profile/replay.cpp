@@ -189,6 +189,9 @@ Chain longest_chain(const TimedStep& step)
   chain.length_s = *last;
   for (int i = static_cast<int>(last - end.begin()); i >= 0; i = before[place(i)]) chain.instances.push_back(i);
   std::reverse(chain.instances.begin(), chain.instances.end());
+  for (std::size_t k = 0; k < chain.instances.size(); ++k) {
+    chain.message_s.push_back(k == 0 ? 0 : way(step, chain.instances[k - 1], chain.instances[k]));
+  }
   return chain;
 }
 

@@ -24,6 +24,8 @@ double replay(const TimedStep& step, int n_workers);
 /// The instances of the longest chain of tasks and messages, first to last, and its length.
 struct Chain {
   std::vector<int> instances;
+  /// By instance of the chain: how long the message before it was on its way; 0 where there is none.
+  std::vector<double> message_s;
   double length_s = 0;
 };
 Chain longest_chain(const TimedStep& step);

@@ -46,6 +46,19 @@ nlohmann::json to_json(const std::vector<RankStatistics>& ranks)
   return list;
 }
 
+nlohmann::json to_json(const std::vector<ChainLink>& chain)
+{
+  nlohmann::json list = nlohmann::json::array();
+  for (const ChainLink& link : chain) {
+    list.push_back({{"task", link.task},
+                    {"patch", link.patch},
+                    {"rank", link.rank},
+                    {"s", link.task_s},
+                    {"message_s", link.message_s}});
+  }
+  return list;
+}
+
 nlohmann::json to_json(const std::vector<PatchStatistics>& patches)
 {
   nlohmann::json list = nlohmann::json::array();
@@ -81,6 +94,7 @@ nlohmann::json to_json(const Profile& profile, const MemoryLedger& ledger, const
           {"critical_path_s", profile.critical_path_s},
           {"step_s", profile.step_s},
           {"longest_chain_s", profile.longest_chain_s},
+          {"longest_chain", to_json(profile.chain)},
           {"replayed_s", profile.replayed_s},
           {"recording_s", profile.recording_s},
           {"between_s", profile.between_s},

@@ -144,6 +144,24 @@ std::string rank_text(const nlohmann::json& profile, std::size_t rank, const Tab
          tasks_text(own.at("tasks"), choice);
 }
 
+std::string chain_text(const nlohmann::json& profile)
+{
+  std::string text = fmt::format("{:>9} {:>9}  {:<36} {:>6} {:>5}\n", "at us", "takes us", "task", "patch", "rank");
+  double at = 0;
+  for (const nlohmann::json& link : profile.at("longest_chain")) {
+    const double message = link.at("message_s").get<double>(), takes = link.at("s").get<double>();
+    if (message > 0) text += fmt::format("{:>9.2f} {:>9.2f}  (message)\n", at * 1e6, message * 1e6);
+    at += message;
+    const double patch = link.at("patch").get<double>();
+    text += fmt::format("{:>9.2f} {:>9.2f}  {:<36} {:>6} {:>5.0f}\n", at * 1e6, takes * 1e6,
+                        link.at("task").get<std::string>(), patch < 0 ? "" : fmt::format("{:.0f}", patch),
+                        link.at("rank").get<double>());
+    at += takes;
+  }
+  return text + fmt::format("the longest chain takes {:.2f} us; a step takes {:.2f} us\n", at * 1e6,
+                            profile.at("step_s").get<double>() * 1e6);
+}
+
 std::string patches_text(const nlohmann::json& profile, std::size_t n_rows)
 {
   const nlohmann::json& patches = profile.at("patches");

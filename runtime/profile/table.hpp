@@ -25,6 +25,9 @@ std::string rank_text(const nlohmann::json& profile, std::size_t rank, const Tab
 /// The dearest patches, and how the others compare.
 std::string patches_text(const nlohmann::json& profile, std::size_t n_rows = 20);
 
+/// The longest chain of the mean step, task by task and message by message.
+std::string chain_text(const nlohmann::json& profile);
+
 /// In the order of their dearest tasks.
 std::vector<std::string> phases_of(const nlohmann::json& profile);
 std::string phase_of(const std::string& task);

@@ -12,6 +12,7 @@
 #include "tools/commands/command_line/help_text.hpp"
 #include "tools/commands/command_line/option_checks.hpp"
 #include "tools/commands/commands.hpp"
+#include "tools/run/profile_text.hpp"
 #include "tools/scene/output_file.hpp"
 #include "tools/scene/read_scene.hpp"
 #include "tools/system/console.hpp"
@@ -28,6 +29,7 @@ struct GraphArguments {
   std::vector<std::string> assignments;
   std::string format = "dot";
   std::string out;
+  std::string run;
   int n_ranks = 1;
   int patch = -1;
 };
@@ -43,18 +45,34 @@ void expect_patch(int patch, const std::string& format, int n_patches)
   }
 }
 
+/// The page, with what a run took if one is named.
+std::string page_of(const runtime::TaskGraph& graph, const GraphArguments& options)
+{
+  const std::string title = "A time step of " + options.scene;
+  if (options.run.empty()) return to_html(graph, title);
+  return with_profile(options.run, [&](const nlohmann::json& profile) {
+    if (n_measured(graph, profile) == 0) {
+      throw InputError({"--run", options.run, "expected a run of this scene: none of its tasks is in the graph"});
+    }
+    return to_html(graph, title, profile);
+  });
+}
+
 std::string text_of(const runtime::TaskGraph& graph, const tasks::Scene& scene, const GraphArguments& options)
 {
   if (options.format == "json") {
     return to_json(graph, static_cast<std::size_t>(tasks::demand_of(scene).fields)).dump(1) + "\n";
   }
-  if (options.format == "html") return to_html(graph, "A time step of " + options.scene);
+  if (options.format == "html") return page_of(graph, options);
   if (options.format == "svg") return to_svg(graph, fold(graph));
   return options.patch < 0 ? to_dot(graph, fold(graph)) : to_dot(graph, options.patch);
 }
 
 void dump_graph(const GraphArguments& options)
 {
+  if (!options.run.empty() && options.format != "html") {
+    throw InputError({"--run", "--format " + options.format, "expected --format html"});
+  }
   const CheckedScene scene = read_scene(options.scene, options.assignments);
   print_notes(scene.notes);
   expect_outputs({{"--out", options.out}});
@@ -80,11 +98,17 @@ CLI::App* add_graph_command(CLI::App& app)
       ->check(is_one_of({"dot", "json", "html", "svg"}));
   command->add_option("--ranks", options->n_ranks, "as so many ranks would have it, with their messages")
       ->check(is_from_to(1, most_ranks));
+  command
+      ->add_option("--run", options->run, "with the times that a run of the scene took, and its longest chain (html)")
+      ->type_name("RUN_DIR")
+      ->check(is_not_empty());
   command->add_option("--out", options->out, "write to this file")->type_name("FILE");
   command->add_option("--patch", options->patch, "only this patch and what it touches (dot)")->check(is_whole_from(0));
   command->footer(examples(
       {{"tamp graph inputs/punch/quick.json --format html --out graph.html",
         "a page: tasks, and behind each its patches"},
+       {"tamp graph inputs/punch/quick.json --run runs/quick --format html --out graph.html",
+        "the same, with what each task took in a run"},
        {"tamp graph inputs/punch/quick.json --ranks 2 --format svg --out graph.svg", "a drawing, with the messages"},
        {"tamp graph inputs/punch/quick.json --patch 0 | dot -Tsvg > patch.svg", "what one patch does in a step"},
        {"tamp graph inputs/punch/quick.json --format json --out graph.json", "for other programs"}}));

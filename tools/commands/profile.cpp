@@ -57,11 +57,17 @@ CLI::App* add_profile_command(CLI::App& app)
                                 ->check(is_whole_from(0));
   CLI::Option* const patches =
       command->add_flag("--patches", options->view.patches, "the dearest patches")->excludes(rank)->excludes(phase);
+  CLI::Option* const chain =
+      command->add_flag("--chain", options->view.chain, "the longest chain of tasks and messages, which no step beats")
+          ->excludes(rank)
+          ->excludes(phase)
+          ->excludes(patches);
   command->add_option("--compare", options->other, "task by task with another run, and which differences are no noise")
       ->type_name("RUN_DIR")
       ->check(is_not_empty())
       ->excludes(rank)
-      ->excludes(patches);
+      ->excludes(patches)
+      ->excludes(chain);
   command->footer(
       examples({{"tamp profile runs/punch", "the tasks, the most expensive first"},
                 {"tamp profile runs/punch --patches", "which patches take longest"},

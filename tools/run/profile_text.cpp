@@ -31,19 +31,6 @@ std::string damage(const nlohmann::json::exception& error)
   return fmt::format("the key \"{}\" is missing", text.substr(begin + 1, end - begin - 1));
 }
 
-/// Has `render` read what a run has written.
-template <class Render>
-auto rendered(const fs::path& file, const Render& render)
-{
-  try {
-    return render();
-  } catch (const nlohmann::json::exception& error) {
-    throw runtime::FileError(file, "is damaged: " + damage(error) + "; expected what a run has written");
-  } catch (const std::out_of_range&) {
-    throw runtime::FileError(file, "is damaged: a value is out of range; expected what a run has written");
-  }
-}
-
 nlohmann::json read_profile(const fs::path& run)
 {
   const fs::path file = run / "profile.json";
@@ -79,6 +66,7 @@ std::string view_of(const nlohmann::json& profile, const ProfileView& view)
   expect_phase(profile, view.phase);
   expect_ranks(profile, view.ranks);
   if (view.as_json) return profile.dump(1) + "\n";
+  if (view.chain) return runtime::chain_text(profile);
   if (view.patches) return runtime::patches_text(profile);
   if (view.ranks.empty()) return runtime::to_text(profile, {.phase = view.phase});
   std::vector<std::string> tables;
@@ -99,15 +87,27 @@ std::string comparison_of(const nlohmann::json& here, const nlohmann::json& ther
 
 }  // namespace
 
-std::string profile_text(const fs::path& run, const ProfileView& view)
+std::string with_profile(const fs::path& run, const std::function<std::string(const nlohmann::json&)>& render)
 {
   const nlohmann::json profile = read_profile(run);
   const fs::path file = run / "profile.json";
-  if (!view.other) return rendered(file, [&] { return view_of(profile, view); });
-  const nlohmann::json other = read_profile(*view.other);
-  // Compared with itself, what is damaged says so; after that it is the other one.
-  rendered(file, [&] { return runtime::compare_profiles(profile, profile).size(); });
-  return rendered(*view.other / "profile.json", [&] { return comparison_of(profile, other, view); });
+  try {
+    return render(profile);
+  } catch (const nlohmann::json::exception& error) {
+    throw runtime::FileError(file, "is damaged: " + damage(error) + "; expected what a run has written");
+  } catch (const std::out_of_range&) {
+    throw runtime::FileError(file, "is damaged: a value is out of range; expected what a run has written");
+  }
+}
+
+std::string profile_text(const fs::path& run, const ProfileView& view)
+{
+  return with_profile(run, [&](const nlohmann::json& profile) {
+    if (!view.other) return view_of(profile, view);
+    // Beside itself, a profile that is damaged says so; after that it is the other one.
+    runtime::compare_profiles(profile, profile);
+    return with_profile(*view.other, [&](const nlohmann::json& other) { return comparison_of(profile, other, view); });
+  });
 }
 
 }  // namespace tamp::tools

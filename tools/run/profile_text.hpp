@@ -1,6 +1,8 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
+#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 #include <vector>
@@ -14,16 +16,22 @@ struct ProfileView {
   std::string phase{};
   /// Each rank by itself; empty: all together.
   std::vector<std::size_t> ranks{};
-  /// By patch in place of by task.
+  /// By patch, or the longest chain, in place of by task.
   bool patches = false;
+  bool chain = false;
   /// The folder of another run, to compare with.
   std::optional<std::filesystem::path> other{};
   /// As JSON in place of tables for people.
   bool as_json = false;
 };
 
-/// The profile of the run in a folder. Throws InputError for a folder that is no run's, a rank or a phase that is not
-/// in the profile, and FileError for a profile that is missing or not what a run has written.
+/// What `render` makes of the `profile.json` of a run. Throws InputError for a folder that is no run's, and FileError
+/// for a profile that is missing or, as `render` finds, not what a run has written.
+std::string with_profile(const std::filesystem::path& run,
+                         const std::function<std::string(const nlohmann::json&)>& render);
+
+/// The profile of the run in a folder, as with_profile reads it. Throws InputError for a rank or a phase that is not in
+/// it, too.
 std::string profile_text(const std::filesystem::path& run, const ProfileView& view = {});
 
 }  // namespace tamp::tools

@@ -1,6 +1,8 @@
 #include "runtime/profile/replay.hpp"
 
+#include <algorithm>
 #include <catch2/catch.hpp>
+#include <numeric>
 
 #include "runtime/graph/task_graph.hpp"
 #include "tests/runtime/heat.hpp"
@@ -95,6 +97,19 @@ TEST_CASE("what waits for a neighbour waits for its message too", "[profile]")
   const TimedStep alone = timed(
       graph, [](const std::string&, int patch) { return patch == 0 ? 0 : 1; }, 0.5);
   CHECK(longest_chain(alone).length_s == 2);
+  // A message of 5 s is on the chain.
+  const Chain chain = longest_chain(timed(graph, of_patch, 5));
+  CHECK(std::count_if(chain.message_s.begin(), chain.message_s.end(), [](double s) { return s == 5; }) == 1);
+  CHECK(std::accumulate(chain.message_s.begin(), chain.message_s.end(), 0.0) == 5);
+  CHECK(chain.message_s.size() == chain.instances.size());
+}
+
+/// Of all links, with the messages before them.
+double length_of(const std::vector<ChainLink>& chain)
+{
+  double sum = 0;
+  for (const ChainLink& link : chain) sum += link.message_s + link.task_s;
+  return sum;
 }
 
 TEST_CASE("on one worker a step gains what a task takes, and a tenth of it", "[profile]")
@@ -113,6 +128,7 @@ TEST_CASE("on one worker a step gains what a task takes, and a tenth of it", "[p
   }
   CHECK(profile.replayed_s * 20 == Approx(all).epsilon(1e-3));
   CHECK(on_chain == Approx(profile.longest_chain_s));
+  CHECK(length_of(profile.chain) == Approx(profile.longest_chain_s));
   CHECK(profile.longest_chain_s <= profile.replayed_s);
   CHECK(profile.replayed_s <= profile.step_s);
 }
@@ -130,6 +146,7 @@ TEST_CASE("a chain through ranks is no longer than the step", "[profile][ranks]"
 
   if (!ranks.is_first()) return;
   CHECK(profile.longest_chain_s > 0);
+  CHECK(length_of(profile.chain) == Approx(profile.longest_chain_s));
   CHECK(profile.longest_chain_s <= profile.replayed_s * (1 + 1e-9));
 }
 

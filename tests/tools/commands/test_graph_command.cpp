@@ -57,6 +57,31 @@ TEST_CASE("ranks and patches that cannot be are refused, and so is a patch where
   CHECK(tamp_with(graph + " --patch 0 --format svg").exit_code == 2);
 }
 
+TEST_CASE("a page of the graph has what a run of the scene took, and its longest chain")
+{
+  const TemporaryFolder folder;
+  const std::string run = (folder.path() / "run").string(), page = (folder.path() / "graph.html").string();
+  const std::string graph = "graph " + scene + " --run " + run;
+  CHECK_THAT(tamp_with(graph + " --format html").err, Catch::Contains("no run; expected the folder of a run"));
+  REQUIRE(tamp_with("run " + scene + " --steps 20 --quiet --out " + run).exit_code == 0);
+
+  REQUIRE(tamp_with(graph + " --format html --out " + page).exit_code == 0);
+
+  const std::string text = read_text(page);
+  const std::string opening = "id=\"folded\">";
+  const std::size_t begin = text.find(opening) + opening.size();
+  const auto folded = nlohmann::json::parse(text.substr(begin, text.find("</script>", begin) - begin));
+  double shares = 0;
+  std::size_t n_critical = 0;
+  for (const auto& task : folded["tasks"]) shares += task.value("/measured/share"_json_pointer, 0.0);
+  for (const auto& edge : folded["edges"]) n_critical += std::size_t{edge.value("critical", false)};
+  CHECK(shares > 0.9);  // but for the engine's own
+  CHECK(n_critical > 3);
+  CHECK(tamp_with(graph + " --format svg").err == "tamp: --run: --format svg; expected --format html\n");
+  const Outcome of_other = tamp_with("graph " TAMP_SOURCE_DIR "/inputs/footing/quick.json --format html --run " + run);
+  CHECK(of_other.exit_code == 0);
+}
+
 TEST_CASE("under a launcher the first rank alone writes the graph", "[mpiexec]")
 {
   const Outcome alone = tamp_with("graph " + scene);

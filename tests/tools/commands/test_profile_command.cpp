@@ -39,6 +39,7 @@ TEST_CASE("a profile is shown by rank, by phase and by patch, and beside that of
                                                    !Catch::Contains("grid to particles"));
   CHECK_THAT(shown("--rank 0,0"), Catch::StartsWith("rank 0: a step takes") && Catch::Contains("\n\nrank 0: "));
   CHECK_THAT(shown("--patches"), Catch::Contains("4 patches: ") && Catch::Contains("update stress: sand"));
+  CHECK_THAT(shown("--chain"), Catch::Contains("the longest chain takes") && Catch::Contains("update stress: sand"));
   const std::string beside_itself = shown("--compare " + out);
   CHECK_THAT(beside_itself,
              Catch::Contains("a step ") && Catch::Contains("1.000 +- 0.000") && !Catch::Contains("slower there"));
