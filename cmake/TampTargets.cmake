@@ -56,7 +56,7 @@ endfunction()
 function(tamp_library room)
   tamp_sources(sources ${ARGN})
   add_library(tamp_${room} STATIC ${sources})
-  target_link_libraries(tamp_${room} PUBLIC tamp_options)
+  target_link_libraries(tamp_${room} PUBLIC $<BUILD_INTERFACE:tamp_options>)
   tamp_unite_folders(tamp_${room})
 endfunction()
 

@@ -1,5 +1,7 @@
 #include "runtime/storage/checksum.hpp"
 
+// Compiled into the runtime, so that who uses it installed needs no xxHash.
+#define XXH_INLINE_ALL
 #include <xxhash.h>
 
 namespace tamp::runtime
