@@ -8,6 +8,7 @@ namespace tamp::tools::bench
 StampedTasks::StampedTasks(const TaskPattern& pattern)
     : width_(pattern.width),
       n_steps_(pattern.n_steps),
+      shape_(pattern.shape),
       first_inputs_{0},
       outputs_(static_cast<std::size_t>(pattern.n_tasks())),
       base_(outputs_.size())

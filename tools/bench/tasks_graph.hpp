@@ -22,6 +22,7 @@ class StampedTasks
 
   int width() const { return width_; }
   int n_steps() const { return n_steps_; }
+  const PatternShape& shape() const { return shape_; }
   int size() const { return static_cast<int>(outputs_.size()); }
   /// The tasks that a task reads.
   std::span<const int> inputs(int task) const
@@ -65,6 +66,7 @@ class StampedTasks
 
   int width_;
   int n_steps_;
+  PatternShape shape_;
   /// Inputs of task t stand in inputs_ from first_inputs_[t] up to first_inputs_[t + 1].
   std::vector<int> first_inputs_;
   std::vector<int> inputs_;

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "tools/bench/tasks_kernel.hpp"
+#include "tools/system/processor_time.hpp"
 #include "tools/system/statistics.hpp"
 
 namespace tamp::tools::bench
@@ -19,6 +20,15 @@ constexpr int n_batches = 5;
 constexpr double batch_ns = 1e6;
 constexpr int most_attempts = 5;
 constexpr double longest_kernel_ns = 1e5;
+/// The time of threads that go on running is booked by the tick, of some milliseconds: only a long batch has it all.
+constexpr auto processor_batch = std::chrono::milliseconds(60);
+
+void expect_no_fault(const TaskContest& contest, const StampedTasks& tasks)
+{
+  if (const std::string fault = tasks.fault(); !fault.empty()) {
+    throw std::logic_error(contest.contestant.name + ": " + fault);
+  }
+}
 
 double granularity(const TaskContest& contest, int kernel_iterations)
 {
@@ -30,10 +40,25 @@ double granularity(const TaskContest& contest, int kernel_iterations)
     scheduler->run(n_runs);
     return std::chrono::duration<double, std::nano>(std::chrono::steady_clock::now() - start).count() / n_runs;
   });
-  if (const std::string fault = tasks.fault(); !fault.empty()) {
-    throw std::logic_error(contest.contestant.name + ": " + fault);
-  }
+  expect_no_fault(contest, tasks);
   return ns * contest.n_threads / tasks.size();
+}
+
+double processor_ns(const TaskContest& contest)
+{
+  constexpr int runs_in_a_row = 20;
+  StampedTasks tasks(contest.pattern);
+  const auto scheduler = contest.contestant.make(tasks, contest.n_threads);
+  scheduler->run(runs_in_a_row);
+  const auto start = std::chrono::steady_clock::now();
+  const double before = process_seconds();
+  long n_runs = 0;
+  for (; std::chrono::steady_clock::now() - start < processor_batch; n_runs += runs_in_a_row) {
+    scheduler->run(runs_in_a_row);
+  }
+  const double seconds = process_seconds() - before;
+  expect_no_fault(contest, tasks);
+  return seconds * 1e9 / static_cast<double>(n_runs) / tasks.size();
 }
 
 /// One length of task, measured until the calibrations on both sides agree.
@@ -81,6 +106,7 @@ double steady_run_ns(const std::function<double(int n_runs)>& run_ns)
 TaskFigures measure_tasks(const TaskSubject& subject)
 {
   TaskFigures figures;
+  if (subject.processor_ns) figures.processor = subject.processor_ns();
   if (const auto empty = sample(subject, 0, figures)) {
     figures.overhead = empty->granularity;
     figures.metg50 = sweep(subject, figures);
@@ -91,7 +117,8 @@ TaskFigures measure_tasks(const TaskSubject& subject)
 TaskFigures measure_tasks(const TaskContest& contest)
 {
   return measure_tasks(TaskSubject{[&](int kernel_iterations) { return granularity(contest, kernel_iterations); },
-                                   [&] { return kernel_ns(contest.n_threads); }});
+                                   [&] { return kernel_ns(contest.n_threads); },
+                                   [&] { return processor_ns(contest); }});
 }
 
 }  // namespace tamp::tools::bench

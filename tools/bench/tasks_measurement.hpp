@@ -22,6 +22,9 @@ struct TaskFigures {
   /// Cost of a task with an empty body [ns], threads times time.
   std::optional<double> overhead;
   std::optional<double> metg50;
+  /// Processor time of all threads per task with an empty body [ns]: what others take of the cores is not in it, nor is
+  /// waiting asleep.
+  std::optional<double> processor;
   /// Time of the kernel per iteration [ns].
   double calibration = 0;
   /// Measurements thrown away because the calibrations before and after differed by more than `most_drift`.
@@ -37,6 +40,8 @@ struct TaskSubject {
   std::function<double(int kernel_iterations)> granularity;
   /// Time of the kernel per iteration, alone and on all these cores at once [ns].
   std::function<double()> kernel_ns;
+  /// Processor time per task [ns] with an empty body; may be left out.
+  std::function<double()> processor_ns{};
 };
 
 TaskFigures measure_tasks(const TaskSubject& subject);

@@ -57,7 +57,7 @@ class OpenMpTasks : public TaskScheduler
 
 std::optional<TaskContestant> openmp_contestant()
 {
-  return TaskContestant{"OpenMP tasks, depend",
+  return TaskContestant{"OpenMP tasks, made anew",
                         [](StampedTasks& tasks, int n_threads) -> std::unique_ptr<TaskScheduler> {
                           return std::make_unique<OpenMpTasks>(tasks, n_threads);
                         }};

@@ -1,10 +1,17 @@
 #pragma once
 
+#include <array>
 #include <string>
 #include <vector>
 
 namespace tamp::tools::bench
 {
+
+/// The points in space, along x first: each reads what touches it, across the ends too where they are one place.
+struct PatternShape {
+  std::array<int, 3> n_points{1, 1, 1};
+  bool is_periodic = false;
+};
 
 /// Which tasks a task waits for, after Task Bench (Slaughter et al., SC 2020): a graph has `n_steps` rows of `width`
 /// points, and a task of one row reads what some tasks of the row before have made. The first row reads nothing.
@@ -14,6 +21,7 @@ struct TaskPattern {
   int n_steps = 0;
   /// For each point, in rising order, the points of the row before that it reads.
   std::vector<std::vector<int>> dependencies;
+  PatternShape shape{};
 
   int n_tasks() const { return width * n_steps; }
 };

@@ -28,6 +28,9 @@ struct TaskContestant {
 
 /// TAMP's own executor, which records when and where each task ran as it does in every run.
 TaskContestant tamp_contestant();
+/// The same as tasks of an engine, declared with labels and halos on patches of one cell, as those of a simulation are:
+/// with the engine's work for each step, and the copies into halos.
+TaskContestant declared_contestant();
 
 /// Task after task on one thread: no scheduler at all.
 TaskContestant loop_contestant();
@@ -39,10 +42,13 @@ TaskContestant barrier_contestant();
 TaskContestant parallel_for_contestant();
 /// oneTBB: a flow graph of continue_nodes, built once.
 TaskContestant flow_graph_contestant();
+/// The same with the policy `lightweight`: a node runs at once, within the one that completes what it waits for.
+TaskContestant lightweight_flow_graph_contestant();
 /// oneTBB: tasks with counters of what they wait for; whoever completes one goes on with the first that it freed.
 TaskContestant task_group_contestant();
 
-/// OpenMP tasks with depend; none where TAMP was built without OpenMP.
+/// OpenMP tasks with depend, created anew in every run: OpenMP keeps no graph until its `taskgraph`, which gcc 12 has
+/// not. None where TAMP was built without OpenMP.
 std::optional<TaskContestant> openmp_contestant();
 
 /// All of the above that there are, ours first.

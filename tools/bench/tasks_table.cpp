@@ -36,6 +36,7 @@ nlohmann::ordered_json json_of(const TaskRow& row)
           {"overhead_min_ns", least_of(row.overhead_ns)},
           {"metg50_us", median_of(row.metg50_us)},
           {"metg50_min_us", least_of(row.metg50_us)},
+          {"processor_ns", median_of(row.processor_ns)},
           {"calibration_ns", median_of(row.calibration_ns)},
           {"rounds", row.overhead_ns.size()},
           {"discarded", row.n_discarded}};
@@ -48,10 +49,11 @@ std::string cell(const nlohmann::ordered_json& value, int decimals)
 
 std::string text_of(const nlohmann::ordered_json& row)
 {
-  return fmt::format("  {:<23}{:>5}{:>9}  {:<30}{:>9}{:>9}{:>10}{:>9}{:>11}{:>11}\n", row["pattern"].get<std::string>(),
-                     row["ranks"].get<int>(), row["threads"].get<int>(), row["scheduler"].get<std::string>(),
-                     cell(row["overhead_min_ns"], 1), cell(row["overhead_ns"], 1), cell(row["metg50_min_us"], 3),
-                     cell(row["metg50_us"], 3), cell(row["calibration_ns"], 2), row["discarded"].get<int>());
+  return fmt::format("  {:<23}{:>5}{:>9}  {:<30}{:>9}{:>9}{:>10}{:>9}{:>9}{:>11}{:>11}\n",
+                     row["pattern"].get<std::string>(), row["ranks"].get<int>(), row["threads"].get<int>(),
+                     row["scheduler"].get<std::string>(), cell(row["overhead_min_ns"], 1), cell(row["overhead_ns"], 1),
+                     cell(row["metg50_min_us"], 3), cell(row["metg50_us"], 3), cell(row["processor_ns"], 1),
+                     cell(row["calibration_ns"], 2), row["discarded"].get<int>());
 }
 
 }  // namespace
@@ -60,6 +62,7 @@ void TaskRow::add(const TaskFigures& figures)
 {
   if (figures.overhead) overhead_ns.push_back(*figures.overhead);
   if (figures.overhead) calibration_ns.push_back(figures.calibration);
+  if (figures.processor) processor_ns.push_back(*figures.processor);
   if (figures.metg50) metg50_us.push_back(*figures.metg50 * 1e-3);
   n_discarded += figures.n_discarded;
 }
@@ -68,9 +71,9 @@ Result task_table(const std::string& title, const std::vector<TaskRow>& rows)
 {
   Result result;
   result.json = nlohmann::ordered_json::array();
-  result.text =
-      fmt::format("{}\n  {:<23}{:>5}{:>9}  {:<30}{:>9}{:>9}{:>10}{:>9}{:>11}{:>11}\n", title, "pattern", "ranks",
-                  "threads", "scheduler", "least ns", "median", "least us", "median", "kernel ns", "discarded");
+  result.text = fmt::format("{}\n  {:<23}{:>5}{:>9}  {:<30}{:>9}{:>9}{:>10}{:>9}{:>9}{:>11}{:>11}\n", title, "pattern",
+                            "ranks", "threads", "scheduler", "least ns", "median", "least us", "median", "cpu ns",
+                            "kernel ns", "discarded");
   for (const TaskRow& row : rows) {
     result.json.push_back(json_of(row));
     result.text += text_of(result.json.back());

@@ -18,7 +18,7 @@ struct TaskRow {
   int threads = 1;
   /// Data of a message from rank to rank; 0 where there are none.
   int message_bytes = 0;
-  std::vector<double> overhead_ns{}, metg50_us{}, calibration_ns{};
+  std::vector<double> overhead_ns{}, metg50_us{}, processor_ns{}, calibration_ns{};
   int n_discarded = 0;
 
   void add(const TaskFigures& figures);

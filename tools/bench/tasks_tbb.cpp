@@ -52,6 +52,7 @@ class ParallelFor : public TaskScheduler
   Arena arena_;
 };
 
+template <class Node>
 class FlowGraph : public TaskScheduler
 {
  public:
@@ -72,15 +73,13 @@ class FlowGraph : public TaskScheduler
   }
 
  private:
-  using Node = flow::continue_node<flow::continue_msg>;
-
   /// Inside of the arena: a graph runs in the one that it was made in.
   void build()
   {
     graph_.emplace();
     start_.emplace(*graph_);
     for (int task = 0; task < tasks_.size(); ++task) {
-      Node& node = nodes_.emplace_back(*graph_, [this, task](const flow::continue_msg&) { tasks_.run(task); });
+      Node& node = nodes_.emplace_back(*graph_, [this, task](const flow::continue_msg&) noexcept { tasks_.run(task); });
       if (task < tasks_.width()) flow::make_edge(*start_, node);
       for (const int input : tasks_.inputs(task)) flow::make_edge(nodes_[static_cast<std::size_t>(input)], node);
     }
@@ -171,7 +170,12 @@ TaskContestant parallel_for_contestant()
 
 TaskContestant flow_graph_contestant()
 {
-  return {"tbb flow graph", make<FlowGraph>};
+  return {"tbb flow graph", make<FlowGraph<flow::continue_node<flow::continue_msg>>>};
+}
+
+TaskContestant lightweight_flow_graph_contestant()
+{
+  return {"tbb flow graph, lightweight", make<FlowGraph<flow::continue_node<flow::continue_msg, flow::lightweight>>>};
 }
 
 TaskContestant task_group_contestant()

@@ -24,11 +24,14 @@ TEST_CASE("the benchmark of tasks compares schedulers in one table and one file"
     CHECK(row.at("threads") == 1);
     CHECK(row.contains("overhead_ns"));
     CHECK(row.contains("metg50_us"));
+    CHECK(row.at("processor_ns") > 0);
     CHECK_THAT(outcome.out, Catch::Contains(row.at("scheduler").get<std::string>()));
   }
   CHECK(schedulers.count("tamp") == 1);
+  CHECK(schedulers.count("tamp, declared") == 1);
   CHECK(schedulers.count("plain loop") == 1);
   CHECK(schedulers.count("tbb flow graph") == 1);
+  CHECK(schedulers.count("tbb flow graph, lightweight") == 1);
 }
 
 TEST_CASE("on several ranks the benchmark of tasks compares the exchange of halos with plain MPI", "[mpiexec]")

@@ -121,11 +121,12 @@ TEST_CASE("an edge that is not declared is found in shuffled order")
   CHECK(fault_after_shuffled_runs(5) == "the task of step 1, point 1 ran before what it reads, or twice");
 }
 
-TEST_CASE("TAMP's executor, a loop and a team with barriers run every task once, after what it reads")
+TEST_CASE("TAMP's executor and engine, a loop and a team with barriers run every task once, after what it reads")
 {
   const int n_threads = GENERATE(1, 2, 3);
 
-  for (const TaskContestant& contestant : {tamp_contestant(), loop_contestant(), barrier_contestant()}) {
+  for (const TaskContestant& contestant :
+       {tamp_contestant(), declared_contestant(), loop_contestant(), barrier_contestant()}) {
     INFO(contestant.name << ", " << n_threads << " threads");
     CHECK(fault_of(contestant, stencil_pattern(7, 5), n_threads).empty());
     CHECK(fault_of(contestant, nearest_27_pattern(3, 4), n_threads).empty());
