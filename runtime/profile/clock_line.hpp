@@ -1,0 +1,54 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+#include "runtime/ranks/communicator.hpp"
+
+namespace tamp::runtime
+{
+
+/// A question to the first rank's clock: this rank's ticks when it asked and when it heard the answer, and the answer.
+struct RoundTrip {
+  std::uint64_t asked = 0;
+  std::uint64_t answer = 0;
+  std::uint64_t heard = 0;
+};
+
+/// One moment on two clocks, in the ticks of each. Whatever the way there and the way back took, the first rank's is no
+/// further off than `uncertainty`, half of the round trip.
+struct ClockPair {
+  std::uint64_t own = 0;
+  std::uint64_t first_rank = 0;
+  std::uint64_t uncertainty = 0;
+};
+
+/// The pair that the shortest of at least one round trips tells: halfway between question and answer.
+ClockPair shortest_of(std::span<const RoundTrip> trips);
+
+/// Asks for the first rank's clock on all others, one after the other; on the first itself a pair of equals.
+/// Collective.
+ClockPair ask_first_rank(const Communicator& communicator);
+
+/// Turns ticks of this rank into the first rank's, by the line through two pairs: the clocks may run at speeds that
+/// differ a little. Where both pairs cannot tell the clocks apart, they are the same, as those of one machine are.
+class ClockLine
+{
+ public:
+  ClockLine() = default;
+  ClockLine(const ClockPair& begin, const ClockPair& end);
+
+  /// For any tick; it is known to `uncertainty` for those between the two pairs.
+  std::uint64_t first_rank(std::uint64_t own) const;
+  /// In ticks of this rank.
+  std::uint64_t uncertainty() const { return uncertainty_; }
+
+ private:
+  std::uint64_t own_ = 0;
+  std::uint64_t first_rank_ = 0;
+  /// By how much the first rank's clock is faster.
+  double drift_ = 0;
+  std::uint64_t uncertainty_ = 0;
+};
+
+}  // namespace tamp::runtime
