@@ -1,6 +1,7 @@
 #include "tasks/time_step.hpp"
 
 #include <algorithm>
+#include <initializer_list>
 
 #include "runtime/graph/step_verdict.hpp"
 #include "tasks/labels.hpp"
@@ -26,6 +27,12 @@ void add_state_of(const MaterialModel& model, runtime::HostData& data)
       model);
 }
 
+/// Tasks, and the name under which a trace shows them together.
+struct Phase {
+  const char* name;
+  runtime::TaskList tasks;
+};
+
 /// At the end of a step that is not refused particles go to the patches that they are in by then.
 template <int D>
 runtime::TaskDeclaration migrate(const Method<D>& method)
@@ -41,31 +48,33 @@ runtime::TaskList time_step(const Method<D>& method)
 {
   // Where particles deform by other velocities, what they bring of these tells the masses too.
   const bool tells_masses = method.stress_timing == StressTiming::usl;
+  const std::initializer_list<Phase> phases{{"stress", update_stress_first(method)},
+                                            {"stress", share_stress(method)},
+                                            {"particles to grid", particles_to_grid(method)},
+                                            {"loads", press(method)},
+                                            {"loads", body_force(method)},
+                                            {"motion of nodes", accelerate_nodes(method, tells_masses)},
+                                            {"rigid bodies", accelerate_rigid_bodies(method)},
+                                            {"rigid bodies", rigid_nodes_before_contact(method)},
+                                            {"contact", contact_planes(method)},
+                                            {"rigid bodies", gather_rigid_contact(method)},
+                                            {"rigid bodies", rigid_nodes_after_contact(method)},
+                                            {"contact", contact(method)},
+                                            {"walls", walls(method)},
+                                            {"loads", account_for_pressure(method)},
+                                            {"rigid bodies", move_rigid_bodies(method)},
+                                            {"rigid bodies", move_rigid_particles(method)},
+                                            {"motion of nodes", pass_velocities(method)},
+                                            {"grid to particles", grid_to_particles(method)},
+                                            {"loads", work_of_body_force(method)},
+                                            {"stress", update_stress_last(method)},
+                                            {"accounts", count_lost(method)},
+                                            {"accounts", account_for_step(method)},
+                                            {"migration", {migrate(method)}}};
   runtime::TaskList step;
-  for (const runtime::TaskList& phase : {update_stress_first(method),
-                                         share_stress(method),
-                                         particles_to_grid(method),
-                                         press(method),
-                                         body_force(method),
-                                         accelerate_nodes(method, tells_masses),
-                                         accelerate_rigid_bodies(method),
-                                         rigid_nodes_before_contact(method),
-                                         contact_planes(method),
-                                         gather_rigid_contact(method),
-                                         rigid_nodes_after_contact(method),
-                                         contact(method),
-                                         walls(method),
-                                         account_for_pressure(method),
-                                         move_rigid_bodies(method),
-                                         move_rigid_particles(method),
-                                         pass_velocities(method),
-                                         grid_to_particles(method),
-                                         work_of_body_force(method),
-                                         update_stress_last(method),
-                                         count_lost(method),
-                                         account_for_step(method),
-                                         runtime::TaskList{migrate(method)}}) {
-    step.insert(step.end(), phase.begin(), phase.end());
+  for (const Phase& phase : phases) {
+    const auto first = step.insert(step.end(), phase.tasks.begin(), phase.tasks.end());
+    for (auto task = first; task != step.end(); ++task) task->phase = phase.name;
   }
   return step;
 }

@@ -67,6 +67,8 @@ enum class Sparsity { none, no_particles, no_fields, no_pair };
 /// A task as declared: its name, its data, its body. The graph infers everything else from this.
 struct TaskDeclaration {
   std::string name;
+  /// The part of the step that it belongs to, for who reads a trace; may be empty.
+  std::string phase;
   Domain domain = Domain::patches_and_groups;
   /// Groups it runs for; empty means all.
   std::vector<int> groups;
