@@ -17,11 +17,12 @@ namespace
 
 const GlobalLabel<Progress, "progress"> progress_label;
 
-/// Requests that the hosts of the ranks share.
+/// Requests that the hosts of the ranks share, and how long the step before took the rank that took longest [s].
 struct Requests {
+  float previous_wall = 0;
   unsigned bits = 0;
 
-  static constexpr auto fields = std::tuple{AnyBit{&Requests::bits}};
+  static constexpr auto fields = std::tuple{Greatest{&Requests::previous_wall}, AnyBit{&Requests::bits}};
 };
 const ReductionLabel<Requests, "requests"> requests_label;
 
@@ -29,7 +30,7 @@ const ReductionLabel<Requests, "requests"> requests_label;
 TaskDeclaration gather_requests()
 {
   return task("gather requests").over_patches().reduces(requests_label).body([](const TaskContext& at, auto data) {
-    data[requests_label].bits = at.step.host_requests;
+    data[requests_label] = {at.step.previous_wall, at.step.host_requests};
   });
 }
 
@@ -92,12 +93,13 @@ bool Engine::advance(double size, double end)
   const auto [n_steps, time, last_size] = progress();
   size = std::min(size, end - time);
   schedule().taking_processor_time = profiler_.looks_closely();
-  run_step({n_steps, time, size, last_size, requests_});
+  run_step({n_steps, time, size, last_size, requests_, profiler_.wall_to_tell()});
   if (was_refused()) return false;
   requests_ = 0;
   warehouse().advance();
-  if (schedule().recording) profiler_.add_step();
-  asked_ = warehouse().result(requests_label).bits;
+  const Requests& told = warehouse().result(requests_label);
+  asked_ = told.bits;
+  if (schedule().recording) profiler_.add_step({n_steps + 1, size, told.previous_wall});
   constexpr double round_off = 1e-14;
   now() = {n_steps + 1, time + size >= end * (1 - round_off) ? end : time + size, size};
   return true;

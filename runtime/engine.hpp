@@ -63,9 +63,10 @@ class Engine
 
   /// The profile of the steps so far on all ranks.
   Profile profile() const { return profiler_.profile(communicator_); }
-  /// The trace of the first steps, as many as `trace_steps` asked for before them: none if it was not called.
+  /// Which steps are traced, before the first of them; none if it was not called.
+  void trace_steps(const TraceChoice& choice) { profiler_.trace_steps(choice, communicator_); }
+  /// The trace of those steps; the first rank has it.
   Trace trace() const { return profiler_.trace(communicator_); }
-  void trace_steps(long n_steps) { profiler_.trace_steps(n_steps); }
   /// Off only to measure what recording costs.
   void record(bool on) { schedule().recording = on; }
 

@@ -33,6 +33,8 @@ class BoundGraph final : public Work
   {
     return exchange_ == nullptr ? std::vector<std::uint64_t>{} : exchange_->message_ticks();
   }
+  /// Of a message that this rank received in the last step, as one of several.
+  const MessageTimes& message_times(int message) const { return exchange_->times(message); }
 
   int n_instances() const override { return static_cast<int>(bound_.size()); }
   std::span<const int> predecessors(int instance) const override;

@@ -137,6 +137,7 @@ void Exchange::receive(int message)
 {
   Line& line = lines_[static_cast<std::size_t>(message)];
   unpack(line);
+  line.unpacked = line.arrived;
   const std::lock_guard lock(mutex_);
   if (of_particles(*line.message)) {
     line.open = true;
@@ -216,11 +217,12 @@ void Exchange::probe(int message, std::vector<int>& arrived, std::uint64_t idle_
 
 void Exchange::take(int message, std::vector<int>& arrived, std::uint64_t idle_since)
 {
-  const Line& line = lines_[static_cast<std::size_t>(message)];
+  Line& line = lines_[static_cast<std::size_t>(message)];
   arrived.push_back(line.message->send);
   std::uint64_t sent = 0;
   std::memcpy(&sent, line.bytes.data(), header_bytes);
   const std::uint64_t now = ticks();
+  line.arrived = {sent, now, line.bytes.size()};
   ++traffic_.n_messages;
   traffic_.n_bytes += line.bytes.size();
   if (now <= sent) return;

@@ -34,6 +34,13 @@ struct Traffic {
   void add(const Traffic& other);
 };
 
+/// A message that was received: when it was posted, on the sender's clock, and when it was seen here [ticks].
+struct MessageTimes {
+  std::uint64_t posted = 0;
+  std::uint64_t arrived = 0;
+  std::uint64_t n_bytes = 0;
+};
+
 /// Sends and receives one rank's messages of one graph.
 ///
 /// All data for one rank and purpose travel in one message, into a buffer that is always open: a receive is posted
@@ -60,6 +67,8 @@ class Exchange
   const Traffic& traffic() const { return traffic_; }
   /// Ticks from being sent to being seen, summed, for each message of the graph; 0 for those to other ranks.
   const std::vector<std::uint64_t>& message_ticks() const { return message_ticks_; }
+  /// Of the last step in which this rank received it.
+  const MessageTimes& times(int message) const { return lines_[static_cast<std::size_t>(message)].unpacked; }
 
  private:
   struct Line {
@@ -74,6 +83,9 @@ class Exchange
     std::size_t incoming_request = 0;
     /// Particles only: whether the next is looked for.
     bool open = false;
+    /// What came in, which may be the next step's already, and what was unpacked in this step.
+    MessageTimes arrived;
+    MessageTimes unpacked;
   };
 
   void open_line(Line& line, int message);

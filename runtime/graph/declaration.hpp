@@ -42,6 +42,8 @@ struct Step {
   double previous_size = 0;
   /// Bits by which this rank's host may tell all others something: a task that reduces them makes it known.
   unsigned host_requests = 0;
+  /// How long the step before took this rank by the clock [s], where a trace of the slowest step is wanted; else 0.
+  float previous_wall = 0;
 };
 
 /// The first argument of every task body.

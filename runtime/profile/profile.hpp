@@ -77,24 +77,6 @@ struct Wait {
   double total_s = 0;
 };
 
-/// One instance in the trace; times in seconds since the profile began.
-struct TraceEvent {
-  /// Its place among the names of the trace.
-  std::size_t task = 0;
-  int rank = 0;
-  int patch = 0;
-  int group = 0;
-  std::uint32_t worker = 0;
-  double start_s = 0;
-  double end_s = 0;
-};
-
-/// The first steps, instance by instance.
-struct Trace {
-  std::vector<std::string> tasks;
-  std::vector<TraceEvent> events;
-};
-
 struct Profile {
   /// Most expensive first.
   std::vector<TaskStatistics> tasks;

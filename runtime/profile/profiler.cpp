@@ -8,6 +8,34 @@
 namespace tamp::runtime
 {
 
+namespace
+{
+
+/// Of a task its phase, as far as it says one; of the runtime's own work what that is.
+std::string category(const TaskGraph& graph, const Instance& instance)
+{
+  switch (instance.kind) {
+    case InstanceKind::body: {
+      const std::string& phase = graph.declaration(instance).phase;
+      return phase.empty() ? "task" : phase;
+    }
+    case InstanceKind::sum_halo:
+    case InstanceKind::fill_halo:
+      return "halo";
+    case InstanceKind::combine:
+      return "reduction";
+    case InstanceKind::send_particles:
+    case InstanceKind::receive_particles:
+      return "migration";
+    case InstanceKind::send_message:
+    case InstanceKind::receive_message:
+      return "message";
+  }
+  return "task";
+}
+
+}  // namespace
+
 Profiler::Profiler(const Schedule& schedule, BoundGraph& graph, int n_workers) : n_workers_(n_workers)
 {
   steps_.first_tick = ticks();
@@ -35,16 +63,26 @@ void Profiler::follow(const Schedule& schedule, BoundGraph& graph)
     auto row = std::find_if(rows_.begin(), rows_.end(), [&](const TaskRow& r) { return r.name == name; });
     if (row == rows_.end()) {
       const bool over_patches = instance.patch >= 0;
-      row = rows_.insert(rows_.end(),
-                         TaskRow{name, over_patches, {}, std::vector<std::uint64_t>(over_patches ? n_patches : 1, 0)});
+      row = rows_.insert(rows_.end(), TaskRow{name,
+                                              category(tasks, instance),
+                                              over_patches,
+                                              {},
+                                              std::vector<std::uint64_t>(over_patches ? n_patches : 1, 0)});
     }
     row_of_instance_.push_back(static_cast<std::size_t>(row - rows_.begin()));
   }
   waits_.make_room(rows_.size());
   on_chain_at_.resize(rows_.size(), 0);
+  trace_.follow(graph, row_of_instance_);
 }
 
-void Profiler::add_step()
+void Profiler::trace_steps(const TraceChoice& choice, const Communicator& communicator)
+{
+  trace_.choose(choice);
+  if (choice.kind != TraceChoice::Kind::none) clock_at_begin_ = ask_first_rank(communicator);
+}
+
+void Profiler::add_step(const StepFacts& facts)
 {
   const std::uint64_t start = ticks();
   const std::uint64_t before = steps_.ticks;
@@ -53,7 +91,7 @@ void Profiler::add_step()
     steps_.over_time.join_pairs();
     for (TaskRow& row : rows_) row.totals.over_time.join_pairs();
   }
-  add_durations();
+  add_durations(facts);
   if (looks_closely()) {
     look_closely();
     steps_.looked_at += steps_.ticks - before;
@@ -63,13 +101,11 @@ void Profiler::add_step()
   steps_.recording += ticks() - start;
 }
 
-void Profiler::add_durations()
+void Profiler::add_durations(const StepFacts& facts)
 {
   const auto& records = schedule_->records();
-  const auto& instances = graph_->graph().instances();
   std::uint64_t first = ~std::uint64_t{0};
   std::uint64_t last = 0;
-  const bool traced = is_traced(n_steps_);
   const std::size_t part = parts_.part_of(n_steps_);
   for (std::size_t i = 0; i < records.size(); ++i) {
     if (!graph_->is_local(static_cast<int>(i))) continue;
@@ -85,10 +121,11 @@ void Profiler::add_durations()
       totals.over_time.of_part[part] += duration;
     }
     instance_ticks_[i] += duration;
-    const Instance& instance = instances[i];
-    if (traced) traced_.push_back({row_of_instance_[i], instance.patch, instance.group, record});
   }
-  if (last <= first) return;
+  if (last <= first) last = first = last_end_;
+  const double wall = static_cast<double>(last - first) * rate_.seconds_per_tick();
+  trace_.add_step(facts, records, first, last, static_cast<float>(wall));
+  if (last == first) return;
   steps_.ticks += last - first;
   steps_.over_time.of_part[part] += last - first;
   if (last_end_ != 0 && first > last_end_) steps_.between += first - last_end_;
@@ -159,13 +196,6 @@ void Profiler::add_patch_ticks(std::vector<TaskRow>& rows) const
   }
 }
 
-/// All ranks know the whole graph, so that they trace the same steps.
-bool Profiler::is_traced(long step) const
-{
-  const std::size_t n_instances = std::max<std::size_t>(graph_->graph().instances().size(), 1);
-  return step < std::min(n_traced_steps_, static_cast<long>(most_traced / n_instances));
-}
-
 std::vector<double> Profiler::take_patch_costs()
 {
   return std::exchange(patch_costs_, std::vector<double>(patch_costs_.size(), 0));
@@ -183,7 +213,7 @@ Profile Profiler::profile(const Communicator& communicator) const
   const double second = rate_.seconds_per_tick();
   Profile profile;
   profile.n_steps = n_steps_;
-  while (profile.n_traced_steps < n_steps_ && is_traced(profile.n_traced_steps)) ++profile.n_traced_steps;
+  profile.n_traced_steps = static_cast<long>(trace_.n_steps());
   Steps own = steps_;
   own.traffic = traffic();
   own.in_tasks = ticks_of(rows_);
@@ -355,21 +385,15 @@ void Profiler::replay_mean_step(Profile& profile, const Communicator& communicat
 
 Trace Profiler::trace(const Communicator& communicator) const
 {
-  const double second = rate_.seconds_per_tick();
-  const std::uint64_t first_tick = communicator.min(steps_.first_tick);
   Trace trace;
-  for (const TaskRow& row : rows_) trace.tasks.push_back(row.name);
-  const auto from_each = communicator.gather(std::as_bytes(std::span(traced_)));
-  for (int rank = 0; rank < communicator.size(); ++rank) {
-    const auto& bytes = from_each[static_cast<std::size_t>(rank)];
-    std::vector<TracedInstance> traced(bytes.size() / sizeof(TracedInstance));
-    if (!bytes.empty()) std::memcpy(static_cast<void*>(traced.data()), bytes.data(), bytes.size());
-    const auto since_start = [&](std::uint64_t tick) { return static_cast<double>(tick - first_tick) * second; };
-    for (const TracedInstance& t : traced) {
-      trace.events.push_back(
-          {t.row, rank, t.patch, t.group, t.record.worker, since_start(t.record.start), since_start(t.record.end)});
-    }
-  }
+  trace.tasks.reserve(rows_.size());
+  for (const TaskRow& row : rows_) trace.tasks.push_back({row.name, row.category});
+  trace.groups = graph_->graph().group_names();
+  if (trace_.choice().kind == TraceChoice::Kind::none) return trace;
+  const ClockLine clock(clock_at_begin_, ask_first_rank(communicator));
+  trace.ranks = gather_tapes(trace_.tape(communicator), clock, n_workers_, communicator);
+  trace.begin = steps_.first_tick;
+  trace.second = rate_.seconds_per_tick();
   return trace;
 }
 

@@ -12,6 +12,7 @@
 #include "runtime/profile/profile.hpp"
 #include "runtime/profile/replay.hpp"
 #include "runtime/profile/task_rows.hpp"
+#include "runtime/profile/trace_recorder.hpp"
 #include "runtime/profile/worker_waits.hpp"
 
 namespace tamp::runtime
@@ -23,14 +24,11 @@ namespace tamp::runtime
 class Profiler
 {
  public:
-  /// Instances that all ranks together trace at most: as JSON some 30 MB.
-  static constexpr std::size_t most_traced = 300'000;
-
   Profiler(const Schedule& schedule, BoundGraph& graph, int n_workers);
 
-  /// Keeps the first `n_steps` steps instance by instance; fewer where these would be more than `most_traced`, by
-  /// the number of all instances of a step. To be called before the first step.
-  void trace_steps(long n_steps) { n_traced_steps_ = n_steps; }
+  /// Keeps the chosen steps instance by instance, as many as TraceRecorder has room for, and compares the clocks of the
+  /// ranks. To be called before the first step. Collective.
+  void trace_steps(const TraceChoice& choice, const Communicator& communicator = {});
   /// Goes on with the same tasks on patches dealt anew.
   void follow(const Schedule& schedule, BoundGraph& graph);
   /// How many steps there are from one that is looked at closely to the next.
@@ -38,7 +36,9 @@ class Profiler
   /// Whether it will look closely at the next step: its schedule is to take processor time.
   bool looks_closely() const { return n_steps_ % look_every_ == 0; }
   /// Takes in the records of the step that has just been run.
-  void add_step();
+  void add_step(const StepFacts& facts = {});
+  /// See TraceRecorder.
+  float wall_to_tell() const { return trace_.wall_to_tell(); }
   /// Processor time of task bodies on each of this rank's patches since this was last asked, in the steps looked at but
   /// for the very first, in which memory is touched for the first time [s]; 0 on others.
   std::vector<double> take_patch_costs();
@@ -48,12 +48,6 @@ class Profiler
   Trace trace(const Communicator& communicator = {}) const;
 
  private:
-  struct TracedInstance {
-    std::size_t row;
-    int patch;
-    int group;
-    InstanceRecord record;
-  };
   struct Steps {
     std::uint64_t first_tick = 0;
     std::uint64_t ticks = 0;
@@ -69,7 +63,7 @@ class Profiler
     Traffic traffic;
   };
 
-  void add_durations();
+  void add_durations(const StepFacts& facts);
   void look_closely();
   void follow_chain(std::size_t last);
   void add_patch_ticks(std::vector<TaskRow>& rows) const;
@@ -82,13 +76,11 @@ class Profiler
   std::vector<Wait> waits(const Communicator& communicator, double second) const;
   TimedStep mean_step(const Communicator& communicator, double second) const;
   void replay_mean_step(Profile& profile, const Communicator& communicator, double second) const;
-  bool is_traced(long step) const;
   Traffic traffic() const;
 
   const Schedule* schedule_;
   BoundGraph* graph_;
   int n_workers_;
-  long n_traced_steps_ = 0;
   TickRate rate_;
   std::vector<TaskRow> rows_;
   RunParts parts_;
@@ -103,7 +95,8 @@ class Profiler
   long look_every_ = 8;
   long n_looked_at_ = 0;
   std::vector<double> patch_costs_;
-  std::vector<TracedInstance> traced_;
+  TraceRecorder trace_;
+  ClockPair clock_at_begin_;
   long n_steps_ = 0;
   std::uint64_t last_end_ = 0;
   /// With the traffic of the graphs before the one that is followed now.

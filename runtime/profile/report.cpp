@@ -106,21 +106,4 @@ nlohmann::json to_json(const Profile& profile, const MemoryLedger& ledger, const
           {"memory", {{"labels", labels}, {"total", total}}}};
 }
 
-void write_trace(const Trace& trace, const std::function<void(std::string_view)>& write)
-{
-  constexpr double microseconds = 1e6;
-  std::vector<std::string> names;
-  for (const std::string& task : trace.tasks) names.push_back(nlohmann::json(task).dump());
-  write(R"({"displayTimeUnit":"ns","traceEvents":[)");
-  const char* before = "\n";
-  for (const TraceEvent& e : trace.events) {
-    write(fmt::format(
-        R"({}{{"name":{},"ph":"X","pid":{},"tid":{},"ts":{:.3f},"dur":{:.3f},"args":{{"patch":{},"group":{}}}}})",
-        before, names[e.task], e.rank, e.worker, e.start_s * microseconds, (e.end_s - e.start_s) * microseconds,
-        e.patch, e.group));
-    before = ",\n";
-  }
-  write("]}\n");
-}
-
 }  // namespace tamp::runtime

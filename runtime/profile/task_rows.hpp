@@ -31,6 +31,8 @@ struct TaskTotals {
 /// A task with what it took on each patch; one number where it does not work on patches.
 struct TaskRow {
   std::string name;
+  /// What its tasks are for, in a trace.
+  std::string category{};
   bool over_patches = false;
   TaskTotals totals;
   std::vector<std::uint64_t> per_patch;

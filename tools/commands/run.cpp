@@ -8,6 +8,7 @@
 #include "tools/commands/command_line/command_text.hpp"
 #include "tools/commands/command_line/help_text.hpp"
 #include "tools/commands/command_line/option_checks.hpp"
+#include "tools/commands/command_line/trace_steps.hpp"
 #include "tools/commands/commands.hpp"
 #include "tools/scene/read_scene.hpp"
 #include "tools/system/console.hpp"
@@ -29,6 +30,7 @@ struct RunArguments {
   /// 0: this rank's share of the cores.
   int n_threads = 0;
   std::string schedule = "parallel";
+  std::string trace_steps = "20";
   RunOptions run;
 };
 
@@ -72,6 +74,14 @@ void expect_few_checkpoints(const CheckpointPolicy& policy, double end)
   throw InputError({"--checkpoint-time",
                     fmt::format("{} s: {:.3g} checkpoints until the end, {} s", policy.simulated, n, end),
                     fmt::format("expected at most {:.3g}", most)});
+}
+
+/// A range of which the run has no step.
+void expect_traced_steps(const std::string& trace_steps, const RunOptions& run)
+{
+  if (run.traced_steps.first <= run.max_steps) return;
+  throw InputError({"--trace-steps", trace_steps,
+                    fmt::format("expected steps up to {}, where --steps ends the run", run.max_steps)});
 }
 
 /// Ranks that share cores are slow, and slower still if those who wait do not let go of them.
@@ -145,11 +155,10 @@ CLI::App* add_run_command(CLI::App& app)
       ->check(is_above_zero())
       ->default_str("no limit");
   command
-      ->add_option("--trace-steps", options->run.n_traced_steps,
-                   "steps at the start that trace.json shows task by task, as many as fit into some 30 MB; none: it is "
-                   "not written")
-      ->transform(none_is_zero())
-      ->check(is_whole_from(0));
+      ->add_option("--trace-steps", options->trace_steps,
+                   "steps that trace.json shows task by task: how many of the first, FIRST:LAST (both in it, step 1 is "
+                   "the first), as many as fit into some 100 MB; slowest; none: it is not written")
+      ->check(is_trace_choice());
   command->add_flag("--strict", options->run.strict, "let a run that completes with warnings end with exit code 3");
   command->add_flag("--quiet", options->run.quiet, "print no progress and no table");
   command->footer(examples(
@@ -162,6 +171,8 @@ CLI::App* add_run_command(CLI::App& app)
     const CheckedScene scene = read_scene(options->scene, options->assignments);
     if (options->run.communicator.is_first()) print_notes(scene.notes);
     expect_few_checkpoints(options->run.checkpoints, scene.scene.time.end);
+    options->run.traced_steps = trace_choice(options->trace_steps);
+    expect_traced_steps(options->trace_steps, options->run);
     options->run.restart = restart->count() > 0;
     options->run.folder = options->run.restart ? options->restart
                           : out->count() > 0   ? options->out

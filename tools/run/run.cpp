@@ -25,6 +25,7 @@
 #include "tools/run/run_history.hpp"
 #include "tools/run/run_output.hpp"
 #include "tools/run/run_summary.hpp"
+#include "tools/run/run_trace.hpp"
 #include "tools/scene/compiled_moduli.hpp"
 #include "tools/scene/plausibility.hpp"
 #include "tools/scene/print_json.hpp"
@@ -130,7 +131,7 @@ class Runner
         end_(std::min(checked.scene.time.end, options.until))
   {
     simulation_->engine().balance_every(options.balance_interval);
-    simulation_->engine().trace_steps(options.n_traced_steps);
+    simulation_->engine().trace_steps(options.traced_steps);
     if (is_first()) warn_all(plausibility_warnings(checked));
     if (options.restart) {
       restart();
@@ -437,19 +438,16 @@ class Runner
       runtime::write_whole_file(options_.folder / "profile.json", json.dump(1) + "\n");
     });
     // Last, as it may be large, and a run can do without.
-    if (options_.n_traced_steps > 0) write_trace();
+    if (options_.traced_steps.kind != runtime::TraceChoice::Kind::none) write_trace();
     if (options_.quiet || !is_first()) return;
     print_out("{}\n{}  written to {}\n", runtime::to_text(json, {.n_rows = 10}), summary_text(summary), options_.folder.string());
   }
 
   void write_trace()
   {
-    const runtime::Trace trace = simulation_->engine().trace();
-    on_first_rank([&] {
-      runtime::WholeFile file(options_.folder / "trace.json");
-      runtime::write_trace(trace, [&](std::string_view text) { file.write(text); });
-      file.publish();
-    });
+    const StepsRun run{std::max(restarted_at_, 0L) + 1, simulation_->n_steps()};
+    const std::string missing = tools::write_trace(simulation_->engine(), options_.traced_steps, run, options_.folder);
+    if (!missing.empty()) print_err("tamp: {}\n", missing);
   }
 
   const CheckedScene& checked_;

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "runtime/execute/executor.hpp"
+#include "runtime/profile/trace_choice.hpp"
 #include "runtime/ranks/communicator.hpp"
 #include "tools/run/checkpointing.hpp"
 #include "tools/scene/read_scene.hpp"
@@ -37,8 +38,8 @@ struct RunOptions {
   std::string command_to_go_on{};
   /// Steps between two looks at the load of the ranks; 0: patches stay where they are.
   long balance_interval = 200;
-  /// Steps at the start that `trace.json` shows task by task; 0: it is not written.
-  long n_traced_steps = 20;
+  /// Steps that `trace.json` shows task by task; none: it is not written.
+  runtime::TraceChoice traced_steps = runtime::TraceChoice::first_steps(20);
   /// No progress, no table at the end.
   bool quiet = false;
   /// A run that completes with warnings counts as one that has gone wrong.

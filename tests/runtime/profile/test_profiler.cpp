@@ -24,7 +24,6 @@ TEST_CASE("a quantile of durations is right to a bin", "[profile]")
 TEST_CASE("the profile counts every instance and its shares sum to one", "[profile]")
 {
   test::Heat heat(16, {2, 2, 1}, 2);
-  heat.engine.trace_steps(3);
   heat.run(10, 1e-4);
 
   const nlohmann::json json = to_json(heat.engine.profile(), heat.engine.warehouse().ledger());
@@ -94,38 +93,6 @@ TEST_CASE("each rank has its own numbers, and together they are those of the run
   }
   CHECK(of_ranks == all);
   for (const PatchStatistics& patch : profile.patches) CHECK(patch.rank < world.size());
-}
-
-TEST_CASE("the trace has every instance of the first steps, as JSON that other programs read", "[profile]")
-{
-  test::Heat heat(16, {2, 2, 1}, 2);
-  heat.engine.trace_steps(3);
-  heat.run(10, 1e-4);
-
-  std::string text;
-  write_trace(heat.engine.trace(), [&](std::string_view piece) { text += piece; });
-
-  const nlohmann::json events = nlohmann::json::parse(text)["traceEvents"];
-  CHECK(events.size() == 3 * heat.engine.graph().instances().size());
-  CHECK(events[0]["dur"].get<double>() >= 0);
-  CHECK(heat.engine.profile().n_traced_steps == 3);
-}
-
-TEST_CASE("no more is traced than fits, and without a wish nothing is", "[profile]")
-{
-  test::Heat heat(16, {4, 4, 1}, 1);
-  Profiler wanted(heat.engine.schedule(), heat.engine.bound(), 1),
-      unasked(heat.engine.schedule(), heat.engine.bound(), 1);
-  wanted.trace_steps(std::numeric_limits<long>::max());
-  const std::size_t n_fit = Profiler::most_traced / heat.engine.graph().instances().size();
-  for (std::size_t n = 0; n < n_fit + 2; ++n) {
-    heat.run(1, 1e-4);
-    wanted.add_step();
-    unasked.add_step();
-  }
-
-  CHECK(wanted.trace().events.size() == n_fit * heat.engine.graph().instances().size());
-  CHECK(unasked.trace().events.empty());
 }
 
 TEST_CASE("the ledger knows the bytes of each label", "[profile]")

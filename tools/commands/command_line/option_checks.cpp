@@ -62,16 +62,6 @@ CLI::Validator is_one_of(const std::vector<std::string>& choices)
   return CLI::Validator(problem, fmt::format("{{{}}}", fmt::join(choices, ",")));
 }
 
-CLI::Validator none_is_zero()
-{
-  return CLI::Validator(
-      [](std::string& text) {
-        if (text == "none") text = "0";
-        return std::string();
-      },
-      "");
-}
-
 CLI::Validator is_not_empty()
 {
   return CLI::Validator([](const std::string& text) { return text.empty() ? "nothing; expected a name" : ""; }, "");

@@ -16,8 +16,6 @@ CLI::Validator is_above_zero();
 CLI::Validator is_from_to(double least, double most);
 
 CLI::Validator is_one_of(const std::vector<std::string>& choices);
-/// Reads the word none as 0.
-CLI::Validator none_is_zero();
 /// A name: what a shell makes of a variable that is not set is none.
 CLI::Validator is_not_empty();
 
