@@ -158,6 +158,7 @@ CLI::App* add_run_command(CLI::App& app)
       ->add_option("--trace-steps", options->trace_steps,
                    "steps that trace.json shows task by task: how many of the first, FIRST:LAST (both in it, step 1 is "
                    "the first), as many as fit into some 100 MB; slowest; none: it is not written")
+      ->type_name("STEPS")
       ->check(is_trace_choice());
   command->add_flag("--strict", options->run.strict, "let a run that completes with warnings end with exit code 3");
   command->add_flag("--quiet", options->run.quiet, "print no progress and no table");
