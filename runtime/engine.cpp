@@ -92,7 +92,7 @@ bool Engine::advance(double size, double end)
   balance_if_due();
   const auto [n_steps, time, last_size] = progress();
   size = std::min(size, end - time);
-  schedule().taking_processor_time = profiler_.looks_closely();
+  schedule().taking_processor_time = profiler_.takes_processor_time();
   run_step({n_steps, time, size, last_size, requests_, profiler_.wall_to_tell()});
   if (was_refused()) return false;
   requests_ = 0;
@@ -136,8 +136,8 @@ void Engine::balance_every(long n_steps)
 {
   balance_.look_every(n_steps);
   // Some samples of processor time between two looks.
-  constexpr long n_samples = 4, seldom = 8;
-  if (n_steps > 0) profiler_.look_every(std::clamp(n_steps / n_samples, 1L, seldom));
+  constexpr long n_samples = 4, seldom = 32;
+  if (n_steps > 0) profiler_.take_processor_time_every(std::clamp(n_steps / n_samples, 1L, seldom));
 }
 
 void Engine::balance_if_due()

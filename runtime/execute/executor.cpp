@@ -208,10 +208,11 @@ void Executor::Workers::run_shuffled()
 void Executor::Workers::run_instance(Entry& entry, int worker)
 {
   Worker& self = workers_[static_cast<std::size_t>(worker)];
+  // The clock of processor time is a call of the system: outside of what the task takes.
+  const std::uint64_t used_before = taking_processor_time_ ? thread_time() : 0;
   const std::uint64_t start = ticks();
   self.since.store(start, std::memory_order_relaxed);
   self.running.store(entry.instance, std::memory_order_relaxed);
-  const std::uint64_t used_before = taking_processor_time_ ? thread_time() : 0;
   try {
     schedule_->work().run(entry.instance, *step_);
   } catch (const std::exception& error) {
@@ -220,10 +221,11 @@ void Executor::Workers::run_instance(Entry& entry, int worker)
     return fail(entry.instance, "unknown exception");
   }
   if (recording_) {
+    const std::uint64_t end = ticks();
     const std::uint64_t used = taking_processor_time_ ? thread_time() - used_before : 0;
     constexpr std::uint64_t most = std::numeric_limits<std::uint32_t>::max();
     schedule_->record(
-        entry, {start, ticks(), static_cast<std::uint32_t>(worker), static_cast<std::uint32_t>(std::min(used, most))});
+        entry, {start, end, static_cast<std::uint32_t>(worker), static_cast<std::uint32_t>(std::min(used, most))});
   }
   schedule_->complete(entry);
 }

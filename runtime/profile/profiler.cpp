@@ -96,6 +96,7 @@ void Profiler::add_step(const StepFacts& facts)
     look_closely();
     steps_.looked_at += steps_.ticks - before;
   }
+  if (takes_processor_time()) add_processor_times();
   ++n_steps_;
   ++n_followed_;
   steps_.recording += ticks() - start;
@@ -155,10 +156,6 @@ void Profiler::look_closely()
     TaskTotals& totals = rows_[row_of_instance_[i]].totals;
     // Time stamps of two cores may differ by a little; a delay is never negative.
     if (ready != 0 && record.start > ready) totals.ready_delay += record.start - ready;
-    totals.processor_ns += record.processor_ns;
-    if (n_steps_ > 0 && instances[i].patch >= 0) {
-      patch_costs_[static_cast<std::size_t>(instances[i].patch)] += 1e-9 * record.processor_ns;
-    }
     totals.bytes += static_cast<double>(graph_->bytes(static_cast<int>(i)));
     totals.particles += static_cast<double>(graph_->n_particles(static_cast<int>(i)));
   }
@@ -166,6 +163,19 @@ void Profiler::look_closely()
   steps_.path_ticks += longest;
   ++n_looked_at_;
   if (longest > 0) follow_chain(last);
+}
+
+void Profiler::add_processor_times()
+{
+  const auto& records = schedule_->records();
+  const auto& instances = graph_->graph().instances();
+  for (std::size_t i = 0; i < records.size(); ++i) {
+    if (!graph_->is_local(static_cast<int>(i))) continue;
+    rows_[row_of_instance_[i]].totals.processor_ns += records[i].processor_ns;
+    if (instances[i].patch < 0) continue;
+    patch_costs_[static_cast<std::size_t>(instances[i].patch)] += 1e-9 * records[i].processor_ns;
+  }
+  ++n_processor_times_;
 }
 
 /// Notes the tasks of the longest chain, from its last instance back to its first.
@@ -231,7 +241,11 @@ void Profiler::add_tasks(Profile& profile, const Communicator& communicator, dou
   const auto ranks = rows_of_ranks(own, communicator);
   const auto n_ranks = static_cast<double>(ranks.size());
   const std::vector<TaskRow> all = sum_of(ranks);
-  RowScales scales{ticks_of(all), second, steps_for_each_looked_at(), time_for_each_looked_at(),
+  RowScales scales{ticks_of(all),
+                   second,
+                   steps_for_each(n_looked_at_),
+                   steps_for_each(n_processor_times_),
+                   time_for_each_looked_at(),
                    static_cast<double>(n_looked_at_) * n_ranks};
   profile.tasks = statistics(all, scales);
   profile.patches = patch_statistics(all, graph_->graph().layout().ranks(), second);
@@ -317,9 +331,9 @@ std::vector<Wait> Profiler::waits(const Communicator& communicator, double secon
   return waits;
 }
 
-double Profiler::steps_for_each_looked_at() const
+double Profiler::steps_for_each(long n_samples) const
 {
-  return n_looked_at_ > 0 ? static_cast<double>(n_steps_) / static_cast<double>(n_looked_at_) : 0;
+  return n_samples > 0 ? static_cast<double>(n_steps_) / static_cast<double>(n_samples) : 0;
 }
 
 double Profiler::time_for_each_looked_at() const

@@ -19,8 +19,7 @@ namespace tamp::runtime
 {
 
 /// Gathers what the workers of a rank recorded, after each step and outside of it. How long everything took is taken in
-/// of every step; what needs more looking (waits, chains, bytes, particles) of every eighth, or of as many as the host
-/// asks for.
+/// of every step; what needs more looking (waits, chains, bytes, particles) of every eighth; processor time of fewer.
 class Profiler
 {
  public:
@@ -31,16 +30,21 @@ class Profiler
   void trace_steps(const TraceChoice& choice, const Communicator& communicator = {});
   /// Goes on with the same tasks on patches dealt anew.
   void follow(const Schedule& schedule, BoundGraph& graph);
-  /// How many steps there are from one that is looked at closely to the next.
-  void look_every(long n_steps) { look_every_ = n_steps; }
-  /// Whether it will look closely at the next step: its schedule is to take processor time.
-  bool looks_closely() const { return n_steps_ % look_every_ == 0; }
+  /// How many steps there are from one of which processor time is taken to the next; by default 32, as asking the
+  /// system for it takes about a microsecond a task.
+  void take_processor_time_every(long n_steps) { processor_time_every_ = n_steps; }
+  /// Whether the schedule is to take that of the next step. Not of the very first, in which memory is touched for the
+  /// first time.
+  bool takes_processor_time() const
+  {
+    return n_steps_ > 0 && n_steps_ % processor_time_every_ == 1 % processor_time_every_;
+  }
   /// Takes in the records of the step that has just been run.
   void add_step(const StepFacts& facts = {});
   /// See TraceRecorder.
   float wall_to_tell() const { return trace_.wall_to_tell(); }
-  /// Processor time of task bodies on each of this rank's patches since this was last asked, in the steps looked at but
-  /// for the very first, in which memory is touched for the first time [s]; 0 on others.
+  /// Processor time of task bodies on each of this rank's patches since this was last asked, in the steps in which it
+  /// is taken [s]; 0 on others.
   std::vector<double> take_patch_costs();
   /// The profile of all ranks together. Collective.
   Profile profile(const Communicator& communicator = {}) const;
@@ -48,6 +52,8 @@ class Profiler
   Trace trace(const Communicator& communicator = {}) const;
 
  private:
+  static constexpr long look_every = 8;
+
   struct Steps {
     std::uint64_t first_tick = 0;
     std::uint64_t ticks = 0;
@@ -64,14 +70,16 @@ class Profiler
   };
 
   void add_durations(const StepFacts& facts);
+  bool looks_closely() const { return n_steps_ % look_every == 0; }
   void look_closely();
+  void add_processor_times();
   void follow_chain(std::size_t last);
   void add_patch_ticks(std::vector<TaskRow>& rows) const;
   void add_tasks(Profile& profile, const Communicator& communicator, double second) const;
   std::vector<double> per_step(const TicksOverTime& ticks, double second) const;
   void add_steps(Profile& profile, const std::vector<Steps>& of_ranks, double second) const;
   double overhead(const Steps& steps) const;
-  double steps_for_each_looked_at() const;
+  double steps_for_each(long n_samples) const;
   double time_for_each_looked_at() const;
   std::vector<Wait> waits(const Communicator& communicator, double second) const;
   TimedStep mean_step(const Communicator& communicator, double second) const;
@@ -92,8 +100,9 @@ class Profiler
   std::vector<std::uint64_t> instance_ticks_;
   long n_followed_ = 0;
   WorkerWaits waits_;
-  long look_every_ = 8;
   long n_looked_at_ = 0;
+  long processor_time_every_ = 32;
+  long n_processor_times_ = 0;
   std::vector<double> patch_costs_;
   TraceRecorder trace_;
   ClockPair clock_at_begin_;

@@ -94,7 +94,7 @@ TaskStatistics statistics(const TaskRow& row, const RowScales& scales)
   t.max_s = static_cast<double>(durations.most()) * second;
   t.p95_s = durations.quantile(0.95) * second;
   t.share = scales.all_ticks > 0 ? static_cast<double>(durations.total()) / static_cast<double>(scales.all_ticks) : 0;
-  t.processor_s = 1e-9 * static_cast<double>(row.totals.processor_ns) * scales.steps;
+  t.processor_s = 1e-9 * static_cast<double>(row.totals.processor_ns) * scales.processor_steps;
   t.bytes = row.totals.bytes * scales.steps;
   t.particles = row.totals.particles * scales.steps;
   t.imbalance = imbalance(row.per_patch);

@@ -17,9 +17,10 @@ struct TaskTotals {
   DurationHistogram durations;
   TicksOverTime over_time;
   std::uint64_t skipped = 0;
+  // Of the steps in which it is taken.
+  std::uint64_t processor_ns = 0;
   // Of the steps that are looked at, like all below.
   std::uint64_t ready_delay = 0;
-  std::uint64_t processor_ns = 0;
   /// In how many of them the rank's longest chain goes through the task.
   std::uint64_t on_chain = 0;
   double bytes = 0;
@@ -45,8 +46,10 @@ struct RowScales {
   /// Of all tasks together.
   std::uint64_t all_ticks = 0;
   double second_per_tick = 0;
-  /// Of all steps over those that are looked at: their number, and their time.
+  /// The number of all steps over those that are looked at, and over those with processor time; and the time of all
+  /// over that of those which are looked at.
   double steps = 0;
+  double processor_steps = 0;
   double time = 0;
   /// Steps that were looked at, by all ranks in sum.
   double looked_at = 0;

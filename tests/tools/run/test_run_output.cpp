@@ -72,7 +72,7 @@ TEST_CASE("what is written in the background is what is written at once")
   at_once.write_steps(3);
 
   CHECK(background.fields() == at_once.fields());
-  CHECK(background.fields().size() == 3 * (8 + 2) + 1);
+  CHECK(background.fields().size() == 3 * (10 + 2) + 1);
   CHECK(background.checkpoint("2") == at_once.checkpoint("2"));
   CHECK(background.checkpoint("3") == at_once.checkpoint("3"));
   CHECK(at_once.output().time().waited == 0);
