@@ -59,7 +59,7 @@ TEST_CASE("every shipped scene has a committed digest", "[scenes]")
 {
   const nlohmann::json committed = committed_digests();
 
-  for (const std::string folder : {"cone", "footing", "punch", "uxo", "verification/axis_aligned",
+  for (const std::string folder : {"balance", "cone", "footing", "punch", "uxo", "verification/axis_aligned",
                                    "verification/compacted_column", "verification/ring", "verification/vortex"}) {
     for (const auto& file : std::filesystem::directory_iterator(TAMP_SOURCE_DIR "/inputs/" + folder)) {
       if (file.path().extension() != ".json") continue;
