@@ -37,6 +37,14 @@ class Buffer
     if (bytes > capacity_) resize_storage(capacity_ == 0 ? bytes : std::max(bytes, capacity_ + capacity_ / 16));
   }
 
+  /// Makes room for `bytes`, as above, or gives back what is there beyond them where that is more than three quarters:
+  /// of what comes and goes, such as particles that cross a patch.
+  void fit(std::size_t bytes)
+  {
+    if (bytes < capacity_ / 4) return resize_storage(bytes + bytes / 16);
+    reserve(bytes);
+  }
+
   void release() { resize_storage(0); }
 
   void swap(Buffer& other) noexcept

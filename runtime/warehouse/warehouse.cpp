@@ -221,8 +221,8 @@ void Warehouse::set_n_particles(int patch, int group, std::size_t n)
 {
   counts_[static_cast<std::size_t>(patch * n_groups_ + group)] = n;
   for (Field* f : particle_fields(patch, group)) {
-    if (f->state) f->previous_buffer.reserve(f->n_bytes());
-    if (!f->carried) f->current_buffer.reserve(f->n_bytes());
+    if (f->state) f->previous_buffer.fit(f->n_bytes());
+    if (!f->carried) f->current_buffer.fit(f->n_bytes());
   }
 }
 

@@ -47,7 +47,7 @@ class Warehouse
   /// Particles on this rank's patches; 0 for others.
   std::size_t n_particles(int patch, int group) const { return count(patch, group); }
   std::size_t n_particles(int group) const;
-  /// Grows or cuts every particle field of a patch and group; new values are zero bytes.
+  /// Grows or cuts every particle field of a patch and group; new values are zero bytes, or what cut particles left.
   void set_n_particles(int patch, int group, std::size_t n);
 
   /// The state of a label at the end of the last step.

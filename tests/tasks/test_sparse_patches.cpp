@@ -49,6 +49,18 @@ Eigen::Vector3d shown_by_nodes(Simulation& simulation)
 
 }  // namespace
 
+TEST_CASE("patches that particles have crossed give their memory back")
+{
+  const auto simulation = Simulation::make(lone_disk(), 2);
+  runtime::LedgerEntry& stress = simulation->engine().warehouse().ledger().entry("stress");
+  const std::size_t at_start = stress.current();
+
+  advance_to(*simulation, 0.2);
+
+  CHECK(stress.current() < 2 * at_start);
+  CHECK(stress.peak() < 3 * at_start);
+}
+
 TEST_CASE("nodes of patches that particles have left show nothing", "[ranks]")
 {
   const auto simulation = on_all_ranks(lone_disk());
