@@ -440,7 +440,8 @@ class Runner
     // Last, as it may be large, and a run can do without.
     if (options_.traced_steps.kind != runtime::TraceChoice::Kind::none) write_trace();
     if (options_.quiet || !is_first()) return;
-    print_out("{}\n{}  written to {}\n", runtime::to_text(json, {.n_rows = 10}), summary_text(summary), options_.folder.string());
+    print_out("{}\n{}  written to {}\n", runtime::to_text(json, {.n_rows = 10}), summary_text(summary),
+              options_.folder.string());
   }
 
   void write_trace()
