@@ -8,6 +8,8 @@
 #include <numeric>
 #include <stdexcept>
 
+#include "runtime/profile/over_time.hpp"
+
 namespace tamp::runtime
 {
 
@@ -48,7 +50,7 @@ class Run
   std::map<std::string, OverTime> tasks(double steps_each) const
   {
     std::map<std::string, OverTime> all;
-    for (const nlohmann::json& t : profile_.at("tasks")) {
+    for (const nlohmann::json& t : profile_.at("tasks").get_ref<const nlohmann::json::array_t&>()) {
       all[t.at("name").get<std::string>()] = parts(t.at("over_time_s"), steps_each);
     }
     return all;
@@ -72,22 +74,26 @@ double quantile(const std::vector<double>& sorted, double q)
   return sorted[k] + (at - static_cast<double>(k)) * (next - sorted[k]);
 }
 
-/// Of the first `n`.
-double median(OverTime parts, std::size_t n)
+/// Of the first `n`: the median, or the mean where that is 0.
+std::optional<double> typical(const OverTime* all, std::size_t n)
 {
-  parts.resize(std::min(n, parts.size()));
+  if (all == nullptr) return {};
+  OverTime parts(all->begin(), all->begin() + static_cast<std::ptrdiff_t>(std::min(n, all->size())));
+  if (parts.empty()) return 0;
   std::sort(parts.begin(), parts.end());
-  return parts.empty() ? 0 : quantile(parts, 0.5);
+  const double median = quantile(parts, 0.5);
+  return median > 0 ? median : std::accumulate(parts.begin(), parts.end(), 0.0) / static_cast<double>(parts.size());
 }
 
 /// By medians, as a part in which something else had the processor tells nothing. The standard error is that of a
-/// normal distribution with the same quartiles.
-TaskComparison comparison(const std::string& name, const OverTime& here, const OverTime& there, std::size_t n_parts)
+/// normal distribution with the same quartiles. Null where a run has no such task.
+TaskComparison comparison(const std::string& name, const OverTime* here, const OverTime* there, std::size_t n_parts)
 {
-  TaskComparison result{name, median(here, n_parts), median(there, n_parts)};
+  TaskComparison result{name, typical(here, n_parts), typical(there, n_parts)};
+  if (here == nullptr || there == nullptr) return result;
   std::vector<double> logarithms;
-  for (std::size_t k = 0; k < std::min(here.size(), there.size()); ++k) {
-    if (here[k] > 0 && there[k] > 0) logarithms.push_back(std::log(there[k] / here[k]));
+  for (std::size_t k = 0; k < std::min({n_parts, here->size(), there->size()}); ++k) {
+    if ((*here)[k] > 0 && (*there)[k] > 0) logarithms.push_back(std::log((*there)[k] / (*here)[k]));
   }
   if (logarithms.size() < least_parts) return result;
   std::sort(logarithms.begin(), logarithms.end());
@@ -98,10 +104,22 @@ TaskComparison comparison(const std::string& name, const OverTime& here, const O
   return result;
 }
 
+/// Of two runs that have no part in common.
+TaskComparison without_ratio(TaskComparison comparison)
+{
+  comparison.ratio = comparison.error = 0;
+  return comparison;
+}
+
+double difference(const TaskComparison& task)
+{
+  return std::abs(task.there_s.value_or(0) - task.here_s.value_or(0));
+}
+
 std::string ratio_text(const TaskComparison& task)
 {
-  if (task.here_s == 0) return "only there";
-  if (task.there_s == 0) return "only here";
+  if (!task.here_s) return "only there";
+  if (!task.there_s) return "only here";
   if (task.ratio == 0) return "too short to tell";
   return fmt::format("{:>7.3f} +- {:.3f}  {}", task.ratio, task.error,
                      !task.differs()  ? ""
@@ -119,18 +137,29 @@ bool TaskComparison::differs() const
 std::vector<TaskComparison> compare_profiles(const nlohmann::json& here, const nlohmann::json& there)
 {
   const Run one(here), other(there);
-  const double steps_each = std::max(one.steps_each(), other.steps_each());
-  const OverTime step_here = one.step(steps_each), step_there = other.step(steps_each);
-  const std::size_t n_parts = std::min(step_here.size(), step_there.size());
-  auto tasks_here = one.tasks(steps_each), tasks_there = other.tasks(steps_each);
-  std::vector<TaskComparison> all{comparison("a step", step_here, step_there, n_parts)};
-  for (const auto& [name, parts] : tasks_here) all.push_back(comparison(name, parts, tasks_there[name], n_parts));
-  for (const auto& [name, parts] : tasks_there) {
-    if (!tasks_here.contains(name)) all.push_back(comparison(name, {}, parts, n_parts));
+  double each_here = std::max(one.steps_each(), other.steps_each()), each_there = each_here;
+  const bool in_common = !one.step(each_here).empty() && !other.step(each_there).empty();
+  if (!in_common) {
+    each_here = one.steps_each();
+    each_there = other.steps_each();
   }
-  std::stable_sort(all.begin() + 1, all.end(), [](const TaskComparison& a, const TaskComparison& b) {
-    return std::abs(a.there_s - a.here_s) > std::abs(b.there_s - b.here_s);
-  });
+  const OverTime step_here = one.step(each_here), step_there = other.step(each_there);
+  const std::size_t n_parts = in_common ? std::min(step_here.size(), step_there.size()) : RunParts::most;
+  const auto tasks_here = one.tasks(each_here), tasks_there = other.tasks(each_there);
+  const auto found = [](const auto& tasks, const std::string& name) {
+    const auto at = tasks.find(name);
+    return at == tasks.end() ? nullptr : &at->second;
+  };
+  std::vector<TaskComparison> all{comparison("a step", &step_here, &step_there, n_parts)};
+  for (const auto& [name, parts] : tasks_here) {
+    all.push_back(comparison(name, &parts, found(tasks_there, name), n_parts));
+  }
+  for (const auto& [name, parts] : tasks_there) {
+    if (!tasks_here.contains(name)) all.push_back(comparison(name, nullptr, &parts, n_parts));
+  }
+  if (!in_common) std::transform(all.begin(), all.end(), all.begin(), without_ratio);
+  std::stable_sort(all.begin() + 1, all.end(),
+                   [](const TaskComparison& a, const TaskComparison& b) { return difference(a) > difference(b); });
   return all;
 }
 
@@ -138,8 +167,8 @@ std::string to_text(const std::vector<TaskComparison>& tasks)
 {
   std::string text = fmt::format("{:<36} {:>12} {:>12}  {}\n", "microseconds a step", "here", "there", "there / here");
   for (const TaskComparison& task : tasks) {
-    text += fmt::format("{:<36} {:>12.2f} {:>12.2f}  {}\n", task.name, task.here_s * 1e6, task.there_s * 1e6,
-                        ratio_text(task));
+    text += fmt::format("{:<36} {:>12.2f} {:>12.2f}  {}\n", task.name, task.here_s.value_or(0) * 1e6,
+                        task.there_s.value_or(0) * 1e6, ratio_text(task));
   }
   return text;
 }
@@ -148,7 +177,9 @@ nlohmann::json to_json(const std::vector<TaskComparison>& tasks)
 {
   nlohmann::json list = nlohmann::json::array();
   for (const TaskComparison& task : tasks) {
-    list.push_back({{"name", task.name}, {"here_s", task.here_s}, {"there_s", task.there_s}});
+    list.push_back({{"name", task.name}});
+    if (task.here_s) list.back()["here_s"] = *task.here_s;
+    if (task.there_s) list.back()["there_s"] = *task.there_s;
     if (task.ratio == 0) continue;
     list.back()["ratio"] = task.ratio;
     list.back()["error"] = task.error;

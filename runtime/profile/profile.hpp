@@ -22,8 +22,9 @@ struct TaskStatistics {
   double p95_s = 0;
   /// Part of the time of all tasks; the shares of all rows add up to 1.
   double share = 0;
-  /// Of `total_s`, in which other programs may have had the core: what the processor worked, by samples.
-  double processor_s = 0;
+  /// Of `total_s`, in which other programs may have had the core: what the processor worked, by samples; NaN where none
+  /// was taken.
+  double processor_s = std::numeric_limits<double>::quiet_NaN();
   double bytes = 0;
   double particles = 0;
   /// Time of the busiest patch over the mean of all patches.

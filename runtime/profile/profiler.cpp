@@ -238,29 +238,34 @@ void Profiler::add_tasks(Profile& profile, const Communicator& communicator, dou
 {
   std::vector<TaskRow> own = rows_;
   add_patch_ticks(own);
-  const auto ranks = rows_of_ranks(own, communicator);
-  const auto n_ranks = static_cast<double>(ranks.size());
-  const std::vector<TaskRow> all = sum_of(ranks);
-  RowScales scales{ticks_of(all),
+  const std::vector<int> rank_of_patch = graph_->graph().layout().ranks();
+  RowScales scales{0,
                    second,
                    steps_for_each(n_looked_at_),
                    steps_for_each(n_processor_times_),
                    time_for_each_looked_at(),
-                   static_cast<double>(n_looked_at_) * n_ranks};
-  profile.tasks = statistics(all, scales);
-  profile.patches = patch_statistics(all, graph_->graph().layout().ranks(), second);
-  scales.looked_at = static_cast<double>(n_looked_at_);
-  profile.ranks.reserve(ranks.size());
-  for (const std::vector<TaskRow>& rows : ranks) {
+                   static_cast<double>(n_looked_at_)};
+  std::vector<TaskRow> all;
+  std::vector<std::uint64_t> busiest(own.size(), 0);
+  for_each_rank(own, communicator, [&](int rank, const std::vector<TaskRow>& rows) {
     scales.all_ticks = ticks_of(rows);
-    profile.ranks.push_back({statistics(rows, scales)});
-  }
+    scales.rank = rank;
+    profile.ranks.push_back({statistics(rows, scales, rank_of_patch)});
+    if (rank == 0) all = rows;
+    for (std::size_t k = 0; k < rows.size(); ++k) {
+      if (rank > 0) all[k].add(rows[k]);
+      busiest[k] = std::max(busiest[k], rows[k].totals.durations.total());
+    }
+  });
+  scales.all_ticks = ticks_of(all);
+  scales.rank = -1;
+  scales.looked_at *= communicator.size();
+  profile.tasks = statistics(all, scales, rank_of_patch);
+  profile.patches = patch_statistics(all, rank_of_patch, second);
   for (TaskStatistics& t : profile.tasks) {
     const auto row = static_cast<std::size_t>(std::ranges::find(all, t.name, &TaskRow::name) - all.begin());
     t.over_time_s = per_step(all[row].totals.over_time, second);
-    std::uint64_t most = 0;
-    for (const std::vector<TaskRow>& rows : ranks) most = std::max(most, rows[row].totals.durations.total());
-    if (t.total_s > 0) t.rank_imbalance = static_cast<double>(most) * second * n_ranks / t.total_s;
+    if (t.total_s > 0) t.rank_imbalance = static_cast<double>(busiest[row]) * second * communicator.size() / t.total_s;
   }
 }
 

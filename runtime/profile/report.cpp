@@ -10,22 +10,17 @@ namespace tamp::runtime
 namespace
 {
 
+/// What a task has in the run as a whole, and on each rank.
 nlohmann::json to_json(const TaskStatistics& t)
 {
   nlohmann::json json = {{"name", t.name},           {"count", t.count},
                          {"skipped", t.skipped},     {"total_s", t.total_s},
                          {"mean_s", t.mean_s},       {"min_s", t.min_s},
                          {"max_s", t.max_s},         {"p95_s", t.p95_s},
-                         {"share", t.share},         {"processor_s", t.processor_s},
-                         {"bytes", t.bytes},         {"particles", t.particles},
-                         {"imbalance", t.imbalance}, {"ready_delay_s", t.ready_delay_s},
-                         {"chain_s", t.chain_s},     {"on_chain", t.on_chain}};
-  // The old name of `ready_delay_s`, for one release.
-  json["wait_s"] = t.ready_delay_s;
-  if (std::isfinite(t.gain_of_all)) {
-    json["step_gain_if_a_tenth_faster"] = t.gain_of_tenth;
-    json["step_gain_if_free"] = t.gain_of_all;
-  }
+                         {"share", t.share},         {"bytes", t.bytes},
+                         {"particles", t.particles}, {"imbalance", t.imbalance},
+                         {"on_chain", t.on_chain},   {"ready_delay_s", t.ready_delay_s}};
+  if (std::isfinite(t.processor_s)) json["processor_s"] = t.processor_s;
   return json;
 }
 
@@ -33,6 +28,22 @@ nlohmann::json to_json(const std::vector<TaskStatistics>& tasks)
 {
   nlohmann::json list = nlohmann::json::array();
   for (const TaskStatistics& t : tasks) list.push_back(to_json(t));
+  return list;
+}
+
+/// With what only the run as a whole can tell of them.
+nlohmann::json tasks_of_run(const std::vector<TaskStatistics>& tasks)
+{
+  nlohmann::json list = to_json(tasks);
+  for (std::size_t k = 0; k < tasks.size(); ++k) {
+    const TaskStatistics& t = tasks[k];
+    list[k].update({{"chain_s", t.chain_s}, {"rank_imbalance", t.rank_imbalance}, {"over_time_s", t.over_time_s}});
+    // The old name of `ready_delay_s`, for one release.
+    list[k]["wait_s"] = t.ready_delay_s;
+    if (!std::isfinite(t.gain_of_all)) continue;
+    list[k]["step_gain_if_a_tenth_faster"] = t.gain_of_tenth;
+    list[k]["step_gain_if_free"] = t.gain_of_all;
+  }
   return list;
 }
 
@@ -72,11 +83,6 @@ nlohmann::json to_json(const std::vector<PatchStatistics>& patches)
 
 nlohmann::json to_json(const Profile& profile, const MemoryLedger& ledger, const Communicator& communicator)
 {
-  nlohmann::json tasks = to_json(profile.tasks);
-  for (std::size_t k = 0; k < profile.tasks.size(); ++k) {
-    tasks[k]["rank_imbalance"] = profile.tasks[k].rank_imbalance;
-    tasks[k]["over_time_s"] = profile.tasks[k].over_time_s;
-  }
   nlohmann::json waits = nlohmann::json::array();
   for (const Wait& w : profile.waits) waits.push_back({{"task", w.task}, {"waits_for", w.cause}, {"s", w.total_s}});
   nlohmann::json labels = nlohmann::json::object();
@@ -84,7 +90,7 @@ nlohmann::json to_json(const Profile& profile, const MemoryLedger& ledger, const
     labels[entry.name()] = communicator.sum(static_cast<std::uint64_t>(entry.peak()));
   }
   const std::size_t total = communicator.sum(static_cast<std::uint64_t>(ledger.total().peak()));
-  return {{"tasks", tasks},
+  return {{"tasks", tasks_of_run(profile.tasks)},
           {"ranks", to_json(profile.ranks)},
           {"patches", to_json(profile.patches)},
           {"over_time", {{"steps_each", profile.steps_each_part}, {"step_s", profile.step_over_time_s}}},

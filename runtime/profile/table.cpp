@@ -13,6 +13,12 @@ namespace tamp::runtime
 namespace
 {
 
+/// A list of a profile; nlohmann would go through no list as through an empty one.
+const nlohmann::json::array_t& list_of(const nlohmann::json& profile, const char* key)
+{
+  return profile.at(key).get_ref<const nlohmann::json::array_t&>();
+}
+
 /// A share as percent; of profiles that do not say, nothing.
 std::string percent(const nlohmann::json& task, const char* key)
 {
@@ -44,11 +50,11 @@ std::string row(const nlohmann::json& t)
 }
 
 /// The chosen ones of a list of tasks.
-std::string tasks_text(const nlohmann::json& tasks, const TableChoice& choice)
+std::string tasks_text(const nlohmann::json& profile, const TableChoice& choice)
 {
   std::string text = header();
   int n = 0;
-  for (const nlohmann::json& t : tasks) {
+  for (const nlohmann::json& t : list_of(profile, "tasks")) {
     if (!choice.phase.empty() && phase_of(t.at("name").get<std::string>()) != choice.phase) continue;
     if (choice.n_rows > 0 && n++ == choice.n_rows) break;
     text += row(t);
@@ -66,10 +72,13 @@ std::string messages_text(const nlohmann::json& profile)
   const auto n = profile.value("messages", 0.0);
   if (n == 0) return "";
   const double under_way = profile.at("message_s").get<double>();
-  return fmt::format(
-      "{:.0f} messages between ranks, {:.1f} MiB, {:.1f} us on their way, {:.0f} % of that behind tasks\n", n,
-      profile.at("message_bytes").get<double>() / (1024 * 1024), under_way / n * 1e6,
-      100 * (1 - profile.at("message_wait_s").get<double>() / under_way));
+  std::string text = fmt::format("{:.0f} messages between ranks, {:.1f} MiB", n,
+                                 profile.at("message_bytes").get<double>() / (1024 * 1024));
+  if (under_way > 0) {
+    text += fmt::format(", {:.1f} us on their way, {:.0f} % of that behind tasks", under_way / n * 1e6,
+                        100 * (1 - profile.at("message_wait_s").get<double>() / under_way));
+  }
+  return text + "\n";
 }
 
 std::string waits_text(const nlohmann::json& profile)
@@ -110,7 +119,7 @@ std::string phase_of(const std::string& task)
 std::vector<std::string> phases_of(const nlohmann::json& profile)
 {
   std::vector<std::string> phases;
-  for (const nlohmann::json& t : profile.at("tasks")) {
+  for (const nlohmann::json& t : list_of(profile, "tasks")) {
     const std::string phase = phase_of(t.at("name").get<std::string>());
     if (std::find(phases.begin(), phases.end(), phase) == phases.end()) phases.push_back(phase);
   }
@@ -119,7 +128,7 @@ std::vector<std::string> phases_of(const nlohmann::json& profile)
 
 std::string to_text(const nlohmann::json& profile, const TableChoice& choice)
 {
-  std::string text = tasks_text(profile.at("tasks"), choice);
+  std::string text = tasks_text(profile, choice);
   text += fmt::format(
       "a step takes {:.1f} us in the mean, its longest chain of tasks {:.1f} us; scheduler overhead {:.2f} %; fields "
       "{:.1f} MiB\n",
@@ -141,14 +150,14 @@ std::string rank_text(const nlohmann::json& profile, std::size_t rank, const Tab
   const nlohmann::json& own = profile.at("ranks").at(rank);
   return fmt::format("rank {}: a step takes {:.1f} us in the mean; scheduler overhead {:.2f} %\n", rank,
                      own.at("step_s").get<double>() * 1e6, own.at("overhead").get<double>() * 100) +
-         tasks_text(own.at("tasks"), choice);
+         tasks_text(own, choice);
 }
 
 std::string chain_text(const nlohmann::json& profile)
 {
   std::string text = fmt::format("{:>9} {:>9}  {:<36} {:>6} {:>5}\n", "at us", "takes us", "task", "patch", "rank");
   double at = 0;
-  for (const nlohmann::json& link : profile.at("longest_chain")) {
+  for (const nlohmann::json& link : list_of(profile, "longest_chain")) {
     const double message = link.at("message_s").get<double>(), takes = link.at("s").get<double>();
     if (message > 0) text += fmt::format("{:>9.2f} {:>9.2f}  (message)\n", at * 1e6, message * 1e6);
     at += message;
@@ -164,7 +173,7 @@ std::string chain_text(const nlohmann::json& profile)
 
 std::string patches_text(const nlohmann::json& profile, std::size_t n_rows)
 {
-  const nlohmann::json& patches = profile.at("patches");
+  const auto& patches = list_of(profile, "patches");
   std::vector<std::size_t> order(patches.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
   const auto seconds = [&](std::size_t p) { return patches.at(p).at("total_s").get<double>(); };

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstring>
-#include <numeric>
 #include <span>
 
 namespace tamp::runtime
@@ -27,7 +26,8 @@ void TaskRow::add(const TaskRow& other)
   for (std::size_t p = 0; p < per_patch.size(); ++p) per_patch[p] += other.per_patch[p];
 }
 
-std::vector<std::vector<TaskRow>> rows_of_ranks(const std::vector<TaskRow>& own, const Communicator& communicator)
+void for_each_rank(const std::vector<TaskRow>& own, const Communicator& communicator,
+                   const std::function<void(int rank, const std::vector<TaskRow>& rows)>& look)
 {
   std::vector<std::byte> bytes;
   const auto append = [&](const auto* first, std::size_t n) {
@@ -39,27 +39,18 @@ std::vector<std::vector<TaskRow>> rows_of_ranks(const std::vector<TaskRow>& own,
     append(row.per_patch.data(), row.per_patch.size());
   }
   const auto from_each = communicator.gather(bytes);
-  std::vector<std::vector<TaskRow>> all(from_each.size(), own);
-  for (std::size_t rank = 0; rank < all.size(); ++rank) {
-    const std::byte* from = from_each[rank].data();
-    for (TaskRow& row : all[rank]) {
+  std::vector<TaskRow> rows = own;
+  for (int rank = 0; rank < communicator.size(); ++rank) {
+    const std::byte* from = from_each[static_cast<std::size_t>(rank)].data();
+    for (TaskRow& row : rows) {
       std::memcpy(static_cast<void*>(&row.totals), from, sizeof row.totals);
       from += sizeof row.totals;
       const std::size_t n_bytes = row.per_patch.size() * sizeof(std::uint64_t);
       std::memcpy(row.per_patch.data(), from, n_bytes);
       from += n_bytes;
     }
+    look(rank, rows);
   }
-  return all;
-}
-
-std::vector<TaskRow> sum_of(const std::vector<std::vector<TaskRow>>& ranks)
-{
-  std::vector<TaskRow> sum = ranks.front();
-  for (std::size_t rank = 1; rank < ranks.size(); ++rank) {
-    for (std::size_t k = 0; k < sum.size(); ++k) sum[k].add(ranks[rank][k]);
-  }
-  return sum;
 }
 
 std::uint64_t ticks_of(const std::vector<TaskRow>& rows)
@@ -72,15 +63,20 @@ std::uint64_t ticks_of(const std::vector<TaskRow>& rows)
 namespace
 {
 
-/// Of the busiest patch over the mean of all.
-double imbalance(const std::vector<std::uint64_t>& per_patch)
+/// Of the busiest patch over the mean of all; of one rank, all that it worked on or has at the end.
+double imbalance(const TaskRow& row, int rank, const std::vector<int>& rank_of_patch)
 {
-  const double sum = static_cast<double>(std::accumulate(per_patch.begin(), per_patch.end(), std::uint64_t{0}));
-  const double most = static_cast<double>(*std::max_element(per_patch.begin(), per_patch.end()));
-  return sum > 0 ? most * static_cast<double>(per_patch.size()) / sum : 1;
+  std::uint64_t sum = 0, most = 0, n = 0;
+  for (std::size_t p = 0; p < row.per_patch.size(); ++p) {
+    const std::uint64_t ticks = row.per_patch[p];
+    sum += ticks;
+    most = std::max(most, ticks);
+    n += std::uint64_t{ticks > 0 || rank < 0 || !row.over_patches || rank_of_patch[p] == rank};
+  }
+  return sum > 0 ? static_cast<double>(most) * static_cast<double>(n) / static_cast<double>(sum) : 1;
 }
 
-TaskStatistics statistics(const TaskRow& row, const RowScales& scales)
+TaskStatistics statistics(const TaskRow& row, const RowScales& scales, const std::vector<int>& rank_of_patch)
 {
   const DurationHistogram& durations = row.totals.durations;
   const double second = scales.second_per_tick;
@@ -94,10 +90,12 @@ TaskStatistics statistics(const TaskRow& row, const RowScales& scales)
   t.max_s = static_cast<double>(durations.most()) * second;
   t.p95_s = durations.quantile(0.95) * second;
   t.share = scales.all_ticks > 0 ? static_cast<double>(durations.total()) / static_cast<double>(scales.all_ticks) : 0;
-  t.processor_s = 1e-9 * static_cast<double>(row.totals.processor_ns) * scales.processor_steps;
+  if (scales.processor_steps > 0) {
+    t.processor_s = 1e-9 * static_cast<double>(row.totals.processor_ns) * scales.processor_steps;
+  }
   t.bytes = row.totals.bytes * scales.steps;
   t.particles = row.totals.particles * scales.steps;
-  t.imbalance = imbalance(row.per_patch);
+  t.imbalance = imbalance(row, scales.rank, rank_of_patch);
   t.ready_delay_s = static_cast<double>(row.totals.ready_delay) * second * scales.time;
   t.on_chain = scales.looked_at > 0 ? static_cast<double>(row.totals.on_chain) / scales.looked_at : 0;
   return t;
@@ -105,11 +103,12 @@ TaskStatistics statistics(const TaskRow& row, const RowScales& scales)
 
 }  // namespace
 
-std::vector<TaskStatistics> statistics(const std::vector<TaskRow>& rows, const RowScales& scales)
+std::vector<TaskStatistics> statistics(const std::vector<TaskRow>& rows, const RowScales& scales,
+                                       const std::vector<int>& rank_of_patch)
 {
   std::vector<TaskStatistics> tasks;
   for (const TaskRow& row : rows) {
-    if (row.totals.durations.count() + row.totals.skipped > 0) tasks.push_back(statistics(row, scales));
+    if (row.totals.durations.count() + row.totals.skipped > 0) tasks.push_back(statistics(row, scales, rank_of_patch));
   }
   std::sort(tasks.begin(), tasks.end(),
             [](const TaskStatistics& a, const TaskStatistics& b) { return a.total_s > b.total_s; });

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -53,18 +54,20 @@ struct RowScales {
   double time = 0;
   /// Steps that were looked at, by all ranks in sum.
   double looked_at = 0;
+  /// The rank whose rows they are, of which only the patches count; -1 for all ranks.
+  int rank = -1;
 };
 
-/// Those of each rank: the rows are the same on all, as the graph is, and only their numbers travel. Collective.
-std::vector<std::vector<TaskRow>> rows_of_ranks(const std::vector<TaskRow>& own, const Communicator& communicator);
-
-/// The sum of the rows of several ranks.
-std::vector<TaskRow> sum_of(const std::vector<std::vector<TaskRow>>& ranks);
+/// Has `look` see the rows of each rank in turn: they are the same on all, as the graph is, and only their numbers
+/// travel. Collective.
+void for_each_rank(const std::vector<TaskRow>& own, const Communicator& communicator,
+                   const std::function<void(int rank, const std::vector<TaskRow>& rows)>& look);
 
 std::uint64_t ticks_of(const std::vector<TaskRow>& rows);
 
-/// Of all tasks that had something to do, most expensive first.
-std::vector<TaskStatistics> statistics(const std::vector<TaskRow>& rows, const RowScales& scales);
+/// Of all tasks that had something to do, most expensive first. `rank_of_patch` is that of the end.
+std::vector<TaskStatistics> statistics(const std::vector<TaskRow>& rows, const RowScales& scales,
+                                       const std::vector<int>& rank_of_patch);
 
 /// What all tasks took on each patch [s], and which took most.
 std::vector<PatchStatistics> patch_statistics(const std::vector<TaskRow>& rows, const std::vector<int>& ranks,

@@ -9,6 +9,7 @@
 #include "tools/run/profile_text.hpp"
 #include "tools/system/charts.hpp"
 #include "tools/system/console.hpp"
+#include "tools/system/errors.hpp"
 
 namespace tamp::tools
 {
@@ -23,8 +24,20 @@ struct ProfileArguments {
   ProfileView view;
 };
 
+/// Pages have all, and JSON has all or a comparison.
+void expect_text(const ProfileArguments& options)
+{
+  const ProfileView& view = options.view;
+  const bool is_part = !view.phase.empty() || !view.ranks.empty() || view.patches || view.chain;
+  const bool is_other = !options.other.empty() && options.format == "html";
+  if (options.format == "text" || !(is_part || is_other)) return;
+  throw InputError({"--format", options.format + " of a part of the profile",
+                    options.format == "json" ? "expected it of all, or with --compare alone" : "expected it of all"});
+}
+
 void show_profile(ProfileArguments& options)
 {
+  expect_text(options);
   const std::filesystem::path folder = options.folder;
   if (!options.other.empty()) options.view.other = options.other;
   options.view.as_json = options.format == "json";

@@ -48,6 +48,7 @@ nlohmann::json read_profile(const fs::path& run)
 void expect_phase(const nlohmann::json& profile, const std::string& phase)
 {
   const std::vector<std::string> phases = runtime::phases_of(profile);
+  if (phases.empty()) throw std::out_of_range("tasks");
   if (phase.empty() || std::ranges::find(phases, phase) != phases.end()) return;
   const std::string any = fmt::format("expected one of {}", fmt::join(phases, ", "));
   throw InputError({"--phase", fmt::format("\"{}\"", phase), meant_or(phase, phases, any)});
@@ -56,7 +57,8 @@ void expect_phase(const nlohmann::json& profile, const std::string& phase)
 void expect_ranks(const nlohmann::json& profile, const std::vector<std::size_t>& ranks)
 {
   for (const std::size_t rank : ranks) {
-    const std::size_t n = profile.at("ranks").size();
+    const std::size_t n = profile.at("ranks").get_ref<const nlohmann::json::array_t&>().size();
+    if (n == 0) throw std::out_of_range("ranks");
     if (rank >= n) throw InputError({"--rank", std::to_string(rank), fmt::format("expected 0 to {}", n - 1)});
   }
 }

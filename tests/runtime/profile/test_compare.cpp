@@ -74,7 +74,7 @@ TEST_CASE("a task that takes a fifth longer is told from noise, although costs d
   CHECK(slower.differs());
   CHECK(slower.ratio == Approx(1.2).epsilon(0.05));
   CHECK(slower.error < 0.05);
-  CHECK(slower.here_s == Approx(1.5).epsilon(0.05));
+  CHECK(*slower.here_s == Approx(1.5).epsilon(0.05));
   CHECK_FALSE(same.differs());
 }
 
@@ -91,6 +91,34 @@ TEST_CASE("runs whose parts differ in length are compared over the steps that bo
   CHECK(named(all, "task").ratio == Approx(2));
 }
 
+TEST_CASE("a task that most parts do without is compared in the others", "[profile]")
+{
+  Parts late(30, 0);
+  std::fill(late.begin() + 20, late.end(), 3);
+  Parts twice = late;
+  std::fill(twice.begin() + 20, twice.end(), 6);
+  const Parts step(30, 10);
+
+  const auto all = compare_profiles(profile(1, step, {{"contact", late}}), profile(1, step, {{"contact", twice}}));
+
+  CHECK(*named(all, "contact").here_s == Approx(1));
+  CHECK(*named(all, "contact").there_s == Approx(2));
+  CHECK(named(all, "contact").ratio == Approx(2));
+}
+
+TEST_CASE("runs that have no whole part in common have their own numbers, and no ratio", "[profile]")
+{
+  const Parts brief(10, 1), lengthy(60, 2);
+
+  const auto all = compare_profiles(profile(1, brief, {{"task", brief}}), profile(64, lengthy, {{"task", lengthy}}));
+
+  for (const TaskComparison& task : all) {
+    CHECK(task.here_s == 1);
+    CHECK(task.there_s == 2);
+    CHECK(task.ratio == 0);
+  }
+}
+
 TEST_CASE("tasks of one run alone, and runs that are too short, are named", "[profile]")
 {
   const Parts few(5, 1), some(8, 1);
@@ -98,8 +126,8 @@ TEST_CASE("tasks of one run alone, and runs that are too short, are named", "[pr
   const auto brief = compare_profiles(profile(1, few, {{"task", few}}), profile(1, few, {{"task", few}}));
 
   CHECK_THAT(to_text(all), Catch::Contains("only here") && Catch::Contains("only there"));
-  CHECK(named(all, "old").there_s == 0);
-  CHECK(named(all, "new").here_s == 0);
+  CHECK_FALSE(named(all, "old").there_s.has_value());
+  CHECK_FALSE(named(all, "new").here_s.has_value());
   CHECK(named(brief, "task").ratio == 0);
   CHECK_THAT(to_text(brief), Catch::Contains("too short to tell"));
 }

@@ -62,10 +62,24 @@ TEST_CASE("what is not in a profile, or no run, is refused with what there is")
   refused(out + " --rank 99999999999999999999", 2, "expected a whole number, at least 0");
   refused(out + " --phase 'update stres'", 2, "did you mean update stress?");
   refused(out + " --patches --rank 0", 2, "--patches");
+  refused(out + " --patches --format json", 2, "--format: json of a part of the profile; expected it of all, or with");
+  refused(out + " --compare " + out + " --format html", 2,
+          "--format: html of a part of the profile; expected it of all");
   refused(folder.path().string(), 2, "no run; expected the folder of a run");
   fs::rename(out + "/profile.json", out + "/old.json");
   refused(out, 4, "profile.json: is missing");
   refused(out + " --format html", 4, "profile.json: is missing");
+}
+
+TEST_CASE("lists of a profile that are none, or empty where no run leaves them so, are damage")
+{
+  const TemporaryFolder folder;
+  const std::string command = "profile " + folder.path().string();
+  const std::string rest = R"(, "ranks": [], "patches": {}, "longest_chain": null, "steps": 1, "step_s": 1})";
+  folder.write("profile.json", R"({"tasks": [])" + rest);
+  const std::string view = GENERATE("", " --phase stress", " --rank 0", " --patches", " --chain");
+
+  CHECK(tamp_with(command + view).exit_code == 4);
 }
 
 TEST_CASE("the page of a run says how it ended, how far to trust it, and where its time went")
