@@ -63,8 +63,18 @@ Engine::Engine(const PatchLayout& layout, std::vector<std::string> group_names, 
       compiled_(compiled_on(layout)),
       warehouse_(compiled_->pointers(), communicator.rank()),
       ready_(ready(*compiled_)),
-      profiler_(schedule(), bound(), executor.n_threads())
+      profiler_(schedule(), bound(), executor.n_threads()),
+      held_by_graph_(warehouse_.ledger().graph, 0)
 {
+  held_by_graph_.hold(static_cast<std::size_t>(std::max(beyond_ledger(), std::ptrdiff_t{0})));
+}
+
+/// What the heap has grown by since the start beyond what the ledger knows of: the graphs and what goes with them,
+/// which are too many small pieces to be counted one by one.
+std::ptrdiff_t Engine::beyond_ledger() const
+{
+  return static_cast<std::ptrdiff_t>(heap_bytes()) - static_cast<std::ptrdiff_t>(heap_at_start_) -
+         static_cast<std::ptrdiff_t>(warehouse_.ledger().total().current());
 }
 
 std::unique_ptr<CompiledGraphs> Engine::compiled_on(const PatchLayout& layout) const
@@ -151,6 +161,11 @@ void Engine::balance_if_due()
 
 void Engine::deal(const std::vector<int>& ranks)
 {
+  const std::size_t held = held_by_graph_.bytes();
+  const std::ptrdiff_t before = beyond_ledger();
+  const auto hold = [&] {
+    held_by_graph_.hold(held + static_cast<std::size_t>(std::max(beyond_ledger() - before, std::ptrdiff_t{0})));
+  };
   PatchLayout layout = compiled_->layout;
   layout.give_to_ranks(ranks, communicator_.size());
   auto compiled = compiled_on(layout);
@@ -158,8 +173,10 @@ void Engine::deal(const std::vector<int>& ranks)
   auto ready = this->ready(*compiled);
   ready->schedules.front().recording = schedule().recording;
   profiler_.follow(ready->schedules.front(), ready->bound.front());
+  hold();
   ready_ = std::move(ready);
   compiled_ = std::move(compiled);
+  held_by_graph_.hold(held);
 }
 
 CheckpointHeader Engine::header(const std::string& fingerprint) const

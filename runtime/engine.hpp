@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "runtime/data/heap.hpp"
 #include "runtime/execute/step_graphs.hpp"
 #include "runtime/profile/profiler.hpp"
 #include "runtime/ranks/load_balance.hpp"
@@ -64,7 +65,10 @@ class Engine
   /// The profile of the steps so far on all ranks.
   Profile profile() const { return profiler_.profile(communicator_); }
   /// Which steps are traced, before the first of them; none if it was not called.
-  void trace_steps(const TraceChoice& choice) { profiler_.trace_steps(choice, communicator_); }
+  void trace_steps(const TraceChoice& choice)
+  {
+    profiler_.trace_steps(choice, warehouse_.ledger().trace, communicator_);
+  }
   /// The trace of those steps; the first rank has it.
   Trace trace() const { return profiler_.trace(communicator_); }
   /// Off only to measure what recording costs.
@@ -86,11 +90,13 @@ class Engine
   Warehouse& warehouse() { return warehouse_; }
   const Warehouse& warehouse() const { return warehouse_; }
   const TaskGraph& graph(std::size_t i = 0) const { return compiled_->graphs[i]; }
+  std::vector<const TaskGraph*> graphs() const { return compiled_->pointers(); }
   BoundGraph& bound(std::size_t i = 0) { return ready_->bound[i]; }
   Schedule& schedule(std::size_t i = 0) { return ready_->schedules[i]; }
 
  private:
   Progress& now();
+  std::ptrdiff_t beyond_ledger() const;
   std::unique_ptr<CompiledGraphs> compiled_on(const PatchLayout& layout) const;
   std::unique_ptr<ReadyGraphs> ready(const CompiledGraphs& compiled);
   void run_step(const Step& step);
@@ -98,6 +104,8 @@ class Engine
   void balance_if_due();
   CheckpointHeader header(const std::string& fingerprint) const;
 
+  /// What the program had before.
+  std::size_t heap_at_start_ = heap_bytes();
   std::vector<std::string> group_names_;
   std::vector<GraphTasks> tasks_;
   Executor& executor_;
@@ -109,6 +117,7 @@ class Engine
   std::unique_ptr<ReadyGraphs> ready_;
   Profiler profiler_;
   LoadBalance balance_;
+  LedgerHold held_by_graph_;
   unsigned requests_ = 0;
   unsigned asked_ = 0;
 };

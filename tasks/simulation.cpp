@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "runtime/warehouse/storage_forecast.hpp"
 #include "tasks/graphs.hpp"
 #include "tasks/report/field_columns.hpp"
 #include "tasks/report/state_digest.hpp"
@@ -36,20 +37,23 @@ class SimulationOf : public Simulation
       : Simulation(std::move(given), std::move(executor)), method_(scene_)
   {
     const BodyParticles<D> particles(scene_, runtime::PatchLayout(scene_.grid, scene_.n_patches));
-    engine_ = std::make_unique<runtime::Engine>(dealt(scene_, particles.per_patch(), communicator.size()),
-                                                material_names(scene_), graphs_of(method_), *executor_, communicator);
+    const std::vector<std::size_t> n_particles = particles.counts();
+    engine_ = std::make_unique<runtime::Engine>(dealt(scene_, n_particles, communicator.size()), material_names(scene_),
+                                                graphs_of(method_), *executor_, communicator);
     particles.store(warehouse());
     make_rigid_bodies(particles);
     warehouse().global_state(refused_steps) = {};
     warehouse().global_state(monitor_records) = {};
     warehouse().global_state(longest_step) = initial_stable_step(method_, particles);
     warehouse().global_state(energy_ledger).elastic = particles.stored_energy();
-    forecast_bytes_ = communicator.sum(warehouse().forecast_bytes());
+    forecast_bytes_ = static_cast<std::size_t>(runtime::forecast_bytes(engine_->graphs(), n_particles));
   }
 
   runtime::FieldCopy fields(const FieldChoice& choice, bool with_nodes) override
   {
-    return copy_of_fields(method_, choice, with_nodes, warehouse(), *executor_, communicator());
+    runtime::FieldCopy copy = copy_of_fields(method_, choice, with_nodes, warehouse(), *executor_, communicator());
+    copy.held = runtime::LedgerHold(warehouse().ledger().copies, copy.n_bytes());
+    return copy;
   }
 
  private:

@@ -15,7 +15,7 @@ template <int D>
 runtime::PatchLayout layout_on_ranks(const Scene& scene, int n_ranks)
 {
   const BodyParticles<D> particles(scene, runtime::PatchLayout(scene.grid, scene.n_patches));
-  return dealt(scene, particles.per_patch(), n_ranks);
+  return dealt(scene, particles.counts(), n_ranks);
 }
 
 /// The bodies know the method, which ends here.
@@ -30,9 +30,13 @@ runtime::TaskGraph without_bodies(const Scene& scene, const runtime::PatchLayout
 
 }  // namespace
 
-runtime::PatchLayout dealt(const Scene& scene, const std::vector<double>& particles_per_patch, int n_ranks)
+runtime::PatchLayout dealt(const Scene& scene, const std::vector<std::size_t>& n_particles, int n_ranks)
 {
   runtime::PatchLayout layout(scene.grid, scene.n_patches);
+  std::vector<double> particles_per_patch(static_cast<std::size_t>(layout.size()), 0);
+  for (std::size_t k = 0; k < n_particles.size(); ++k) {
+    particles_per_patch[k / scene.materials.size()] += static_cast<double>(n_particles[k]);
+  }
   const std::vector<int> order = runtime::curve_order(scene.n_patches);
   layout.give_to_ranks(runtime::deal_patches(order, particles_per_patch, n_ranks), n_ranks);
   return layout;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <string>
 #include <vector>
 
@@ -9,8 +10,8 @@
 namespace tamp::tasks
 {
 
-/// The patches dealt to the ranks by the particles that start on them.
-runtime::PatchLayout dealt(const Scene& scene, const std::vector<double>& particles_per_patch, int n_ranks);
+/// The patches dealt to the ranks by the particles that start on them, given by patch, then material.
+runtime::PatchLayout dealt(const Scene& scene, const std::vector<std::size_t>& n_particles, int n_ranks);
 
 std::vector<std::string> material_names(const Scene& scene);
 

@@ -49,7 +49,7 @@ struct Argument {
   static auto one(const BoundArgument& bound, std::size_t group)
   {
     const Field& field = *bound.fields[group];
-    auto* const first = reinterpret_cast<Value*>(field.buffer(bound.buffer).data());
+    auto* const first = reinterpret_cast<Value*>(field.values(bound.buffer));
     if constexpr (L::centre == Centring::particle) {
       return std::span<Value>(first, *field.n_particles);
     } else {

@@ -18,7 +18,7 @@ class Buffer
   static constexpr std::size_t alignment = 64;
 
   Buffer() = default;
-  Buffer(MemoryLedger& ledger, LedgerEntry& entry) : ledger_(&ledger), entry_(&entry) {}
+  explicit Buffer(LedgerEntry& entry) : entry_(&entry) {}
   Buffer(Buffer&& other) noexcept { swap(other); }
   Buffer& operator=(Buffer&& other) noexcept
   {
@@ -51,7 +51,6 @@ class Buffer
   {
     std::swap(data_, other.data_);
     std::swap(capacity_, other.capacity_);
-    std::swap(ledger_, other.ledger_);
     std::swap(entry_, other.entry_);
   }
 
@@ -65,18 +64,13 @@ class Buffer
       if (bytes > capacity_) std::memset(fresh + capacity_, 0, bytes - capacity_);
     }
     if (data_ != nullptr) ::operator delete (data_, std::align_val_t{alignment});
-    if (ledger_ != nullptr) {
-      const auto change = static_cast<std::ptrdiff_t>(bytes) - static_cast<std::ptrdiff_t>(capacity_);
-      ledger_->total().add(change);
-      entry_->add(change);
-    }
+    if (entry_ != nullptr) entry_->add(static_cast<std::ptrdiff_t>(bytes) - static_cast<std::ptrdiff_t>(capacity_));
     data_ = fresh;
     capacity_ = bytes;
   }
 
   std::byte* data_ = nullptr;
   std::size_t capacity_ = 0;
-  MemoryLedger* ledger_ = nullptr;
   LedgerEntry* entry_ = nullptr;
 };
 

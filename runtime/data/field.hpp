@@ -3,6 +3,7 @@
 #include <array>
 #include <cstddef>
 #include <cstring>
+#include <memory>
 #include <vector>
 
 #include "runtime/data/buffer.hpp"
@@ -32,6 +33,11 @@ struct Field {
   bool computed = false;
   bool accumulated = false;
 
+  /// Stored from when it is first written to: a node or cell field that is no state, or a patch's part of a reduction.
+  bool on_demand = false;
+  /// What a node or cell field is read from until then.
+  const Buffer* zeros = nullptr;
+
   Buffer previous_buffer;
   Buffer current_buffer;
   /// Sums of this patch alone, before its neighbours' parts are added.
@@ -51,33 +57,53 @@ struct Field {
   }
   Buffer& buffer(FieldBuffer which) { return const_cast<Buffer&>(std::as_const(*this).buffer(which)); }
 
-  /// Whether all values of a buffer are known to be zero, but for what was filled in from neighbours. So it is at
-  /// first; of state, which the host may set, and of what is not on the grid it is never known.
-  bool is_zero(FieldBuffer which) const
+  /// Where to read the values of a buffer.
+  std::byte* values(FieldBuffer which) const
   {
-    return is_on_grid(label->centring()) && !state && !written_[static_cast<std::size_t>(which)];
+    const Buffer& own = buffer(which);
+    return own.data() == nullptr && zeros != nullptr ? zeros->data() : own.data();
   }
+  /// Where to write them. To be called by whoever does.
+  std::byte* written_values(FieldBuffer which)
+  {
+    if (on_demand) buffer(which).reserve(n_bytes());
+    written_[static_cast<std::size_t>(which)] = true;
+    if (written_rows_ != nullptr) rows_of(which).clear();
+    idle_ = false;
+    return buffer(which).data();
+  }
+  /// Where to write a halo around them: that changes nothing about the values themselves.
+  std::byte* halo_values(FieldBuffer which)
+  {
+    if (on_demand) buffer(which).reserve(n_bytes());
+    return buffer(which).data();
+  }
+  bool is_stored(FieldBuffer which) const { return !on_demand || buffer(which).data() != nullptr; }
+
+  /// Whether all values of a buffer are known to be zero, but for what was filled in from neighbours; or a part of a
+  /// reduction to be neutral. So it is at first; of what is not stored on demand it is never known.
+  bool is_zero(FieldBuffer which) const { return on_demand && !written_[static_cast<std::size_t>(which)]; }
   void make_zero(FieldBuffer which)
   {
     if (is_zero(which)) return;
     std::byte* const first = buffer(which).data();
-    const std::vector<bool>& rows = written_rows_[static_cast<std::size_t>(which)];
-    if (rows.empty()) std::memset(first, 0, n_bytes());
-    for (std::size_t row = 0; row < rows.size(); ++row) {
-      if (rows[row]) std::memset(first + row * row_bytes(), 0, row_bytes());
+    if (label->centring() == Centring::reduction) {
+      label->reduction()->reset(first);
+    } else if (written_rows_ == nullptr || rows_of(which).empty()) {
+      std::memset(first, 0, n_bytes());
+    } else {
+      const std::vector<bool>& rows = rows_of(which);
+      for (std::size_t row = 0; row < rows.size(); ++row) {
+        if (rows[row]) std::memset(first + row * row_bytes(), 0, row_bytes());
+      }
     }
     written_[static_cast<std::size_t>(which)] = false;
-  }
-  /// To be called by whoever writes into a buffer.
-  void note_written(FieldBuffer which)
-  {
-    written_[static_cast<std::size_t>(which)] = true;
-    written_rows_[static_cast<std::size_t>(which)].clear();
   }
   /// The rows of a written buffer that may not be zero, from who knows all of them: none at first, to be set.
   std::vector<bool>& only_written_rows(FieldBuffer which)
   {
-    std::vector<bool>& rows = written_rows_[static_cast<std::size_t>(which)];
+    if (written_rows_ == nullptr) written_rows_ = std::make_unique<std::array<std::vector<bool>, 2>>();
+    std::vector<bool>& rows = rows_of(which);
     rows.assign(n_rows(), false);
     return rows;
   }
@@ -86,13 +112,16 @@ struct Field {
   void release()
   {
     for (Buffer* buffer : {&previous_buffer, &current_buffer, &part_buffer}) buffer->release();
+    written_rows_ = nullptr;
     written_ = {};
   }
 
-  /// Makes room for what `only_written_rows` gives, once the box is known, so that no step asks for it.
-  void reserve_rows()
+  /// Gives back what is stored on demand if nothing has been written to it since the last call.
+  void release_if_idle()
   {
-    for (std::vector<bool>& rows : written_rows_) rows.reserve(n_rows());
+    const bool is_zero_now = is_zero(FieldBuffer::current) && is_zero(FieldBuffer::part);
+    if (is_zero_now && idle_) release();
+    idle_ = is_zero_now;
   }
 
   /// Rows of nodes or cells along the first axis, as they lie in a buffer.
@@ -110,9 +139,12 @@ struct Field {
   std::size_t n_bytes() const { return n_values() * label->value_bytes(); }
 
  private:
+  std::vector<bool>& rows_of(FieldBuffer which) { return (*written_rows_)[which == FieldBuffer::part ? 1 : 0]; }
+
   std::array<bool, 3> written_{};
-  /// Empty where any row may have been.
-  std::array<std::vector<bool>, 3> written_rows_;
+  bool idle_ = false;
+  /// Of current values and of parts; empty where any row may have been written.
+  std::unique_ptr<std::array<std::vector<bool>, 2>> written_rows_;
 };
 
 }  // namespace tamp::runtime

@@ -32,6 +32,7 @@ BoundGraph::BoundGraph(const TaskGraph& graph, Warehouse& warehouse, const Commu
     places_.push_back(n_local_patches_);
     if (patch.rank == rank_) ++n_local_patches_;
   }
+  bound_.reserve(graph.instances().size());
   for (const Instance& instance : graph.instances()) {
     bound_.push_back(bind(instance));
     if (instance.kind == InstanceKind::send_particles && migration_ == nullptr) {
@@ -217,11 +218,11 @@ void BoundGraph::prepare(const Instance& instance, const Bound& bound)
     for (Field* field : fields_of(bound.arguments[a])) {
       if (access.mode == Mode::read) continue;
       if (bound.begins_part[a]) field->make_zero(FieldBuffer::part);
-      if (access.mode == Mode::reduce) access.label->reduction()->reset(field->current_buffer.data());
+      std::byte* const values = field->written_values(bound.arguments[a].buffer);
+      if (access.mode == Mode::reduce) access.label->reduction()->reset(values);
       if (checked_build && access.mode == Mode::compute && field->n_bytes() > 0) {
-        std::memset(field->buffer(FieldBuffer::current).data(), 0xff, field->n_bytes());
+        std::memset(values, 0xff, field->n_bytes());
       }
-      field->note_written(bound.arguments[a].buffer);
     }
   }
 }
@@ -259,11 +260,7 @@ void BoundGraph::make_nothing(const Instance& instance, const Bound& bound)
     const bool stays = access.mode == Mode::read || access.mode == Mode::update;
     if (stays || access.label->centring() == Centring::particle) continue;
     for (Field* field : fields_of(bound.arguments[a])) {
-      if (access.mode == Mode::reduce) {
-        access.label->reduction()->reset(field->current_buffer.data());
-      } else if (access.mode != Mode::accumulate || bound.begins_part[a]) {
-        field->make_zero(bound.arguments[a].buffer);
-      }
+      if (access.mode != Mode::accumulate || bound.begins_part[a]) field->make_zero(bound.arguments[a].buffer);
     }
   }
 }
@@ -286,6 +283,7 @@ void BoundGraph::combine(const Bound& bound)
   const ReductionOperations& reduction = *whole.label->reduction();
   reduction.reset(whole.current_buffer.data());
   for (std::size_t k = 1; k < bound.fields.size(); ++k) {
+    if (bound.fields[k]->is_zero(FieldBuffer::current)) continue;
     reduction.combine(whole.current_buffer.data(), bound.fields[k]->current_buffer.data());
   }
 }

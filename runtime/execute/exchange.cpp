@@ -76,6 +76,7 @@ void Exchange::open_line(Line& line, int message)
   const bool incoming = m.to_rank == communicator_.rank();
   if (!incoming && m.from_rank != communicator_.rank()) return;
   line.message = &m;
+  line.held = LedgerHold(warehouse_.ledger().messages, 0);
   for (const MessagePart& part : m.parts) {
     line.fields.push_back(&warehouse_.field(*part.label, part.from_patch, part.group));
   }
@@ -86,6 +87,7 @@ void Exchange::open_line(Line& line, int message)
   }
   // Before each part, whether all of it is zero and left out.
   line.bytes.resize(whole_units(header_bytes + m.parts.size() + m.bytes));
+  line.held.hold(line.bytes.capacity());
   const int n = in_units(line.bytes.size());
   if (incoming) {
     line.incoming_request = requests_.size();
@@ -153,6 +155,7 @@ void Exchange::pack(Line& line)
     line.bytes.resize(header_bytes);
     for (const MessagePart& part : m.parts) migration_->write_parcel(part, line.bytes);
     line.bytes.resize(whole_units(line.bytes.size()));
+    line.held.hold(line.bytes.capacity());
     return;
   }
   std::byte* at = line.bytes.data() + header_bytes;
@@ -177,7 +180,6 @@ void Exchange::unpack(const Line& line)
     if (*at++ != std::byte{0}) {
       field.make_zero(buffer);
     } else {
-      field.note_written(buffer);
       at = copy_in(field, buffer, m.parts[k].box, at);
     }
   }
@@ -210,6 +212,7 @@ void Exchange::probe(int message, std::vector<int>& arrived, std::uint64_t idle_
   int n = 0;
   MPI_Get_count(&status, unit_, &n);
   line.bytes.resize(static_cast<std::size_t>(n) * unit_bytes);
+  line.held.hold(line.bytes.capacity());
   MPI_Mrecv(line.bytes.data(), n, unit_, &handle, MPI_STATUS_IGNORE);
   line.open = false;
   take(message, arrived, idle_since);

@@ -77,6 +77,7 @@ class Exchange
     std::vector<Field*> fields;
     /// When it was sent [ticks], then the data.
     std::vector<std::byte> bytes;
+    LedgerHold held;
     /// The request of what is sent.
     MPI_Request request = MPI_REQUEST_NULL;
     /// For what comes in with a fixed length, its place in `requests_`.

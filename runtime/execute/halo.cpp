@@ -101,13 +101,13 @@ bool sum_halo(const BoundHalo& halo)
 {
   Field& to = *halo.to;
   to.make_zero(FieldBuffer::current);
-  std::byte* const sums = to.current_buffer.data();
+  std::byte* sums = nullptr;
   const AddValues add = to.label->add();
   std::vector<bool>* rows = nullptr;
   for (const BoundHalo::Part& part : halo.parts) {
     if (part.from->is_zero(FieldBuffer::part)) continue;
     if (rows == nullptr) {
-      to.note_written(FieldBuffer::current);
+      sums = to.written_values(FieldBuffer::current);
       rows = &to.only_written_rows(FieldBuffer::current);
     }
     // This patch's own part, if all of it passes by here.
@@ -142,9 +142,12 @@ BoundHalo bind_halo_fill(Warehouse& warehouse, const Label& label, int patch, in
 
 void fill_halo(const BoundHalo& halo, FieldBuffer buffer)
 {
-  std::byte* const to = halo.to->buffer(buffer).data();
+  const bool is_stored = std::any_of(halo.parts.begin(), halo.parts.end(),
+                                     [&](const BoundHalo::Part& part) { return part.from->is_stored(buffer); });
+  if (!is_stored && !halo.to->is_stored(buffer)) return;
+  std::byte* const to = halo.to->halo_values(buffer);
   for (const BoundHalo::Part& part : halo.parts) {
-    const std::byte* const values = part.from->buffer(buffer).data();
+    const std::byte* const values = part.from->values(buffer);
     for_each_row(*halo.to, part, [&](std::size_t to_offset, std::size_t from_offset, std::size_t bytes) {
       std::memcpy(to + to_offset, values + from_offset, bytes);
     });
@@ -153,7 +156,7 @@ void fill_halo(const BoundHalo& halo, FieldBuffer buffer)
 
 std::byte* copy_out(const Field& field, FieldBuffer buffer, const IndexBox& box, std::byte* to)
 {
-  const std::byte* values = field.buffer(buffer).data();
+  const std::byte* values = field.values(buffer);
   if (field.label->centring() == Centring::reduction) return std::copy_n(values, field.n_bytes(), to);
   for_each_row(box, [&](const Index& i) { to = std::copy_n(values + offset_of(field, i), row_bytes(field, box), to); });
   return to;
@@ -161,7 +164,7 @@ std::byte* copy_out(const Field& field, FieldBuffer buffer, const IndexBox& box,
 
 const std::byte* copy_in(Field& field, FieldBuffer buffer, const IndexBox& box, const std::byte* from)
 {
-  std::byte* values = field.buffer(buffer).data();
+  std::byte* const values = field.written_values(buffer);
   const auto take = [&](std::byte* to, std::size_t n) {
     std::memcpy(to, from, n);
     from += n;

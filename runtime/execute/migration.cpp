@@ -74,7 +74,7 @@ Migration::Migration(Warehouse& warehouse, const TaskDeclaration& declaration)
       auto& parcels = arrivals_[place(patch.id, g)];
       parcels.resize(patch.neighbours.size());
       for (std::size_t k = 0; k < parcels.size(); ++k) {
-        parcels[k].buffer = Buffer(warehouse.ledger(), entry);
+        parcels[k].buffer = Buffer(entry);
         box(patch.neighbours[k], g).to_patch[patch.id] = &parcels[k];
       }
     }

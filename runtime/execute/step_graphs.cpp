@@ -7,7 +7,9 @@ CompiledGraphs::CompiledGraphs(const PatchLayout& given_layout, const std::vecto
                                const std::vector<GraphTasks>& tasks)
     : layout(given_layout)
 {
-  for (const GraphTasks& graph : tasks) graphs.emplace_back(graph.tasks, layout, group_names, graph.host);
+  for (const GraphTasks& graph : tasks) {
+    graphs.emplace_back(graph.tasks, layout, group_names, graph.host).drop_edges();
+  }
 }
 
 std::vector<const TaskGraph*> CompiledGraphs::pointers() const

@@ -209,4 +209,30 @@ std::string TaskGraph::name(const Instance& instance) const
   return declared;
 }
 
+std::vector<LabelUse> label_uses(std::span<const TaskGraph* const> graphs)
+{
+  std::vector<LabelUse> merged;
+  for (const TaskGraph* graph : graphs) {
+    for (const LabelUse& use : graph->label_uses()) {
+      const auto same = std::find_if(merged.begin(), merged.end(),
+                                     [&](const LabelUse& m) { return m.label == use.label && m.group == use.group; });
+      if (same == merged.end()) {
+        merged.push_back(use);
+      } else {
+        same->state |= use.state;
+        same->computed |= use.computed;
+        same->accumulated |= use.accumulated;
+      }
+    }
+  }
+  return merged;
+}
+
+int storage_halo(std::span<const TaskGraph* const> graphs)
+{
+  int halo = 0;
+  for (const TaskGraph* graph : graphs) halo = std::max(halo, graph->storage_halo());
+  return halo;
+}
+
 }  // namespace tamp::runtime

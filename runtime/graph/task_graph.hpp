@@ -121,7 +121,9 @@ class TaskGraph
   int n_groups() const { return static_cast<int>(group_names_.size()); }
   const std::vector<TaskDeclaration>& declarations() const { return declarations_; }
   const std::vector<Instance>& instances() const { return instances_; }
+  /// Why instances wait for their predecessors: to be looked at; a run does without.
   const std::vector<Edge>& edges() const { return edges_; }
+  void drop_edges() { std::vector<Edge>().swap(edges_); }
   const std::vector<Message>& messages() const { return messages_; }
   const std::vector<LabelUse>& label_uses() const { return label_uses_; }
   /// The widest halo that any task asks for; node and cell fields are stored with it.
@@ -146,5 +148,10 @@ class TaskGraph
   std::vector<LabelUse> label_uses_;
   int storage_halo_ = 0;
 };
+
+/// One use of each label and group over all graphs: state and computed where any graph says so.
+std::vector<LabelUse> label_uses(std::span<const TaskGraph* const> graphs);
+/// The widest halo of all graphs.
+int storage_halo(std::span<const TaskGraph* const> graphs);
 
 }  // namespace tamp::runtime

@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -110,6 +111,8 @@ struct Profile {
   std::uint64_t message_bytes = 0;
   double message_s = 0;
   double message_wait_s = 0;
+  /// By the names of labels, the task of the step that makes them.
+  std::map<std::string, std::string> makers;
 };
 
 }  // namespace tamp::runtime

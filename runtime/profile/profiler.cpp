@@ -11,6 +11,19 @@ namespace tamp::runtime
 namespace
 {
 
+/// For each label the first task that makes it.
+std::map<std::string, std::string> makers_of(const TaskGraph& graph)
+{
+  std::map<std::string, std::string> makers;
+  for (const TaskDeclaration& task : graph.declarations()) {
+    for (const Access& access : task.accesses) {
+      const bool makes = access.mode != Mode::read && access.mode != Mode::update;
+      if (makes) makers.emplace(access.label->name(), task.name);
+    }
+  }
+  return makers;
+}
+
 /// Of a task its phase, as far as it says one; of the runtime's own work what that is.
 std::string category(const TaskGraph& graph, const Instance& instance)
 {
@@ -76,8 +89,9 @@ void Profiler::follow(const Schedule& schedule, BoundGraph& graph)
   trace_.follow(graph, row_of_instance_);
 }
 
-void Profiler::trace_steps(const TraceChoice& choice, const Communicator& communicator)
+void Profiler::trace_steps(const TraceChoice& choice, LedgerEntry& memory, const Communicator& communicator)
 {
+  held_by_trace_ = LedgerHold(memory, 0);
   trace_.choose(choice);
   if (choice.kind != TraceChoice::Kind::none) clock_at_begin_ = ask_first_rank(communicator);
 }
@@ -126,6 +140,7 @@ void Profiler::add_durations(const StepFacts& facts)
   if (last <= first) last = first = last_end_;
   const double wall = static_cast<double>(last - first) * rate_.seconds_per_tick();
   trace_.add_step(facts, records, first, last, static_cast<float>(wall));
+  held_by_trace_.hold(trace_.n_bytes());
   if (last == first) return;
   steps_.ticks += last - first;
   steps_.over_time.of_part[part] += last - first;
@@ -231,6 +246,7 @@ Profile Profiler::profile(const Communicator& communicator) const
   add_steps(profile, communicator.gather_value(own), second);
   profile.waits = waits(communicator, second);
   replay_mean_step(profile, communicator, second);
+  profile.makers = makers_of(graph_->graph());
   return profile;
 }
 

@@ -27,7 +27,7 @@ class Profiler
 
   /// Keeps the chosen steps instance by instance, as many as TraceRecorder has room for, and compares the clocks of the
   /// ranks. To be called before the first step. Collective.
-  void trace_steps(const TraceChoice& choice, const Communicator& communicator = {});
+  void trace_steps(const TraceChoice& choice, LedgerEntry& memory, const Communicator& communicator = {});
   /// Goes on with the same tasks on patches dealt anew.
   void follow(const Schedule& schedule, BoundGraph& graph);
   /// How many steps there are from one of which processor time is taken to the next; by default 32, as asking the
@@ -105,6 +105,7 @@ class Profiler
   long n_processor_times_ = 0;
   std::vector<double> patch_costs_;
   TraceRecorder trace_;
+  LedgerHold held_by_trace_;
   ClockPair clock_at_begin_;
   long n_steps_ = 0;
   std::uint64_t last_end_ = 0;

@@ -79,17 +79,31 @@ nlohmann::json to_json(const std::vector<PatchStatistics>& patches)
   return list;
 }
 
+/// The most of each label, what each had when all together had the most, and that by the tasks that make the labels.
+nlohmann::json to_json(const MemoryLedger& ledger, const std::map<std::string, std::string>& makers,
+                       const Communicator& communicator)
+{
+  nlohmann::json labels = nlohmann::json::object(), at_high_water = labels;
+  std::map<std::string, std::uint64_t> tasks;
+  for (const LedgerEntry& entry : ledger.entries()) {
+    const std::uint64_t then = communicator.sum(entry.at_high_water());
+    labels[entry.name()] = communicator.sum(entry.peak());
+    at_high_water[entry.name()] = then;
+    const auto maker = makers.find(entry.name());
+    tasks[maker == makers.end() ? "(no task of a step)" : maker->second] += then;
+  }
+  return {{"labels", labels},
+          {"at_high_water", at_high_water},
+          {"tasks", tasks},
+          {"total", communicator.sum(ledger.total().peak())}};
+}
+
 }  // namespace
 
 nlohmann::json to_json(const Profile& profile, const MemoryLedger& ledger, const Communicator& communicator)
 {
   nlohmann::json waits = nlohmann::json::array();
   for (const Wait& w : profile.waits) waits.push_back({{"task", w.task}, {"waits_for", w.cause}, {"s", w.total_s}});
-  nlohmann::json labels = nlohmann::json::object();
-  for (const LedgerEntry& entry : ledger.entries()) {
-    labels[entry.name()] = communicator.sum(static_cast<std::uint64_t>(entry.peak()));
-  }
-  const std::size_t total = communicator.sum(static_cast<std::uint64_t>(ledger.total().peak()));
   return {{"tasks", tasks_of_run(profile.tasks)},
           {"ranks", to_json(profile.ranks)},
           {"patches", to_json(profile.patches)},
@@ -109,7 +123,7 @@ nlohmann::json to_json(const Profile& profile, const MemoryLedger& ledger, const
           {"message_bytes", profile.message_bytes},
           {"message_s", profile.message_s},
           {"message_wait_s", profile.message_wait_s},
-          {"memory", {{"labels", labels}, {"total", total}}}};
+          {"memory", to_json(ledger, profile.makers, communicator)}};
 }
 
 }  // namespace tamp::runtime

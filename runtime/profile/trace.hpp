@@ -67,6 +67,7 @@ struct TraceTape {
   std::vector<TracedMessage> messages;
 
   void clear();
+  std::size_t n_bytes() const;
 };
 
 /// Steps of all ranks, task by task.

@@ -16,6 +16,12 @@ void TraceTape::clear()
   messages.clear();
 }
 
+std::size_t TraceTape::n_bytes() const
+{
+  return steps.capacity() * sizeof(TracedStep) + tasks.capacity() * sizeof(TracedTask) +
+         messages.capacity() * sizeof(TracedMessage);
+}
+
 void TraceRecorder::follow(const BoundGraph& graph, const std::vector<std::size_t>& row_of_instance)
 {
   graph_ = &graph;

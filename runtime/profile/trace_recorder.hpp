@@ -43,6 +43,7 @@ class TraceRecorder
   const TraceTape& tape(const Communicator& communicator) const;
   /// How many steps that are.
   std::size_t n_steps() const;
+  std::size_t n_bytes() const { return kept_.n_bytes() + last_.n_bytes(); }
 
  private:
   bool is_wanted(const StepFacts& facts);

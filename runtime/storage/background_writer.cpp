@@ -1,6 +1,5 @@
 #include "runtime/storage/background_writer.hpp"
 
-#include <algorithm>
 #include <chrono>
 #include <utility>
 
@@ -19,22 +18,21 @@ BackgroundWriter::~BackgroundWriter()
   thread_.join();
 }
 
-void BackgroundWriter::wait_for(const std::string& kind)
+void BackgroundWriter::wait()
 {
-  wait_until([&] { return !has_job_of(kind); });
+  const auto start = std::chrono::steady_clock::now();
+  std::unique_lock lock(mutex_);
+  changed_.wait(lock, [this] { return jobs_.empty(); });
+  waited_ += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  throw_failure();
 }
 
-void BackgroundWriter::wait_for_all()
-{
-  wait_until([&] { return jobs_.empty(); });
-}
-
-void BackgroundWriter::add(const std::string& kind, Job job)
+void BackgroundWriter::add(Job job)
 {
   {
     const std::lock_guard lock(mutex_);
     throw_failure();
-    jobs_.push_back({kind, std::move(job)});
+    jobs_.push_back(std::move(job));
   }
   changed_.notify_all();
 }
@@ -43,21 +41,6 @@ bool BackgroundWriter::has_failed() const
 {
   const std::lock_guard lock(mutex_);
   return failed_;
-}
-
-template <class Condition>
-void BackgroundWriter::wait_until(const Condition& condition)
-{
-  const auto start = std::chrono::steady_clock::now();
-  std::unique_lock lock(mutex_);
-  changed_.wait(lock, condition);
-  waited_ += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  throw_failure();
-}
-
-bool BackgroundWriter::has_job_of(const std::string& kind) const
-{
-  return std::any_of(jobs_.begin(), jobs_.end(), [&](const Waiting& waiting) { return waiting.kind == kind; });
 }
 
 /// Once: whoever has heard of it may wait for the rest.
@@ -72,7 +55,7 @@ void BackgroundWriter::work()
   while (true) {
     changed_.wait(lock, [this] { return leave_ || !jobs_.empty(); });
     if (jobs_.empty()) return;
-    Job job = std::move(jobs_.front().job);
+    Job job = std::move(jobs_.front());
     lock.unlock();
     std::exception_ptr failure;
     try {

@@ -5,7 +5,6 @@
 #include <exception>
 #include <functional>
 #include <mutex>
-#include <string>
 #include <thread>
 
 namespace tamp::runtime
@@ -28,33 +27,23 @@ class BackgroundWriter
   BackgroundWriter(const BackgroundWriter&) = delete;
   BackgroundWriter& operator=(const BackgroundWriter&) = delete;
 
-  /// Waits until no job of this kind is left. Whoever copies data for a job waits first, and so there is never more
-  /// than one copy of a kind.
-  void wait_for(const std::string& kind);
-  void wait_for_all();
+  /// Waits until no job is left. Whoever copies data for a job waits first, and so there is never more than one copy.
+  void wait();
   /// Leaves a job to be done.
-  void add(const std::string& kind, Job job);
+  void add(Job job);
   /// Whether a job has thrown. Costs next to nothing.
   bool has_failed() const;
   /// How long callers have waited here so far [s].
   double waited() const { return waited_; }
 
  private:
-  struct Waiting {
-    std::string kind;
-    Job job;
-  };
-
-  template <class Condition>
-  void wait_until(const Condition& condition);
-  bool has_job_of(const std::string& kind) const;
   void work();
   void throw_failure();
 
   mutable std::mutex mutex_;
   std::condition_variable changed_;
   /// The first is being done.
-  std::deque<Waiting> jobs_;
+  std::deque<Job> jobs_;
   std::exception_ptr failure_;
   bool failed_ = false;
   bool leave_ = false;

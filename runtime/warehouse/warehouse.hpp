@@ -1,9 +1,8 @@
 #pragma once
 
 #include <deque>
-#include <map>
 #include <span>
-#include <tuple>
+#include <unordered_map>
 #include <utility>
 #include <vector>
 
@@ -24,8 +23,9 @@ class Warehouse
 {
  public:
   /// Makes storage for every label that `graphs` use. The first graph is the step that computes the state; others may
-  /// read the state and make results of their own. Node and cell fields exist from here on, particle fields grow with
-  /// `set_n_particles`.
+  /// read the state and make results of their own. Particle fields grow with `set_n_particles`; node and cell fields
+  /// that are no state are stored on demand: from when a task first writes to them until they have been zero for a
+  /// while. On most patches of a sparse scene they never are.
   explicit Warehouse(std::span<const TaskGraph* const> graphs, int rank = 0);
   Warehouse(const Warehouse&) = delete;
   Warehouse& operator=(const Warehouse&) = delete;
@@ -39,11 +39,6 @@ class Warehouse
   bool is_local(const Patch& patch) const { return patch.rank == rank_; }
   MemoryLedger& ledger() { return ledger_; }
   const MemoryLedger& ledger() const { return ledger_; }
-  /// Bytes that the fields need for the particles there are, before any growth by migration.
-  std::size_t forecast_bytes() const;
-  /// Bytes of all patches, for so many particles of each group, before anything is stored.
-  static double forecast_bytes(std::span<const TaskGraph* const> graphs, std::span<const std::size_t> n_particles);
-
   /// Particles on this rank's patches; 0 for others.
   std::size_t n_particles(int patch, int group) const { return count(patch, group); }
   std::size_t n_particles(int group) const;
@@ -79,7 +74,7 @@ class Warehouse
   GridView<const T> grid_result(const TypedLabel<T, C>& label, int patch, int group)
   {
     Field& f = field(label, patch, group);
-    return {reinterpret_cast<const T*>(f.current_buffer.data()), f.box, f.box.strides()};
+    return {reinterpret_cast<const T*>(f.values(FieldBuffer::current)), f.box, f.box.strides()};
   }
   template <class T, Centring C>
   const T& result(const TypedLabel<T, C>& label)
@@ -117,7 +112,12 @@ class Warehouse
 
  private:
   void add_field(const LabelUse& use, int patch, int halo);
+  void store_on_demand(Field& field);
   void reserve(Field& field) const;
+  std::size_t place(int patch, int group) const
+  {
+    return static_cast<std::size_t>((patch + 1) * (n_groups_ + 1) + group + 1);
+  }
   void release(int patch);
   void send(int patch, int rank, const Communicator& communicator);
   void receive(int patch, int rank, const Communicator& communicator);
@@ -128,7 +128,14 @@ class Warehouse
   int n_groups_;
   MemoryLedger ledger_;
   std::deque<Field> fields_;
-  std::map<std::tuple<const Label*, int, int>, Field*> lookup_;
+  /// Those that a step makes anew from the last, and those that are stored on demand.
+  std::vector<Field*> changing_;
+  std::vector<Field*> on_demand_;
+  /// As many as the largest of these has.
+  Buffer zeros_;
+  long n_advances_ = 0;
+  /// By label, then patch and group, each from -1.
+  std::unordered_map<const Label*, std::vector<Field*>> lookup_;
   std::vector<std::size_t> counts_;
   std::vector<std::vector<Field*>> particle_fields_;
   /// All fields of each patch, but those of the rank as a whole.

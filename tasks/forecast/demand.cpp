@@ -6,9 +6,11 @@
 #include <utility>
 #include <vector>
 
-#include "runtime/warehouse/warehouse.hpp"
+#include "runtime/data/heap.hpp"
+#include "runtime/warehouse/storage_forecast.hpp"
 #include "tasks/graphs.hpp"
 #include "tasks/report/field_columns.hpp"
+#include "tasks/set_up/fill_bodies.hpp"
 #include "tasks/step_graph.hpp"
 
 namespace tamp::tasks
@@ -60,15 +62,20 @@ double state_bytes(std::span<const runtime::TaskGraph* const> graphs, const std:
   return bytes;
 }
 
-/// The memory of fields, and of a copy of the state.
+/// Tasks with their data, schedule and profile take so much more memory than the compiled graphs alone.
+constexpr double of_compiled = 6.5;
+
+/// The memory of fields, of the graphs, and of a copy of the state.
 template <int D>
 void add_fields(const Scene& scene, const std::vector<std::size_t>& n_particles, Demand& demand)
 {
   const Method<D> method(scene);
-  const runtime::CompiledGraphs compiled(runtime::PatchLayout(scene.grid, scene.n_patches), material_names(scene),
-                                         graphs_of(method));
+  const runtime::PatchLayout layout(scene.grid, scene.n_patches);
+  const std::size_t heap_before = runtime::heap_bytes();
+  const runtime::CompiledGraphs compiled(layout, material_names(scene), graphs_of(method));
+  demand.graph = of_compiled * static_cast<double>(runtime::heap_bytes() - heap_before);
   const std::vector<const runtime::TaskGraph*> pointers = compiled.pointers();
-  demand.fields = runtime::Warehouse::forecast_bytes(pointers, n_particles);
+  demand.fields = runtime::forecast_bytes(pointers, BodyParticles<D>(scene, layout).counts());
   demand.checkpoint_file = state_bytes(pointers, n_particles);
 }
 
@@ -88,8 +95,10 @@ Demand demand_of(const Scene& scene)
         bytes_of_number * static_cast<double>(n_output_numbers(scene, static_cast<int>(m)) * n_particles[m]);
   }
   scene.grid.dimension == 2 ? add_fields<2>(scene, n_particles, demand) : add_fields<3>(scene, n_particles, demand);
-  // Vectors that grow as they are filled have room to spare.
-  demand.output_room = 1.3 * demand.output_file;
+  // One column at a time is there as in the file, too.
+  constexpr double most_components = 6;
+  const auto most_particles = static_cast<double>(*std::max_element(n_particles.begin(), n_particles.end()));
+  demand.output_room = demand.output_file + bytes_of_number * most_components * most_particles;
   return demand;
 }
 

@@ -12,6 +12,8 @@ struct Demand {
   std::size_t n_particles = 0;
   /// Fields and particles of all ranks.
   double fields = 0;
+  /// Tasks with all that is known of them, of each rank.
+  double graph = 0;
   /// Memory gathered to write one output, and its room on the disk.
   double output_room = 0;
   double output_file = 0;

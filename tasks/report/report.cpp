@@ -124,8 +124,11 @@ runtime::TaskDeclaration with_state(Task task, const Body& body)
 template <int D, class Model>
 runtime::TaskDeclaration report_of(const Method<D>& method, int material, const Model& model)
 {
+  // A rigid body is reported once, on a patch that its particles may not be on.
+  const bool is_rigid = method.rigid_body(material) != nullptr;
   auto task = runtime::task("report: " + method.materials[static_cast<std::size_t>(material)].name)
                   .over_patches_and_groups({material})
+                  .sparse(is_rigid ? runtime::Sparsity::none : runtime::Sparsity::no_particles)
                   .reads(rigid_states.previous(), particle::body.previous(), particle::mass.previous(),
                          particle::position<D>.previous(), particle::reference_position<D>.previous(),
                          particle::velocity<D>.previous(), particle::stress<D>.previous(),
@@ -170,6 +173,7 @@ runtime::TaskDeclaration report_at_noses(const Method<D>& method, int material, 
 {
   auto task = runtime::task("report near noses: " + method.materials[static_cast<std::size_t>(material)].name)
                   .over_patches_and_groups({material})
+                  .sparse()
                   .reads(particle_report, particle::position<D>.previous(), particle::stress<D>.previous())
                   .reduces(nose_report);
   return with_state<Model>(std::move(task), [&method, &model](const TaskContext& at, auto data) {

@@ -73,6 +73,7 @@ runtime::TaskDeclaration sample(const Method<D>& method, int material, const Mod
 {
   auto task = runtime::task("sample state: " + method.materials[static_cast<std::size_t>(material)].name)
                   .over_patches_and_groups({material})
+                  .sparse()
                   .reads(particle::id.previous(), particle::position<D>.previous(), particle::volume.previous(),
                          particle::mass.previous(), particle::velocity<D>.previous(), particle::stress<D>.previous(),
                          particle::deformation_gradient<D>.previous())

@@ -111,13 +111,12 @@ BodyParticles<D>::BodyParticles(const Scene& scene, const runtime::PatchLayout& 
 }
 
 template <int D>
-std::vector<double> BodyParticles<D>::per_patch() const
+std::vector<std::size_t> BodyParticles<D>::counts() const
 {
-  std::vector<double> counts;
+  std::vector<std::size_t> counts;
+  counts.reserve(particles_.size() * scene_.materials.size());
   for (const auto& materials : particles_) {
-    double n = 0;
-    for (const Particles& particles : materials) n += static_cast<double>(particles.id.size());
-    counts.push_back(n);
+    for (const Particles& particles : materials) counts.push_back(particles.id.size());
   }
   return counts;
 }

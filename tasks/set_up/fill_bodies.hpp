@@ -25,8 +25,8 @@ class BodyParticles
   /// The scene must outlive this object.
   BodyParticles(const Scene& scene, const runtime::PatchLayout& layout);
 
-  /// How many there are on each patch.
-  std::vector<double> per_patch() const;
+  /// How many there are, by patch, then material.
+  std::vector<std::size_t> counts() const;
   /// Spans the velocities of a body's particles [m/s].
   Eigen::AlignedBox<double, D> velocities(int body) const;
   /// Energy stored in all particles that start deformed [J].

@@ -87,7 +87,7 @@ TEST_CASE("a deal holds no more than what it moves beside what stays", "[engine]
   const Communicator ranks = Communicator::world();
   Heat heat = plate(ranks);
   heat.run(3, dt);
-  const LedgerEntry& held = heat.engine.warehouse().ledger().total();
+  const LedgerEntry& held = heat.engine.warehouse().ledger().entry("temperature");
   const std::size_t peak = held.peak(), before = held.current();
   const std::vector<int> of_first = heat.engine.layout().ranks();
   std::vector<int> most_to_last(of_first.size(), ranks.size() - 1);

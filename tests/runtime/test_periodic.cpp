@@ -95,9 +95,9 @@ TEST_CASE("parts that reach a node from both ends are summed in one order wherev
   Warehouse warehouse(std::vector<const TaskGraph*>{&graph});
   for (const Patch& patch : layout) {
     Field& field = warehouse.field(node_sum, patch.id, 0);
-    const GridView<double> parts(reinterpret_cast<double*>(field.part_buffer.data()), field.box, field.box.strides());
+    const GridView<double> parts(reinterpret_cast<double*>(field.written_values(FieldBuffer::part)), field.box,
+                                 field.box.strides());
     for_each(field.box, [&](const Index& i) { parts[i] = part_of(patch.id, i); });
-    field.note_written(FieldBuffer::part);
   }
 
   for (const Patch& patch : layout) sum_halo(bind_halo_sum(warehouse, node_sum, patch.id, 0, halo));

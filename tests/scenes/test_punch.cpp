@@ -159,6 +159,10 @@ TEST_CASE("a run's folder holds what scripts rely on", "[scenes]")
   }
   CHECK(summary["steps"] == 30);
   CHECK(summary["ledger_peak_bytes"].get<double>() >= summary["forecast_peak_bytes"].get<double>());
+  double wall = 0;
+  for (const auto& part : summary["wall_parts_s"]) wall += part.get<double>();
+  CHECK(wall <= summary["wall_s"].get<double>());
+  CHECK(wall > 0.9 * summary["wall_s"].get<double>());
   double shares = 0;
   const nlohmann::json profile = json_of(options.folder / "profile.json");
   for (const auto& task : profile["tasks"]) shares += task["share"].get<double>();

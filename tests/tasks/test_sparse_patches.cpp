@@ -49,6 +49,34 @@ Eigen::Vector3d shown_by_nodes(Simulation& simulation)
 
 }  // namespace
 
+TEST_CASE("node fields are stored where there is matter, as forecast, and given back behind it")
+{
+  const auto simulation = Simulation::make(lone_disk(), 2);
+  runtime::MemoryLedger& ledger = simulation->engine().warehouse().ledger();
+  const runtime::LedgerEntry& sums = ledger.entry("node sums");
+  CHECK(sums.current() == 0);
+
+  simulation->advance(1);
+  runtime::Engine& engine = simulation->engine();
+  for (std::size_t g = 1; g < engine.graphs().size(); ++g) engine.run(g, simulation->last_step_size());
+
+  // Of 48 patches the disk and what it gives to take up to nine.
+  const std::size_t of_first_step = sums.current();
+  const double of_a_patch = 7 * 7 * 2.0 * sizeof(components::NodeSums<2>);
+  CHECK(static_cast<double>(of_first_step) > 4 * of_a_patch);
+  CHECK(static_cast<double>(of_first_step) < 12 * of_a_patch);
+  std::size_t of_fields = ledger.total().current();
+  for (const char* other :
+       {"graph and profile", "messages", "copies for output", "trace", "zeros", "particles that change patches"}) {
+    of_fields -= ledger.entry(other).current();
+  }
+  CHECK(static_cast<double>(of_fields) == Approx(static_cast<double>(simulation->forecast_bytes())).epsilon(0.01));
+
+  advance_to(*simulation, 0.2);
+
+  CHECK(static_cast<double>(sums.current()) < 2.0 * static_cast<double>(of_first_step));
+}
+
 TEST_CASE("patches that particles have crossed give their memory back")
 {
   const auto simulation = Simulation::make(lone_disk(), 2);

@@ -28,7 +28,7 @@ struct ProfileArguments {
 void expect_text(const ProfileArguments& options)
 {
   const ProfileView& view = options.view;
-  const bool is_part = !view.phase.empty() || !view.ranks.empty() || view.patches || view.chain;
+  const bool is_part = !view.phase.empty() || !view.ranks.empty() || view.patches || view.chain || view.memory;
   const bool is_other = !options.other.empty() && options.format == "html";
   if (options.format == "text" || !(is_part || is_other)) return;
   throw InputError({"--format", options.format + " of a part of the profile",
@@ -75,12 +75,19 @@ CLI::App* add_profile_command(CLI::App& app)
           ->excludes(rank)
           ->excludes(phase)
           ->excludes(patches);
+  CLI::Option* const memory =
+      command->add_flag("--memory", options->view.memory, "what memory was for when there was most of it")
+          ->excludes(rank)
+          ->excludes(phase)
+          ->excludes(patches)
+          ->excludes(chain);
   command->add_option("--compare", options->other, "task by task with another run, and which differences are no noise")
       ->type_name("RUN_DIR")
       ->check(is_not_empty())
       ->excludes(rank)
       ->excludes(patches)
-      ->excludes(chain);
+      ->excludes(chain)
+      ->excludes(memory);
   command->footer(
       examples({{"tamp profile runs/punch", "the tasks, the most expensive first"},
                 {"tamp profile runs/punch --patches", "which patches take longest"},

@@ -15,7 +15,7 @@ namespace tamp::tools
 namespace
 {
 
-/// Memory of a process besides fields and output, once its first particles are laid out [bytes].
+/// Memory of a process besides, once its first particles are laid out [bytes].
 constexpr double of_libraries = 6.5e6;
 /// The profile and trace of a run, and the text of its history [bytes].
 constexpr double of_reports = 2e6;
@@ -36,9 +36,10 @@ Forecast forecast(const tasks::Scene& scene, int n_ranks)
   const double n_outputs = std::ceil(scene.time.end / scene.output.fields_interval) + 1;
   Forecast all;
   all.n_particles = demand.n_particles;
-  all.memory = n_ranks * (resident_bytes() + of_libraries) + demand.fields + demand.output_room;
-  // A process alone has the fields that it writes anyway.
-  all.copies = demand.checkpoint_file + (n_ranks > 1 ? demand.output_room : 0);
+  all.at_start = n_ranks * resident_bytes();
+  all.memory = all.at_start + n_ranks * (of_libraries + demand.graph) + demand.fields + demand.output_room;
+  // One copy at a time, and on the first rank beside the others' own.
+  all.copies = (n_ranks > 1 ? 2 : 1) * std::max(demand.output_room, demand.checkpoint_file) - demand.output_room;
   all.disk = n_outputs * demand.output_file + n_checkpoints_forecast * demand.checkpoint_file + of_reports;
   return all;
 }
@@ -76,7 +77,7 @@ ForecastMiss miss_of(const Forecast& forecast, const UsedByRun& taken)
   const auto look = [&](double factor, const char* what) {
     if (factor > worst.factor) worst = {factor, what};
   };
-  if (taken.fields_forecast > 0) look(taken.fields / taken.fields_forecast, "memory");
+  if (forecast.memory > forecast.at_start) look(taken.memory / (forecast.memory - forecast.at_start), "memory");
   if (forecast.disk > 0) look(taken.disk / forecast.disk, "disk space");
   if (!forecast.pace || !taken.n_steps || *taken.n_steps == 0 || forecast.pace->n_steps == 0) return worst;
   const double steps = static_cast<double>(*taken.n_steps) / forecast.pace->n_steps;

@@ -16,8 +16,9 @@ constexpr int n_checkpoints_forecast = 2;
 /// Forecast of a run's memory, disk space and time, made before anything is stored for it.
 struct Forecast {
   std::size_t n_particles = 0;
-  /// At most, of all ranks [bytes].
+  /// At most, of all ranks; and of that, what their processes have taken before they begin [bytes].
   double memory = 0;
+  double at_start = 0;
   /// Extra memory of the first rank for output in the background, and whether it does that; `memory` then includes it.
   double copies = 0;
   bool in_background = false;
@@ -29,8 +30,8 @@ struct Forecast {
 
 /// What a run took of what was forecast.
 struct UsedByRun {
-  /// By its fields and particles on all ranks, and as forecast [bytes].
-  double fields = 0, fields_forecast = 0;
+  /// On all ranks, as far as their ledgers know [bytes].
+  double memory = 0;
   double disk = 0;  ///< bytes
   /// Of a run that has come to the scene's end.
   std::optional<long> n_steps{};

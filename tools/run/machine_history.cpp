@@ -18,15 +18,16 @@ namespace
 
 const std::vector<std::string>& machine_columns()
 {
-  static const std::vector<std::string> names{"step",         "time[s]",          "wall[s]",
-                                              "processor[s]", "wall_per_step[s]", "rss[B]"};
+  static const std::vector<std::string> names{"step",   "time[s]",  "wall[s]", "processor[s]", "wall_per_step[s]",
+                                              "rss[B]", "ledger[B]"};
   return names;
 }
 
-/// Processor time [s] and resident memory [bytes] of a rank.
+/// Processor time [s] and memory [bytes] of a rank: resident, and what its ledger knows of.
 struct Taken {
   double processor = 0;
   double resident = 0;
+  double ledger = 0;
 };
 
 }  // namespace
@@ -59,19 +60,21 @@ void MachineHistory::add_step(double seconds)
   ++n_steps_;
 }
 
-void MachineHistory::write_row(long step, double time)
+void MachineHistory::write_row(long step, double time, std::size_t ledger_bytes)
 {
   Taken all;
+  const auto own_ledger = static_cast<double>(ledger_bytes);
   for (const Taken& rank :
-       communicator_.gather_value(Taken{process_seconds() - processor_at_start_, resident_bytes()})) {
+       communicator_.gather_value(Taken{process_seconds() - processor_at_start_, resident_bytes(), own_ledger})) {
     all.processor += rank.processor;
     all.resident += rank.resident;
+    all.ledger += rank.ledger;
   }
   const double wall = std::chrono::duration<double>(Clock::now() - start_).count();
   const double wall_per_step = n_steps_ > 0 ? step_seconds_ / static_cast<double>(n_steps_) : 0;
   runtime::on_first_rank(communicator_, [&] {
     csv_->write_row(std::array{static_cast<double>(step), time, wall_before_ + wall, processor_before_ + all.processor,
-                               wall_per_step, all.resident});
+                               wall_per_step, all.resident, all.ledger});
   });
   step_seconds_ = 0;
   n_steps_ = 0;

@@ -25,7 +25,7 @@ class MachineHistory
   /// A step has been run, which took so long.
   void add_step(double seconds);
   /// Takes in what all ranks have taken until now, at this step and simulated time [s]. Collective.
-  void write_row(long step, double time);
+  void write_row(long step, double time, std::size_t ledger_bytes);
 
  private:
   using Clock = std::chrono::steady_clock;

@@ -8,6 +8,7 @@
 
 #include "runtime/file_error.hpp"
 #include "runtime/profile/compare.hpp"
+#include "runtime/profile/memory_table.hpp"
 #include "runtime/profile/table.hpp"
 #include "tools/run/run_folder.hpp"
 #include "tools/scene/parse_json.hpp"
@@ -70,6 +71,7 @@ std::string view_of(const nlohmann::json& profile, const ProfileView& view)
   if (view.as_json) return profile.dump(1) + "\n";
   if (view.chain) return runtime::chain_text(profile);
   if (view.patches) return runtime::patches_text(profile);
+  if (view.memory) return runtime::memory_text(profile);
   if (view.ranks.empty()) return runtime::to_text(profile, {.phase = view.phase});
   std::vector<std::string> tables;
   tables.reserve(view.ranks.size());

@@ -16,9 +16,10 @@ struct ProfileView {
   std::string phase{};
   /// Each rank by itself; empty: all together.
   std::vector<std::size_t> ranks{};
-  /// By patch, or the longest chain, in place of by task.
+  /// By patch, the longest chain, or memory, in place of time by task.
   bool patches = false;
   bool chain = false;
+  bool memory = false;
   /// The folder of another run, to compare with.
   std::optional<std::filesystem::path> other{};
   /// As JSON in place of tables for people.

@@ -158,6 +158,7 @@ class Runner
   void run_to_end()
   {
     Progress progress(options_.quiet || !is_first(), end_, options_.max_steps, n_particles());
+    parts_.set_up = seconds_since(start_);
     try {
       write_due();
       while (simulation_->time() < end_ && simulation_->n_steps() < options_.max_steps) {
@@ -185,6 +186,7 @@ class Runner
     simulation_->advance(end_);
     const double seconds = seconds_since(begin);
     step_seconds_.push_back(static_cast<float>(seconds));
+    parts_.steps += seconds;
     machine_history_.add_step(seconds);
     expect_energy();
     if ((simulation_->engine().asked() & end_as_output_has_failed) != 0) output_.finish();
@@ -295,7 +297,8 @@ class Runner
     const Clock::time_point begin = Clock::now();
     expect_own_folder();
     history_.write_row();
-    machine_history_.write_row(simulation_->n_steps(), simulation_->time());
+    machine_history_.write_row(simulation_->n_steps(), simulation_->time(),
+                               simulation_->engine().warehouse().ledger().total().current());
     written_.history = simulation_->n_steps();
     history_seconds_ += seconds_since(begin);
   }
@@ -383,8 +386,7 @@ class Runner
   ForecastMiss miss_of_forecast() const
   {
     const runtime::MemoryLedger& ledger = simulation_->engine().warehouse().ledger();
-    const auto fields = options_.communicator.sum(static_cast<std::size_t>(ledger.total().peak()));
-    UsedByRun taken{static_cast<double>(fields), static_cast<double>(simulation_->forecast_bytes())};
+    UsedByRun taken{static_cast<double>(options_.communicator.sum(ledger.total().peak()))};
     if (simulation_->time() >= checked_.scene.time.end) taken.n_steps = simulation_->n_steps();
     ForecastMiss missed;
     on_first_rank([&] {
@@ -426,13 +428,16 @@ class Runner
     output_.finish();
     OutputTime output_time = output_.time();
     output_time.history = history_seconds_;
+    parts_.output = output_time.history + output_time.fields + output_time.checkpoints + output_time.waited;
+    const Clock::time_point last_output = Clock::now();
     history_.measure();
     const runtime::Profile profile = simulation_->engine().profile();
+    parts_.end = seconds_since(last_output);
     const nlohmann::json json = to_json(profile, simulation_->engine().warehouse().ledger(), options_.communicator);
     const nlohmann::ordered_json summary = run_summary(
         *simulation_, history_,
-        {status, reason, seconds_since(start_), median({step_seconds_.begin(), step_seconds_.end()}), restarted_at_,
-         output_.in_background(), output_time, forecast_, missed_, checked_.inputs, warnings_});
+        {status, reason, seconds_since(start_), median({step_seconds_.begin(), step_seconds_.end()}), parts_,
+         restarted_at_, output_.in_background(), output_time, forecast_, missed_, checked_.inputs, warnings_});
     on_first_rank([&] {
       runtime::write_whole_file(options_.folder / "summary.json", json_text(summary, 2) + "\n");
       runtime::write_whole_file(options_.folder / "profile.json", json.dump(1) + "\n");
@@ -473,6 +478,7 @@ class Runner
   bool state_is_good_ = true;
   ForecastMiss missed_;
   double history_seconds_ = 0;
+  WallParts parts_;
   std::vector<float> step_seconds_;
   std::vector<std::string> warnings_;
 };

@@ -9,14 +9,6 @@
 namespace tamp::tools
 {
 
-namespace
-{
-
-const std::string fields_kind = "fields";
-const std::string checkpoint_kind = "checkpoint";
-
-}  // namespace
-
 RunOutput::RunOutput(tasks::Simulation& simulation, runtime::Executor& executor, Options options)
     : simulation_(simulation), executor_(executor), options_(std::move(options))
 {
@@ -55,7 +47,7 @@ std::string RunOutput::resume(long last_step, std::size_t n_expected)
 
 void RunOutput::write_fields(bool with_nodes)
 {
-  wait_for(fields_kind);
+  wait();
   timed(time_.fields, [&] {
     const long step = simulation_.n_steps();
     const double time = simulation_.time();
@@ -65,13 +57,13 @@ void RunOutput::write_fields(bool with_nodes)
     if (!options_.in_background) return fields_->write_step(step, time, own.particles, own.nodes);
     const auto all = std::make_shared<runtime::FieldCopy>(
         gathered(std::move(own), simulation_.engine().graph().layout(), simulation_.communicator()));
-    leave(fields_kind, [this, step, time, all] { fields_->write_step(step, time, all->particles, all->nodes); });
+    leave([this, step, time, all] { fields_->write_step(step, time, all->particles, all->nodes); });
   });
 }
 
 void RunOutput::write_checkpoint(const std::string& fingerprint, std::span<const std::byte> host)
 {
-  wait_for(checkpoint_kind);
+  wait();
   timed(time_.checkpoints, [&] {
     const std::filesystem::path folder = options_.folder / "checkpoints";
     if (!options_.in_background) {
@@ -80,8 +72,7 @@ void RunOutput::write_checkpoint(const std::string& fingerprint, std::span<const
     }
     const auto copy =
         std::make_shared<runtime::CheckpointCopy>(simulation_.engine().copy_checkpoint(fingerprint, host));
-    leave(checkpoint_kind,
-          [this, folder, copy] { runtime::write_checkpoint(folder, std::move(*copy), options_.keep); });
+    leave([this, folder, copy] { runtime::write_checkpoint(folder, std::move(*copy), options_.keep); });
   });
 }
 
@@ -89,7 +80,7 @@ void RunOutput::finish()
 {
   if (!options_.in_background) return;
   const auto watch = executor_.watch("writing what is left to write");
-  on_first_rank([&] { writer_->wait_for_all(); });
+  on_first_rank([&] { writer_->wait(); });
 }
 
 void RunOutput::settle()
@@ -116,17 +107,17 @@ void RunOutput::timed(double& seconds, const Work& work)
   seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
-void RunOutput::wait_for(const std::string& kind)
+void RunOutput::wait()
 {
   if (!options_.in_background) return;
   const auto watch = executor_.watch("waiting for the output before to be written");
-  on_first_rank([&] { writer_->wait_for(kind); });
+  on_first_rank([&] { writer_->wait(); });
 }
 
-void RunOutput::leave(const std::string& kind, std::function<void()> job)
+void RunOutput::leave(std::function<void()> job)
 {
   on_first_rank([&] {
-    writer_->add(kind, [this, job = std::move(job)] {
+    writer_->add([this, job = std::move(job)] {
       options_.expect_own();
       job();
     });

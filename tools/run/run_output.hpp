@@ -72,8 +72,8 @@ class RunOutput
   /// Does what makes or writes something, and adds to its time.
   template <class Work>
   void timed(double& seconds, const Work& work);
-  void wait_for(const std::string& kind);
-  void leave(const std::string& kind, std::function<void()> job);
+  void wait();
+  void leave(std::function<void()> job);
 
   tasks::Simulation& simulation_;
   runtime::Executor& executor_;

@@ -14,6 +14,15 @@ namespace tamp::tools
 {
 
 /// How a run went, besides what its simulation and history know.
+/// Where the wall time of a run went [s]: before the first step, in steps, in output that they waited for, and what
+/// follows the last output.
+struct WallParts {
+  double set_up = 0;
+  double steps = 0;
+  double output = 0;
+  double end = 0;
+};
+
 struct RunOutcome {
   /// completed, completed with warnings, unstable or interrupted, and why.
   std::string status;
@@ -21,6 +30,7 @@ struct RunOutcome {
   /// [s]; a step's is the median.
   double wall = 0;
   double wall_per_step = 0;
+  WallParts parts;
   /// Where a restarted run went on; -1 for one from the start.
   long restarted_at = -1;
   /// Whether fields and checkpoints were written in the background, and what output took of the time.

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <map>
+#include <numeric>
 #include <sstream>
 #include <stdexcept>
 
@@ -219,12 +220,17 @@ CheckpointCopy copy_checkpoint(const CheckpointHeader& header, std::span<const s
   });
   CheckpointCopy copy{
       contents_of(header, host, warehouse.layout(), group_names, checkpoint_tables(tables, own, communicator)),
-      std::move(bytes)};
+      std::move(bytes),
+      {}};
   for (std::size_t t = 0; t < tables.size(); ++t) {
     copy.bytes[t] =
         gathered(std::move(copy.bytes[t]), tables[t], copy.contents.tables[t], warehouse.layout(), communicator);
   }
-  return communicator.is_first() ? std::move(copy) : CheckpointCopy();
+  if (!communicator.is_first()) return {};
+  const auto n_bytes = std::accumulate(copy.bytes.begin(), copy.bytes.end(), std::size_t{0},
+                                       [](std::size_t n, const auto& table) { return n + table.capacity(); });
+  copy.held = LedgerHold(warehouse.ledger().copies, n_bytes);
+  return copy;
 }
 
 void write_checkpoint(const fs::path& folder, CheckpointCopy copy, int keep)

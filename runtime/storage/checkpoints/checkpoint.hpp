@@ -50,6 +50,8 @@ struct CheckpointCopy {
   CheckpointContents contents;
   /// The values of each table, patch after patch.
   std::vector<std::vector<std::byte>> bytes;
+  /// What they take.
+  LedgerHold held;
 };
 
 /// Calls its second argument once for each number from 0 to below the first, in whatever order and threads.

@@ -58,7 +58,27 @@ std::size_t sum(const Counts& counts)
   return std::accumulate(counts.begin(), counts.end(), std::size_t{0});
 }
 
+std::size_t n_items_of(const NodeBlock& nodes)
+{
+  const auto& [nx, ny, nz] = nodes.n_nodes;
+  return nodes.boxes ? sum(sizes_of(*nodes.boxes)) : static_cast<std::size_t>(nx * ny * nz);
+}
+
 }  // namespace
+
+std::size_t FieldCopy::n_bytes() const
+{
+  std::size_t of_values = 0, most_numbers = 0;
+  for (const Values& column : values) {
+    of_values += std::visit([](const auto& own) { return own.capacity() * sizeof(own.front()); }, column);
+  }
+  const auto look = [&](const std::vector<Column>& columns, std::size_t n_items) {
+    for (const Column& column : columns) most_numbers = std::max(most_numbers, n_items * n_in_file(column.kind));
+  };
+  for (const ParticleBlock& block : particles) look(block.columns, block.n);
+  if (nodes) look(nodes->columns, n_items_of(*nodes));
+  return of_values + most_numbers * sizeof(double);
+}
 
 void FieldCopy::show_values()
 {
@@ -90,6 +110,7 @@ FieldCopy gathered(FieldCopy own, const PatchLayout& layout, const Communicator&
   }
   if (!communicator.is_first()) return {};
   own.show_values();
+  own.held.hold(own.n_bytes());
   return own;
 }
 

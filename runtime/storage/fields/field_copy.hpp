@@ -7,6 +7,7 @@
 #include <variant>
 #include <vector>
 
+#include "runtime/data/memory_ledger.hpp"
 #include "runtime/grid/patch_layout.hpp"
 #include "runtime/ranks/communicator.hpp"
 #include "runtime/storage/fields/field_columns.hpp"
@@ -23,6 +24,8 @@ struct FieldCopy {
   FieldCopy(FieldCopy&&) = default;
   FieldCopy& operator=(FieldCopy&&) = default;
 
+  /// Of the values, and of the largest column as it stands in a file: one at a time is brought into that form.
+  std::size_t n_bytes() const;
   /// Has the columns show the values as they are now.
   void show_values();
 
@@ -32,6 +35,8 @@ struct FieldCopy {
   std::deque<Values> values;
   /// How many particles of each block each patch has, whatever rank it is on.
   std::vector<std::vector<std::uint64_t>> n_particles;
+  /// What the values take.
+  LedgerHold held;
 };
 
 /// The fields of all ranks as those of one, on the first rank; on others nothing is left. Collective.

@@ -10,7 +10,7 @@ namespace tamp::runtime::test_buffer
 TEST_CASE("a buffer gives back what it no longer needs, keeps what is in use, and tells the ledger")
 {
   MemoryLedger ledger;
-  Buffer buffer(ledger, ledger.entry("particles"));
+  Buffer buffer(ledger.entry("particles"));
   buffer.fit(1000);
   std::memset(buffer.data(), 7, 1000);
 

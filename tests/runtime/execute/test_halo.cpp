@@ -41,9 +41,9 @@ struct Nodes {
   {
     for (const Patch& patch : layout) {
       Field& whole = warehouse.field(sum, patch.id, 0);
-      const GridView<double> parts(reinterpret_cast<double*>(whole.part_buffer.data()), whole.box, whole.box.strides());
+      const GridView<double> parts(reinterpret_cast<double*>(whole.written_values(FieldBuffer::part)), whole.box,
+                                   whole.box.strides());
       for_each(whole.box, [&](const Index& i) { parts[i] = value(patch.id, i); });
-      whole.note_written(FieldBuffer::part);
       const GridView<double> own = warehouse.grid_state(warmth, patch.id, 0);
       for_each(patch.nodes, [&](const Index& i) { own[i] = value(patch.id, i); });
     }

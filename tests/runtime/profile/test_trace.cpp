@@ -114,9 +114,10 @@ TEST_CASE("a run of one step has traced its slowest", "[profile][ranks]")
 TEST_CASE("no more is traced than fits, and without a wish nothing is", "[profile]")
 {
   Heat heat(16, {4, 4, 1}, 1);
+  MemoryLedger ledger;
   Profiler wanted(heat.engine.schedule(), heat.engine.bound(), 1),
       unasked(heat.engine.schedule(), heat.engine.bound(), 1);
-  wanted.trace_steps(TraceChoice::first_steps(std::numeric_limits<std::int64_t>::max()));
+  wanted.trace_steps(TraceChoice::first_steps(std::numeric_limits<std::int64_t>::max()), ledger.trace);
   const std::size_t n_fit = TraceRecorder::most_tasks / heat.engine.graph().instances().size();
   for (std::size_t n = 0; n < n_fit + 2; ++n) {
     heat.run(1, 1e-4);

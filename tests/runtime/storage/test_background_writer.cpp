@@ -36,32 +36,30 @@ TEST_CASE("jobs are done one after another in a thread of their own")
   std::vector<int> order;
 
   for (int i = 0; i < 5; ++i) {
-    writer.add(i % 2 == 0 ? "even" : "odd", [&, i] {
+    writer.add([&, i] {
       order.push_back(i);
       threads.push_back(std::this_thread::get_id());
     });
   }
-  writer.wait_for_all();
+  writer.wait();
 
   CHECK(order == std::vector<int>{0, 1, 2, 3, 4});
   CHECK(threads == std::vector<std::thread::id>(5, threads.front()));
   CHECK(threads.front() != std::this_thread::get_id());
 }
 
-TEST_CASE("who waits for jobs of a kind waits for those and no others")
+TEST_CASE("who waits for the jobs waits for all of them")
 {
   LongJob fields, state;
   BackgroundWriter writer;
-  writer.add("fields", fields.job());
-  writer.add("state", state.job());
+  writer.add(fields.job());
+  writer.add(state.job());
 
-  writer.wait_for("anything else");
-  auto waiting = std::async(std::launch::async, [&] { writer.wait_for("fields"); });
-  CHECK(waiting.wait_for(std::chrono::milliseconds(50)) == std::future_status::timeout);
+  auto waiting = std::async(std::launch::async, [&] { writer.wait(); });
   fields.end();
-  waiting.get();  // although the job of the state goes on
+  CHECK(waiting.wait_for(std::chrono::milliseconds(50)) == std::future_status::timeout);
   state.end();
-  writer.wait_for_all();
+  waiting.get();
 
   CHECK(writer.waited() > 0.04);
   CHECK_FALSE(writer.has_failed());
@@ -72,17 +70,17 @@ TEST_CASE("what a job throws is thrown by the next call, and the jobs after it a
   LongJob first;
   bool done = false;
   BackgroundWriter writer;
-  writer.add("fields", [&, wait = first.job()] {
+  writer.add([&, wait = first.job()] {
     wait();
     throw std::runtime_error("full disk");
   });
-  writer.add("state", [&] { done = true; });
+  writer.add([&] { done = true; });
 
   first.end();
 
-  CHECK_THROWS_WITH(writer.wait_for_all(), "full disk");
+  CHECK_THROWS_WITH(writer.wait(), "full disk");
   CHECK(writer.has_failed());
-  CHECK_NOTHROW(writer.wait_for_all());
+  CHECK_NOTHROW(writer.wait());
   CHECK_FALSE(done);
 }
 
@@ -92,8 +90,8 @@ TEST_CASE("the data of a job have gone when it is done")
   auto data = std::make_shared<int>(7);
   const std::weak_ptr<int> watched = data;
 
-  writer.add("fields", [data = std::move(data)] { static_cast<void>(*data); });
-  writer.wait_for("fields");
+  writer.add([data = std::move(data)] { static_cast<void>(*data); });
+  writer.wait();
 
   CHECK(watched.expired());
 }
@@ -103,7 +101,7 @@ TEST_CASE("jobs that are left when a writer goes are done")
   int n_done = 0;
   {
     BackgroundWriter writer;
-    for (int i = 0; i < 3; ++i) writer.add("fields", [&] { ++n_done; });
+    for (int i = 0; i < 3; ++i) writer.add([&] { ++n_done; });
   }
 
   CHECK(n_done == 3);

@@ -109,17 +109,19 @@ TEST_CASE("a forecast that was missed is told with what it was of, and only a ru
 TEST_CASE("more memory, disk space or steps than forecast are missed by their factor, and fewer steps too")
 {
   Forecast forecast;
+  forecast.memory = 120;
+  forecast.at_start = 20;
   forecast.disk = 1e6;
   forecast.pace = tasks::Pace{.n_steps = 100, .core_seconds = 1};
   const auto missed = [&](const UsedByRun& taken) { return miss_of(forecast, taken); };
 
-  CHECK(missed({.fields = 50, .fields_forecast = 100, .disk = 5e5, .n_steps = 100}).factor == 1);
-  CHECK(missed({.fields = 300, .fields_forecast = 100, .disk = 2e6, .n_steps = 100}).factor == 3);
-  CHECK(missed({.fields = 300, .fields_forecast = 100, .disk = 2e6, .n_steps = 100}).what == "memory");
-  CHECK(missed({.fields = 100, .fields_forecast = 100, .disk = 4e6, .n_steps = 300}).what == "disk space");
-  CHECK(missed({.fields = 100, .fields_forecast = 100, .disk = 0, .n_steps = 250}).factor == 2.5);
-  CHECK(missed({.fields = 100, .fields_forecast = 100, .disk = 0, .n_steps = 25}).factor == 4);
-  CHECK(missed({.fields = 100, .fields_forecast = 100, .disk = 0, .n_steps = {}}).factor == 1);
+  CHECK(missed({.memory = 50, .disk = 5e5, .n_steps = 100}).factor == 1);
+  CHECK(missed({.memory = 300, .disk = 2e6, .n_steps = 100}).factor == 3);
+  CHECK(missed({.memory = 300, .disk = 2e6, .n_steps = 100}).what == "memory");
+  CHECK(missed({.memory = 100, .disk = 4e6, .n_steps = 300}).what == "disk space");
+  CHECK(missed({.memory = 100, .disk = 0, .n_steps = 250}).factor == 2.5);
+  CHECK(missed({.memory = 100, .disk = 0, .n_steps = 25}).factor == 4);
+  CHECK(missed({.memory = 100, .disk = 0, .n_steps = {}}).factor == 1);
 }
 
 TEST_CASE("the monitor that is furthest beyond its limit comes first")
