@@ -437,7 +437,8 @@ class Runner
     const nlohmann::ordered_json summary = run_summary(
         *simulation_, history_,
         {status, reason, seconds_since(start_), median({step_seconds_.begin(), step_seconds_.end()}), parts_,
-         restarted_at_, output_.in_background(), output_time, forecast_, missed_, checked_.inputs, warnings_});
+         restarted_at_, output_.in_background(), output_time, forecast_, missed_, checked_.inputs, checked_.left_out,
+         warnings_});
     on_first_rank([&] {
       runtime::write_whole_file(options_.folder / "summary.json", json_text(summary, 2) + "\n");
       runtime::write_whole_file(options_.folder / "profile.json", json.dump(1) + "\n");

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "tools/run/monitors.hpp"
+#include "tools/scene/penetration.hpp"
 #include "tools/system/version.hpp"
 
 namespace tamp::tools
@@ -83,6 +84,10 @@ Json bodies(const tasks::Simulation& simulation, const RunHistory& history)
     if (const auto depth = history.extremes().find(body.name + ".depth[m]"); depth != history.extremes().end()) {
       entry["deepest_m"] = depth->second.greatest;
       entry["deepest_at_s"] = depth->second.greatest_time;
+    }
+    if (const auto penetration = penetration_of(simulation.scene(), body)) {
+      entry["into"] = penetration->into->name;
+      entry["cells_to_half_width"] = penetration->cells();
     }
     if (!body.drive) continue;
     entry["largest_force"] =
@@ -217,6 +222,7 @@ Json run_summary(tasks::Simulation& simulation, const RunHistory& history, const
             {"total", e.total}}},
           {"forecast", to_json(outcome.forecast)},
           {"inputs", to_json(outcome.inputs)},
+          {"left_out", outcome.left_out},
           {"state_digest", simulation.digest()},
           {"bodies", bodies(simulation, history)},
           {"materials", materials(simulation, history)},

@@ -39,6 +39,8 @@ struct RunOutcome {
   Forecast forecast;
   ForecastMiss missed;
   std::vector<InputFile> inputs;
+  /// The keys that the scene leaves out.
+  std::vector<std::string> left_out;
   std::vector<std::string> warnings;
 };
 

@@ -57,6 +57,8 @@ class Document
   std::vector<std::string> notes;
   /// Every file that has been read for it, in the order in which they were named.
   std::vector<InputFile> inputs;
+  /// The keys that were left out, by their pointers: `root` has their defaults.
+  std::vector<std::string> left_out;
   /// Dimension of the scene, 2 or 3, when it has been read; 0 before, and where there is no scene.
   int dimension = 0;
   /// Solids that have been read so far.

@@ -127,11 +127,17 @@ void JsonReader::write(const std::string& key, Json value)
   if (exists_) document_->root.at(pointer_)[key] = std::move(value);
 }
 
+void JsonReader::fill_in(const std::string& key, Json value)
+{
+  if (exists_) document_->left_out.push_back(pointer(key).to_string());
+  write(key, std::move(value));
+}
+
 void JsonReader::write_default(const std::string& key, std::size_t n_entries)
 {
   const Json& value = declared(key).default_value.value;
   if (has(key) || value.is_null()) return;
-  write(key, n_entries == 0 ? value : Json(std::vector<Json>(n_entries, value)));
+  fill_in(key, n_entries == 0 ? value : Json(std::vector<Json>(n_entries, value)));
 }
 
 double JsonReader::number(const std::string& key)
@@ -148,14 +154,14 @@ double JsonReader::number(const std::string& key)
 
 double JsonReader::number(const std::string& key, double default_value)
 {
-  if (!has(key)) write(key, default_value);
+  if (!has(key)) fill_in(key, default_value);
   return number(key);
 }
 
 std::optional<double> JsonReader::optional_number(const std::string& key)
 {
   if (has(key)) return number(key);
-  write(key, nullptr);
+  fill_in(key, nullptr);
   return std::nullopt;
 }
 
@@ -250,7 +256,7 @@ bool JsonReader::flag(const std::string& key)
 
 std::string JsonReader::text(const std::string& key, const std::string& default_value)
 {
-  if (!has(key)) write(key, default_value);
+  if (!has(key)) fill_in(key, default_value);
   const Json* value = find(key);
   if (value == nullptr || value->is_string()) return value == nullptr ? default_value : value->get<std::string>();
   add_problem(key, shown(*value), "expected a text");
@@ -325,7 +331,7 @@ std::string JsonReader::name(const std::string& key, const std::vector<std::stri
 std::string JsonReader::name(const std::string& key, const std::vector<std::string>& names,
                              const std::string& default_value)
 {
-  if (!has(key)) write(key, default_value);
+  if (!has(key)) fill_in(key, default_value);
   return name(key, names);
 }
 
@@ -408,7 +414,7 @@ JsonReader JsonReader::object(const std::string& key)
 std::optional<JsonReader> JsonReader::optional_object(const std::string& key)
 {
   if (has(key)) return object(key);
-  write(key, nullptr);
+  fill_in(key, nullptr);
   return std::nullopt;
 }
 
@@ -462,7 +468,7 @@ std::vector<JsonReader> JsonReader::objects(const std::string& key)
 std::vector<std::string> JsonReader::some_of(const std::string& key, const std::vector<std::string>& names)
 {
   declared_as<SomeNames>(key);
-  if (!has(key)) write(key, names);
+  if (!has(key)) fill_in(key, names);
   const std::string expected = "expected a list of some of " + joined(names);
   const Json* value = find(key);
   if (value == nullptr) return {};

@@ -101,6 +101,8 @@ class JsonReader
   /// As `find`, but the key must be there.
   const Json* require(const std::string& key, const std::string& expected) const;
   void write(const std::string& key, Json value);
+  /// Writes what holds where the key is left out, and notes that it was.
+  void fill_in(const std::string& key, Json value);
   void write_default(const std::string& key, std::size_t n_entries = 0);
   /// `also` is what else a message names.
   std::string one_of(const std::string& key, const std::vector<std::string>& words, const std::string& also = "") const;

@@ -87,6 +87,8 @@ struct Choice {
   std::string shown_instead{};
   /// Words of earlier versions that are still read, each with the word of now.
   std::map<std::string, std::string> old_words{};
+  /// That of each word, in Markdown; empty where the meaning of the key says it all.
+  std::vector<std::string> meanings{};
 };
 struct Object {
   KeysOf keys;
@@ -166,6 +168,7 @@ Key choice(std::string name, T default_value, const std::vector<components::Word
   Default left_out;
   for (const auto& [word, value, meaning_of_word, old_word] : words) {
     choice.words.emplace_back(word);
+    choice.meanings.emplace_back(meaning_of_word);
     if (!old_word.empty()) choice.old_words.emplace(old_word, word);
     choice.values.push_back(static_cast<int>(value));
     if (value == default_value) left_out.value = word;

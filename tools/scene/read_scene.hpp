@@ -17,6 +17,8 @@ struct CheckedScene {
   std::vector<InputFile> inputs;
   /// Old words in it, a line each, with its place and the word of now.
   std::vector<std::string> notes{};
+  /// The keys that it leaves out, by their pointers: they have their defaults.
+  std::vector<std::string> left_out{};
 };
 
 /// Reads a scene's file, applies `assignments` (POINTER=VALUE) in order, and checks all of it. The keys are those of

@@ -58,12 +58,14 @@ const ObjectKeys& time_keys()
 {
   static const ObjectKeys keys = [] {
     ObjectKeys time{"", keys_of_parameters<tasks::SceneTime>()};
-    const Key rule = choice<tasks::StepRule>(
-        "rule", tasks::SceneTime{}.rule,
-        {{"viscous", tasks::StepRule::viscous}, {"published", tasks::StepRule::published}},
-        "bound on the time step: `\"published\"` is cell size over (wave speed + fastest velocity component); "
-        "`\"viscous\"` takes account of artificial viscosity, of particles at edges and alone, and of bodies that "
-        "approach each other too, see [method.md](method.md)");
+    const std::vector<components::Word<tasks::StepRule>> rules{
+        {"published", tasks::StepRule::published, "cell size over (wave speed + fastest velocity component)"},
+        {"viscous", tasks::StepRule::viscous,
+         "takes account of artificial viscosity, of particles at edges and alone, and of bodies that approach each "
+         "other too"}};
+    const Key rule =
+        choice<tasks::StepRule>("rule", tasks::SceneTime{}.rule, rules,
+                                "bound on the time step: " + meanings_of(rules) + ", see [method.md](method.md)");
     time.keys.insert(time.keys.begin() + 1, rule);
     return time;
   }();

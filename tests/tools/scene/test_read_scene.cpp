@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <catch2/catch.hpp>
 
 #include "runtime/file_error.hpp"
@@ -67,6 +68,22 @@ TEST_CASE("what a scene leaves out has the documented default")
   CHECK(scene.contacts.empty());
   CHECK(scene.output.fields_interval == 1.0 / 50);
   CHECK(scene.output.history_interval == 1.0 / 1000);
+}
+
+TEST_CASE("a scene that is read says which keys it leaves out, and no other")
+{
+  const TemporaryFolder folder;
+  const auto file = folder.write("small.json", small_scene);
+
+  const auto left_out = read_scene(file, {"/transfer=pic", "/local_damping=null"}).left_out;
+
+  const auto names = [&](const std::string& key) { return std::ranges::count(left_out, key) == 1; };
+  CHECK(names("/interpolator"));
+  CHECK(names("/boundaries/x-"));
+  CHECK(names("/bodies/block/rigid"));
+  CHECK(names("/local_damping"));
+  CHECK_FALSE(names("/transfer"));
+  CHECK_FALSE(names("/grid/cell_size"));
 }
 
 TEST_CASE("the scene as resolved reads back as the same scene, from any folder")
