@@ -6,6 +6,7 @@
 #include "tools/commands/command_line/help_text.hpp"
 #include "tools/commands/command_line/option_checks.hpp"
 #include "tools/commands/commands.hpp"
+#include "tools/run/page_data.hpp"
 #include "tools/run/profile_text.hpp"
 #include "tools/system/charts.hpp"
 #include "tools/system/console.hpp"
@@ -47,6 +48,7 @@ void show_profile(ProfileArguments& options)
     print_out("{}", text);
     return;
   }
+  write_page_data(folder);
   draw_page(folder);
   print_out("written to {}\n", (folder / "report.html").string());
 }

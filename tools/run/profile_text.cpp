@@ -6,12 +6,11 @@
 #include <algorithm>
 #include <stdexcept>
 
-#include "runtime/file_error.hpp"
 #include "runtime/profile/compare.hpp"
 #include "runtime/profile/memory_table.hpp"
 #include "runtime/profile/table.hpp"
+#include "tools/run/run_document.hpp"
 #include "tools/run/run_folder.hpp"
-#include "tools/scene/parse_json.hpp"
 #include "tools/system/suggestion.hpp"
 
 namespace tamp::tools
@@ -21,30 +20,6 @@ namespace
 {
 
 namespace fs = std::filesystem;
-
-/// Describes what is wrong with a profile that is JSON, in place of the library's text.
-std::string damage(const nlohmann::json::exception& error)
-{
-  constexpr int key_not_found = 403;
-  const std::string text = error.what();
-  const std::size_t begin = text.find('\''), end = text.rfind('\'');
-  if (error.id != key_not_found || begin == end) return "a value is not what it was written as";
-  return fmt::format("the key \"{}\" is missing", text.substr(begin + 1, end - begin - 1));
-}
-
-nlohmann::json read_profile(const fs::path& run)
-{
-  const fs::path file = run / "profile.json";
-  if (!fs::exists(file)) {
-    if (!fs::exists(run / run_mark)) throw InputError({run.string(), "no run", "expected the folder of a run"});
-    throw runtime::FileError(file, "is missing: the run has not come to its end, or the file was removed");
-  }
-  try {
-    return parse_json(file);
-  } catch (const InputError& error) {
-    throw runtime::FileError(file, std::string("is damaged: ") + error.what());
-  }
-}
 
 void expect_phase(const nlohmann::json& profile, const std::string& phase)
 {
@@ -93,15 +68,13 @@ std::string comparison_of(const nlohmann::json& here, const nlohmann::json& ther
 
 std::string with_profile(const fs::path& run, const std::function<std::string(const nlohmann::json&)>& render)
 {
-  const nlohmann::json profile = read_profile(run);
   const fs::path file = run / "profile.json";
-  try {
-    return render(profile);
-  } catch (const nlohmann::json::exception& error) {
-    throw runtime::FileError(file, "is damaged: " + damage(error) + "; expected what a run has written");
-  } catch (const std::out_of_range&) {
-    throw runtime::FileError(file, "is damaged: a value is out of range; expected what a run has written");
+  if (!fs::exists(file) && !fs::exists(run / run_mark)) {
+    throw InputError({run.string(), "no run", "expected the folder of a run"});
   }
+  std::string text;
+  with_run_document(file, [&](const nlohmann::json& profile) { text = render(profile); });
+  return text;
 }
 
 std::string profile_text(const fs::path& run, const ProfileView& view)

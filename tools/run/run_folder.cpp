@@ -24,7 +24,7 @@ bool is_of_run(const fs::path& file)
 {
   static const std::regex name(
       "(scene\\.json|history\\.csv|machine\\.csv|summary\\.json|fields\\.h5|fields\\.xdmf|profile\\.json|trace\\.json|"
-      "compare\\.csv|compare\\.json|report\\.html)(\\.part|\\.damaged(\\.[0-9]+)?)?");
+      "page\\.json|compare\\.csv|compare\\.json|report\\.html)(\\.part|\\.damaged(\\.[0-9]+)?)?");
   return std::regex_match(file.filename().string(), name);
 }
 

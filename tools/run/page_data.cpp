@@ -1,0 +1,24 @@
+#include "tools/run/page_data.hpp"
+
+#include "runtime/storage/whole_file.hpp"
+#include "tools/run/run_document.hpp"
+#include "tools/run/scene_pictures.hpp"
+#include "tools/scene/chosen_words.hpp"
+#include "tools/scene/print_json.hpp"
+
+namespace tamp::tools
+{
+
+void write_page_data(const std::filesystem::path& run)
+{
+  Json data;
+  with_run_document(run / "scene.json", [&](const Json& scene) {
+    data["materials"] = Json::array();
+    for (const auto& [name, material] : scene.at("materials").items()) data["materials"].push_back(name);
+    data["pictures"] = scene_pictures(run, scene);
+    data["words"] = chosen_words(scene);
+  });
+  runtime::write_whole_file(run / "page.json", json_text(data) + "\n");
+}
+
+}  // namespace tamp::tools

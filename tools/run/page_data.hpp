@@ -1,0 +1,13 @@
+#pragma once
+
+#include <filesystem>
+
+namespace tamp::tools
+{
+
+/// Writes `page.json`, what the drawing of a run's page needs of files that Python does not read by itself: the
+/// materials of a scene by name, pictures of it, and the words that it chose, with their meanings. Throws FileError
+/// where a file of the run is missing or damaged, or `page.json` cannot be written.
+void write_page_data(const std::filesystem::path& run);
+
+}  // namespace tamp::tools

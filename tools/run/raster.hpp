@@ -1,0 +1,42 @@
+#pragma once
+
+#include <array>
+#include <vector>
+
+namespace tamp::tools
+{
+
+/// A picture of particles in cells of one size, each the nearest particle's of those that reach it.
+class Raster
+{
+ public:
+  static constexpr int nobody = -1;
+
+  struct Cell {
+    /// Of the particle, or `nobody`.
+    int material = nobody;
+    double speed = 0;
+    /// How far away it is.
+    double distance = 0;
+  };
+
+  /// Of a box, with `most` squares along its longer side.
+  Raster(std::array<double, 2> lower, std::array<double, 2> upper, int most);
+
+  /// A particle is a square that reaches so far from its middle, a cell at least; `off` is how far it is from the
+  /// plane of the picture.
+  void add(std::array<double, 2> position, double reach, double off, int material, double speed);
+
+  std::array<int, 2> n_cells() const { return n_; }
+  double cell_size() const { return size_; }
+  /// Row by row from below.
+  const std::vector<Cell>& cells() const { return cells_; }
+
+ private:
+  std::array<double, 2> lower_;
+  double size_;
+  std::array<int, 2> n_;
+  std::vector<Cell> cells_;
+};
+
+}  // namespace tamp::tools
