@@ -93,12 +93,54 @@ TEST_CASE("the page of a run says how it ended, how far to trust it, and where i
   CHECK(drawn.exit_code == 0);
   CHECK(drawn.out == "written to " + out + "/report.html\n");
   const std::string page = read_text(out + "/report.html");
-  for (const char* words : {"after 60 steps", "energy drift", "Force on punch against its depth", "Step size",
-                            "update stress: sand", "What workers waited for", "cap state"}) {
+  for (const char* words :
+       {"after 60 steps", "energy drift", "The particles at 0 s", "Speed at", "cells across punch", "cubic B-splines",
+        "Force on punch against its depth", "Step size", "Of 20 traced steps", "update stress: sand, patch 3",
+        "What workers waited for", "forecast of all", "cap state"}) {
     CHECK_THAT(page, Catch::Contains(words));
   }
   CHECK_THAT(page, !Catch::Contains("http://") || Catch::Contains("http://www.w3.org"));
   CHECK_THAT(page, !Catch::Contains("https://"));
+}
+
+TEST_CASE("a page is not drawn of damaged files of a run, which are named")
+{
+  const TemporaryFolder folder;
+  const std::string out = (folder.path() / "run").string();
+  REQUIRE(tamp_with("run " TAMP_SOURCE_DIR "/inputs/punch/quick.json --steps 3 --quiet --out " + out).exit_code == 0);
+  const auto drawn_with = [&](const std::string& file, const std::string& content) {
+    const std::string sound = read_text(out + "/" + file);
+    folder.write("run/" + file, content);
+    const Outcome outcome = tamp_with("profile " + out + " --format html");
+    folder.write("run/" + file, sound);
+    CAPTURE(file, content);
+    CHECK(outcome.exit_code == 4);
+    CHECK_THAT(outcome.err, Catch::Contains(out + "/" + file));
+  };
+
+  for (const char* content : {"", "{", "[]", R"({"traceEvents": [{"ph": "X", "args": {"step": 1}}]})"}) {
+    drawn_with("trace.json", content);
+  }
+  drawn_with("fields.h5", "no fields");
+  drawn_with("scene.json", "{}");
+  drawn_with("summary.json", "{");
+  drawn_with("history.csv", "step,time[s]\n0,x\n");
+  CHECK(tamp_with("profile " + out + " --format html").exit_code == 0);
+}
+
+TEST_CASE("the page of a run says what it cannot draw: a step where none was traced, particles without fields")
+{
+  const TemporaryFolder folder;
+  const std::string out = (folder.path() / "run").string();
+  REQUIRE(tamp_with("run " TAMP_SOURCE_DIR "/inputs/punch/quick.json --steps 3 --trace-steps none --quiet --out " + out)
+              .exit_code == 0);
+  fs::remove(out + "/fields.h5");
+
+  const Outcome drawn = tamp_with("profile " + out + " --format html");
+
+  CHECK(drawn.exit_code == 0);
+  const std::string page = read_text(out + "/report.html");
+  CHECK_THAT(page, Catch::Contains("No step was traced") && Catch::Contains("wrote no fields"));
 }
 
 }  // namespace test_profile_command

@@ -1,5 +1,6 @@
 """How files are read: whole, or refused with the line that is wrong."""
 
+import contextlib
 import csv
 import io
 import json
@@ -126,6 +127,19 @@ def document(path):
         raise Refusal(f"{path}:{error.lineno}", error.msg, "JSON") from None
     except (ValueError, RecursionError):  # a number of too many digits, too many brackets
         raise Refusal(path, "numbers too long or brackets too deep", "JSON") from None
+
+
+@contextlib.contextmanager
+def written_by_tamp(path):
+    """What is done with a file of TAMP's own, which may be damaged."""
+    try:
+        yield
+    except Failure:
+        raise
+    except Refusal as refusal:
+        raise Failure(refusal) from None
+    except (AttributeError, IndexError, KeyError, TypeError, ValueError) as error:
+        raise Failure(path, f"damaged: {error!r}", "what TAMP has written") from None
 
 
 def keep_inputs(sources, outputs):

@@ -27,5 +27,6 @@ def make_chart(name, title, description, caption, table, draw, layouts=(WIDE, NA
     for layout in layouts:
         sheet, places = draw(layout)
         own_name = f"{name}-narrow" if layout is NARROW else name
-        drawings.append(picture.as_picture(sheet.figure, own_name, title, description, places, png=layout is WIDE))
+        drawings.append(picture.as_picture(sheet.figure, own_name, title, description, places, png=layout is WIDE,
+                                           tips=sheet.tips))
     return Chart(name, title, description, caption, *drawings, table)

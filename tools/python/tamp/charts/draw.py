@@ -4,25 +4,16 @@ From study.json come index.html and charts/*.svg and *.png, from compare.json co
 what a run leaves: summary.json, profile.json and its histories. The same files give the same files, byte for byte.
 """
 
-import contextlib
 import os
 import pathlib
 
 from tamp.charts import compare_page, run_page, study, study_page
-from tamp.failure import Failure, Refusal
+from tamp.failure import Refusal
+from tamp.files import written_by_tamp
 
 
 def add_arguments(parser):
     parser.add_argument("folder", type=pathlib.Path, metavar="FOLDER")
-
-
-@contextlib.contextmanager
-def written_by_tamp(path):
-    """What is done with a file of TAMP's own, which may be damaged."""
-    try:
-        yield
-    except (AttributeError, IndexError, KeyError, TypeError, ValueError) as error:
-        raise Failure(path, f"damaged: {error!r}", "what TAMP has written") from None
 
 
 def main(options):

@@ -28,13 +28,15 @@ def whole_page(title, content, kind, script=""):
 """
 
 
-def as_html(table):
+def as_html(table, kind=""):
+    """`kind` is the table's class: "words" has sentences in its last column."""
     def row(cells):
         return "<tr>" + "".join(f"<td>{escaped(cell)}</td>" for cell in cells) + "</tr>\n"
 
     head = "".join(f'<th scope="col">{escaped(cell)}</th>' for cell in table.head)
     body = "".join(map(row, table.rows))
-    return wide(f"<table>\n<thead><tr>{head}</tr></thead>\n<tbody>\n{body}</tbody>\n</table>", "Figures")
+    named = f' class="{kind}"' if kind else ""
+    return wide(f"<table{named}>\n<thead><tr>{head}</tr></thead>\n<tbody>\n{body}</tbody>\n</table>", "Figures")
 
 
 def wide(table, name):

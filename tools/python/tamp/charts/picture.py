@@ -30,23 +30,25 @@ class Picture(NamedTuple):
     places: list
 
 
-def as_picture(figure, name, title, description, places=(), png=False):
-    """`name` is the picture's alone on its page."""
+def as_picture(figure, name, title, description, places=(), png=False, tips=None):
+    """`name` is the picture's alone on its page; `tips` are texts under the mouse, by gids."""
     matplotlib.rcParams["svg.hashsalt"] = name
     width, height = (72 * size for size in figure.get_size_inches())
     text, pixels = io.StringIO(), io.BytesIO()
     figure.savefig(text, format="svg", metadata={"Date": None, "Creator": None, "Format": None, "Type": None})
     if png:
         figure.savefig(pixels, format="png", dpi=144, metadata={"Software": None})
-    svg = with_texts(text.getvalue(), name, title, description)
+    svg = with_texts(text.getvalue(), name, title, description, tips or {})
     return Picture(svg, pixels.getvalue(), width, height, list(places))
 
 
-def with_texts(svg, name, title, description):
+def with_texts(svg, name, title, description, tips):
     root = ElementTree.fromstring(svg.encode())
     for metadata in root.findall(f"{{{SVG}}}metadata"):
         root.remove(metadata)
-    for element in root.iter():
+    for element in list(root.iter()):
+        if element.get("id") in tips:
+            ElementTree.SubElement(element, f"{{{SVG}}}title").text = tips[element.get("id")]
         with_own_ids(element, name)
         if "d" in element.attrib:  # a hundredth of a point is enough
             element.set("d", re.sub(r"(\.\d\d)\d+", r"\1", element.get("d")))

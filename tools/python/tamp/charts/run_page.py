@@ -1,10 +1,11 @@
 """The page of a run: how it ended and how far to trust it, what it did over time, and where its time went."""
 
 import math
+import os
 import re
 
 from tamp import files
-from tamp.charts import over_time, page
+from tamp.charts import choices, over_time, page, particles, timeline
 from tamp.charts.chart import Table
 from tamp.charts.formatting import NO_NUMBER, counted, escaped, is_number, number_text, percent_text, plain, si_text
 from tamp.charts.over_time import Line, Plot
@@ -33,10 +34,26 @@ class History:
 
 
 def read_run(folder):
-    run = {name: plain(files.document(folder / f"{name}.json")) for name in ("summary", "profile")}
+    """What a run has left. `page` and `scene` are None where the program has not prepared the page, `step` where none
+    was traced."""
+    run = {name: read(folder / f"{name}.json", plain_document) for name in ("summary", "profile")}
     for name in ("history", "machine"):
-        run[name] = History(folder / f"{name}.csv") if (folder / f"{name}.csv").exists() else None
+        run[name] = read(folder / f"{name}.csv", History)
+    run["scene"] = read(folder / "scene.json", plain_document)
+    run["page"] = read(folder / "page.json", plain_document)
+    run["step"] = read(folder / "trace.json", lambda path: timeline.read_step(files.document(path)))
+    run["views"] = read(folder / "page.json", lambda path: particles.views(run["page"])) or []
     return run
+
+
+def plain_document(path):
+    return plain(files.document(path))
+
+
+def read(path, how):
+    """None where there is no such file."""
+    with files.written_by_tamp(path):
+        return how(path) if os.path.exists(path) else None
 
 
 def write(run, folder):
@@ -44,16 +61,55 @@ def write(run, folder):
 
 
 def whole_page(run):
-    summary = run["summary"]
+    summary, profile = run["summary"], run["profile"]
     content = f"<h1>{escaped(summary['scene'])}</h1>\n<p class=\"faint\">{lead(summary)}</p>\n"
     content += warnings(summary) + page.as_html(monitors(summary))
-    charts = [over_time.chart(plot, f"plot-{k + 1}") for k, plot in enumerate(plots(run))]
-    content += '<div class="charts">\n' + "".join(map(page.figure, charts)) + "</div>\n"
-    content += "<h2>Where the time went</h2>\n" + time_of_steps(run["profile"]) + page.as_html(tasks(run["profile"]))
-    if run["profile"].get("waits"):
-        content += "<h2>What workers waited for</h2>\n" + page.as_html(waits(run["profile"]))
-    content += "<h2>What the memory is for</h2>\n" + page.as_html(memory(run["profile"]))
+    content += the_scene(run) + "<h2>Over time</h2>\n" + charts(plots(run), "plot")
+    content += "<h2>Where the time went</h2>\n" + time_of_steps(profile) + one_step(run["step"])
+    content += page.as_html(tasks(profile))
+    if profile.get("waits"):
+        content += "<h2>What workers waited for</h2>\n" + page.as_html(waits(profile))
+    content += "<h2>What the memory is for</h2>\n" + charts(memory_plots(run), "memory")
+    content += page.as_html(memory(profile))
     return page.whole_page(f"{summary['scene']}: a run", f"<main>\n{content}</main>\n", kind="compare")
+
+
+def charts(plots, name):
+    return in_columns(over_time.chart(plot, f"{name}-{k + 1}") for k, plot in enumerate(plots))
+
+
+def in_columns(charts):
+    return '<div class="charts">\n' + "".join(map(page.figure, charts)) + "</div>\n"
+
+
+# --- what was run ---
+
+
+def the_scene(run):
+    scene, prepared = run["scene"], run["page"]
+    if scene is None or prepared is None:
+        return ""
+    text = f"<h2>The scene</h2>\n<p>{escaped(scene['title'])}. {escaped(bodies(scene))}</p>\n"
+    if run["views"]:
+        text += in_columns(particles.chart(view, f"particles-{k + 1}") for k, view in enumerate(run["views"]))
+    else:
+        text += "<p>The run wrote no fields, from which its particles could be drawn.</p>\n"
+    chosen = choices.table(scene, prepared["words"], run["summary"])
+    return text + "<h2>What was chosen</h2>\n" + page.as_html(chosen, "words")
+
+
+def bodies(scene):
+    return "; ".join(f"{name} is {described(body)}" for name, body in scene["bodies"].items()) + "."
+
+
+def described(body):
+    speed = speed_text(body)
+    return body["material"] + (", rigid" if body["rigid"] else "") + (f", at first with {speed}" if speed else "")
+
+
+def speed_text(body):
+    speed = math.hypot(*(v for v in body["velocity"] if is_number(v))) if body.get("velocity") else 0
+    return si_text(speed, "m/s") if speed > 0 else ""
 
 
 # --- how it ended ---
@@ -92,18 +148,25 @@ def plots(run):
     if history is None:
         return []
     made = [plot_of(history, "Energies", "energy", "J", [name for name in ENERGIES if name in history.columns])]
-    for ending, title, unit in [("depth", "Depth", "m"), ("velocity_y", "Velocity along y", "m/s"),
-                                ("velocity_z", "Velocity along z", "m/s")]:
-        if history.ending(ending):
-            made.append(of_each(history, title, ending, unit))
+    if history.ending("depth"):
+        made.append(of_each(history, "Depth", "depth", "m"))
+    made += [of_each(history, f"Velocity along {axis}", f"velocity_{axis}", "m/s") for axis in moving_axes(history)]
     made += [force_against_depth(history, body) for body in history.ending("depth") if force(history, body)]
     for ending, title in [("p_max", "Largest mean stress"), ("q_max", "Largest deviatoric stress")]:
         if history.ending(ending):
             made.append(of_each(history, title, ending, "Pa"))
     made.append(plot_of(history, "Step size", "step size", "s", ["dt"]))
-    if run["machine"] is not None:
-        made.append(plot_of(run["machine"], "Memory of the first rank", "resident size", "B", ["rss"]))
     return made
+
+
+def moving_axes(history):
+    """Along which some body is a hundredth as fast as along any."""
+    fastest = {}
+    for axis in "xyz":
+        speeds = [abs(v) for body in history.ending(f"velocity_{axis}")
+                  for v in history.columns[f"{body}.velocity_{axis}"] if is_number(v)]
+        fastest[axis] = max(speeds, default=0)
+    return [axis for axis, speed in fastest.items() if speed > 0.01 * max(fastest.values())]
 
 
 def plot_of(history, title, name, unit, columns):
@@ -143,6 +206,12 @@ def time_of_steps(profile):
     return f"<p>{escaped(text)}</p>\n"
 
 
+def one_step(step):
+    if step is None:
+        return "<p>No step was traced (<code>--trace-steps</code>), so that none can be drawn.</p>\n"
+    return page.figure(timeline.chart(step, "timeline"))
+
+
 def tasks(profile):
     rows = [[t["name"], f"{t['count']}", si_text(t["mean_s"], "s"), si_text(t["p95_s"], "s"), percent_text(t["share"]),
              number_text(t["imbalance"]), percent_text(t.get("step_gain_if_a_tenth_faster")),
@@ -154,6 +223,19 @@ def tasks(profile):
 def waits(profile):
     return Table(["before", "waited for", "time of all workers"],
                  [[w["task"], w["waits_for"], si_text(w["s"], "s")] for w in profile["waits"]])
+
+
+def memory_plots(run):
+    """What the processes hold, beside what the fields take at most and what was expected of all."""
+    machine, summary = run["machine"], run["summary"]
+    if machine is None or not machine.columns["time"]:
+        return []
+    held = machine.line("resident, all ranks", "rss")
+    ends = [held.x[0], held.x[-1]]
+    levels = [("labels, at most", summary["ledger_peak_bytes"]),
+              ("forecast of all", summary["forecast"]["memory_bytes"])]
+    lines = [held] + [Line(name, ends, [level, level]) for name, level in levels if is_number(level)]
+    return [Plot("Memory", "memory", "B", lines)]
 
 
 def memory(profile):

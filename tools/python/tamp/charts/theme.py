@@ -29,6 +29,9 @@ HUES = [
     ("#5a98e8", "#c3d8ff"), ("#4d4000", "#f0e08a"),
 ]
 N_SHADES = 2
+# Of a quantity, from little to much: ends of a scale of one hue.
+LEVELS = ("#cfe0f5", "#08306b"), ("#27384f", "#cfe4ff")
+N_LEVELS = 7
 MARKERS = "os^DvPhd<*>p"
 DASHES = ["-", (0, (7, 2.5)), (0, (1.5, 2)), (0, (8, 2, 1.5, 2)), (0, (4, 2)), (0, (10, 2, 1.5, 2, 1.5, 2))]
 FONT_OF_FILES = "'DejaVu Sans', Verdana, sans-serif"
@@ -46,6 +49,8 @@ def all_colours():
         for shade in range(N_SHADES):
             ends = SURFACES["ink"]
             colours[f"hue-{k}-{shade}"] = tuple(mixed(c, end, 0.4 * shade) for c, end in zip(hue, ends))
+    for k in range(N_LEVELS):
+        colours[f"level-{k}"] = tuple(mixed(little, much, k / (N_LEVELS - 1)) for little, much in LEVELS)
     return colours
 
 
@@ -57,6 +62,10 @@ assert len(NAMES) == len(LIGHT), "each colour of paper has one name"
 
 def hue(family, shade=0):
     return LIGHT[f"hue-{family % len(HUES)}-{shade % N_SHADES}"]
+
+
+def level(k):
+    return LIGHT[f"level-{k}"]
 
 
 class Style(NamedTuple):

@@ -1,0 +1,185 @@
+"""What the page of a run makes of a trace, of pictures, of choices and of memory that are known."""
+
+import unittest
+
+import numpy as np
+
+from tamp.charts import choices, particles, picture, run_page, timeline
+from tamp.charts.timeline import Bar
+from tests.page_tags import Tags
+
+
+def task(step, start, length, name="push", phase="motion", rank=0, worker=0, **args):
+    return {"name": name, "cat": phase, "ph": "X", "pid": rank, "tid": worker, "ts": start, "dur": length,
+            "args": {"step": step, **args}}
+
+
+def step(number, start, length, rank=0):
+    return task(number, start, length, f"step {number}", "step", rank, 1)
+
+
+def trace(*events):
+    arrow = {"name": "waits for", "cat": "arrow", "ph": "s", "id": 0, "pid": 0, "tid": 0, "ts": 0}
+    return {"traceEvents": [arrow, {"name": "process_name", "ph": "M", "pid": 0, "args": {"name": "rank 0"}}, *events]}
+
+
+def bars(*ends, phase="motion"):
+    return [Bar(start, end, phase, "push", 1, end - start) for start, end in ends]
+
+
+class TheStep(unittest.TestCase):
+    def test_is_the_one_of_median_time_among_those_after_the_first(self):
+        for lengths, chosen in [([90, 5, 7, 100], 3), ([1, 8, 6], 3), ([4, 9], 2), ([4], 1)]:
+            events = [step(k + 1, 1000 * k, length) for k, length in enumerate(lengths)]
+            found = timeline.read_step(trace(*events))
+
+            self.assertEqual((found.number, found.n_traced), (chosen, len(lengths)), lengths)
+
+    def test_takes_as_long_as_on_the_slowest_rank(self):
+        self.assertAlmostEqual(timeline.read_step(trace(step(3, 0, 10), step(3, 1, 30, rank=1))).duration, 30e-6)
+
+    def test_has_its_tasks_by_worker_from_its_start_on_and_messages_last(self):
+        message = task(2, 105, 4, "halo", "message", 0, 3, bytes=8)
+        found = timeline.read_step(trace(step(1, 0, 90), task(1, 0, 90), step(2, 100, 10), message,
+                                         task(2, 104, 6, patch=3), task(2, 100, 2, "push: mud", material="mud"),
+                                         task(2, 101, 9, worker=10), task(2, 101, 9, worker=2, material="mud")))
+
+        self.assertEqual(list(found.lanes), [(0, 0), (0, 2), (0, 10), (0, "messages")])
+        first, second = found.lanes[0, 0]
+        self.assertEqual((first.task, second.task), ("push: mud", "push, patch 3"))
+        self.assertEqual(found.lanes[0, 2][0].task, "push, mud")
+        self.assertEqual(first.start, 0)
+        self.assertAlmostEqual(second.end, 10e-6)
+
+    def test_there_is_none_in_a_trace_without_steps(self):
+        self.assertIsNone(timeline.read_step(trace()))
+
+    def test_is_drawn_with_a_text_for_each_task_in_both_widths(self):
+        known = timeline.read_step(trace(step(2, 0, 10), task(2, 0, 4, "push <up>"), task(2, 5, 5, phase="stress")))
+
+        chart = timeline.chart(known, "timeline")
+
+        for drawing in [chart.wide, chart.narrow]:
+            self.assertIn("<title>push &lt;up&gt;: 4 µs, after 0 s</title>", drawing.svg)
+            self.assertEqual(drawing.svg.count("-bar-"), 2)
+        self.assertIn("Step 2 takes 10 µs for 2 tasks: worker 0 works for 90 % of it", chart.description)
+        self.assertIn("stress 56 %, motion 44 %", chart.description)
+
+
+class Neighbours(unittest.TestCase):
+    def test_of_one_phase_are_joined_where_they_follow_at_once(self):
+        made = timeline.joined(bars((0, 1), (1, 2), (5, 6)) + bars((6, 7), phase="stress"), gap=0.5, alike=True)
+
+        self.assertEqual([(bar.start, bar.end, bar.n) for bar in made], [(0, 2, 2), (5, 6, 1), (6, 7, 1)])
+        self.assertEqual(made[0].busy, 2)
+
+    def test_of_any_phase_are_joined_where_they_are_short(self):
+        made = timeline.joined(bars((0, 1)) + bars((1, 3), phase="stress") + bars((3, 9)), gap=2, alike=False)
+
+        self.assertEqual([(bar.end, bar.phase, bar.n) for bar in made], [(3, "stress", 2), (9, "motion", 1)])
+
+    def test_are_joined_until_few_enough_are_left_and_no_task_is_lost(self):
+        many = [Bar(k, k + 0.9, f"phase {k % 3}", "push", 1, 0.9) for k in range(5000)]
+
+        left = timeline.fewer({(0, 0): many}, 5000, most=100)[0, 0]
+
+        self.assertLessEqual(len(left), 100)
+        self.assertEqual(sum(bar.n for bar in left), 5000)
+        self.assertAlmostEqual(sum(bar.busy for bar in left), 4500)
+
+    def test_stay_apart_where_there_are_few(self):
+        lanes = {(0, 0): bars((0, 1), (1, 2))}
+
+        self.assertEqual(timeline.fewer(lanes, 2), lanes)
+
+
+class Pictures(unittest.TestCase):
+    DATA = {"materials": ["steel", "sand"],
+            "pictures": [{"n": [3, 2], "size": 0.5, "materials": [1, 1, 1, -1, 0, 0], "time_s": 2e-3,
+                          "speeds": [0, 1, 2, None, 30, 30], "slab": {"axis": "y", "at": 0.05},
+                          "axes": [{"name": "x", "lower": 1, "upper": 2.5}, {"name": "z", "lower": 0, "upper": 1}]}]}
+
+    def test_cover_all_squares_of_a_kind_once(self):
+        random = np.random.default_rng(3)
+        kinds = random.integers(-1, 3, (20, 30))
+
+        for kind in range(3):
+            covered = np.zeros_like(kinds)
+            for row, end_row, column, end_column in particles.rectangles(kinds, kind):
+                covered[row:end_row, column:end_column] += 1
+            np.testing.assert_array_equal(covered, kinds == kind)
+
+    def test_join_what_is_alike_to_one_rectangle(self):
+        self.assertEqual(particles.rectangles(np.zeros((4, 5), int), 0), [(0, 4, 0, 5)])
+
+    def test_say_what_is_where(self):
+        materials, speeds = particles.views(self.DATA)
+
+        self.assertEqual(particles.describe(materials),
+                         "The particles at 2 ms, x across and z upwards: 2 colours. steel: 40 % of what is drawn, x "
+                         "from 1.5 m to 2.5 m, z from 500 mm to 1 m. sand: 60 % of what is drawn, x from 1 m to "
+                         "2.5 m, z from 0 m to 500 mm.")
+        self.assertEqual(materials.caption, "Particles within half a cell of y = 50 mm.")
+        self.assertEqual(speeds.names[0], "0 m/s to 5 m/s")
+        self.assertEqual(speeds.names[-1], "25 m/s to 30 m/s")
+        self.assertEqual(speeds.kinds.tolist(), [[0, 0, 0], [-1, 5, 5]])
+
+    def test_of_speed_are_left_out_where_nothing_moves_or_nothing_is_known(self):
+        for speed in [0, None]:
+            data = {**self.DATA, "pictures": [{**self.DATA["pictures"][0], "speeds": [speed] * 6}]}
+            self.assertEqual(len(particles.views(data)), 1)
+
+    def test_are_drawn_in_colours_that_the_page_has(self):
+        for view in particles.views(self.DATA):
+            chart = particles.chart(view, "particles")
+            self.assertIn("particles-kind-0", chart.wide.svg)
+            self.assertNotRegex(picture.within_page(chart.wide), "(fill|stroke): #")
+
+
+class Choices(unittest.TestCase):
+    def test_say_whether_the_scene_names_them(self):
+        self.assertEqual(choices.source(["/transfer"], ["/transfer"]), "default")
+        self.assertEqual(choices.source(["/transfer"], ["/transfer_other"]), "scene")
+        self.assertEqual(choices.source(["/boundaries/x-", "/boundaries/x+"], ["/boundaries/x+"]), "scene and default")
+        self.assertEqual(choices.source(["/output/fields"], ["/output"]), "default")
+        self.assertEqual(choices.source(["/transfer"], None), "–")
+
+    def test_of_one_word_share_a_row(self):
+        word = {"word": "symmetry", "about": "", "meaning": "a `smooth` wall, see [method.md](method.md)"}
+        words = [{"key": f"/boundaries/{face}", **word} for face in ["x-", "y+"]]
+
+        self.assertEqual(choices.word_rows(words, []),
+                         [["boundaries of x-, y+", "symmetry", "scene", "a smooth wall, see method.md"]])
+
+    def test_of_parts_name_what_they_are_of(self):
+        self.assertEqual(choices.place("/materials/sand/modulus/type"), ("modulus type", "sand"))
+        self.assertEqual(choices.place("/time/rule"), ("time rule", ""))
+
+    def test_show_values_as_people_read_them(self):
+        self.assertEqual(choices.value_text([2, 3], ""), "2 × 3")
+        self.assertEqual(choices.value_text([0, -9.81], "m/s²"), "0, −9.81 m/s²")
+        self.assertEqual(choices.value_text({"axis": [1, 0], "angular_speed": 6}, ""), "axis (1, 0); angular speed 6")
+        self.assertEqual(choices.value_text(None, ""), "off")
+
+
+class TheMemory(unittest.TestCase):
+    def test_is_drawn_beside_what_was_expected_and_what_the_fields_take(self):
+        machine = run_page.History.__new__(run_page.History)
+        machine.columns = {"time": [0, 1e-3], "rss": [3e7, 4e7]}
+        run = {"machine": machine, "summary": {"ledger_peak_bytes": 3e6, "forecast": {"memory_bytes": None}}}
+
+        plot, = run_page.memory_plots(run)
+
+        self.assertEqual([(line.name, line.y) for line in plot.lines],
+                         [("resident, all ranks", [3e7, 4e7]), ("labels, at most", [3e6, 3e6])])
+
+    def test_is_not_drawn_where_it_was_not_measured(self):
+        self.assertEqual(run_page.memory_plots({"machine": None, "summary": {}}), [])
+
+
+class TheSentence(unittest.TestCase):
+    def test_of_a_run_without_a_trace_says_so(self):
+        tags = Tags(run_page.one_step(None))
+
+        self.assertEqual((tags.wrong, tags.open, tags.of("svg")), ([], [], []))
+        self.assertIn("No step was traced", run_page.one_step(None))
