@@ -2,7 +2,8 @@
 
 Written are OUT_FOLDER/wide.png, dark.png and phone.png. On each page it chooses points by script, as a person would,
 and measures whether the page is wider than the window. The exit code is 1 where the console complains, the page scrolls
-sideways, or a point that is chosen shows nothing. The tests do not need a browser; Debian's chromium is used.
+sideways, or a point that is chosen shows nothing. Debian's chromium is used; of the tests only those of the label
+`browser` want it.
 """
 
 import html
@@ -42,33 +43,40 @@ frame.onload = () => {
 """
 
 
-def framed(page, width, height, chosen):
+def framed(page, width, height, chosen=False):
     return ('<!DOCTYPE html><html><head><title>not loaded</title><link rel="icon" href="data:,"></head>'
             f'<body style="margin:0"><iframe src="{html.escape(page.resolve().as_uri())}" '
             f'style="border:0;width:{width}px;height:{height}px"></iframe>'
             f"<script>{PROBE.replace('CHOSEN', str(chosen).lower())}</script></body></html>")
 
 
-def chromium(options, folder, page, flags):
-    command = [options.chromium, *FLAGS, f"--user-data-dir={folder}/profile", *flags, page.as_uri()]
+def chromium(program, folder, page, flags):
+    """Opens a page, by its address."""
+    command = [program, *FLAGS, f"--user-data-dir={folder}/profile", *flags, page]
     return subprocess.run(command, capture_output=True, text=True, timeout=180)
+
+
+def complaints(*outcomes):
+    """What the console said, each line once."""
+    said = [line for outcome in outcomes for line in outcome.stderr.splitlines() if "CONSOLE" in line]
+    return list(dict.fromkeys(said))
 
 
 def look(options, name, width, flags, folder):
     outer = folder / f"{name}.html"
     outer.write_text(framed(options.page, width, options.height, options.chosen))
     size = f"--window-size={max(width, 500)},{options.height}"
-    found = chromium(options, folder / name, outer, [*flags, size, "--dump-dom"])
+    found = chromium(options.chromium, folder / name, outer.as_uri(), [*flags, size, "--dump-dom"])
     shot = f"--screenshot={options.out.resolve()}/{name}.png"
-    picture = chromium(options, folder / name, outer, [*flags, size, shot])
+    picture = chromium(options.chromium, folder / name, outer.as_uri(), [*flags, size, shot])
     said = re.search("<title>(.*?)</title>", found.stdout)
-    complaints = [line for line in (found.stderr + picture.stderr).splitlines() if "CONSOLE" in line]
+    wrong = complaints(found, picture)
     said = said[1] if said else "not loaded"
-    print(f"{name}: {said}; {len(complaints)} complaints")
-    print("".join(f"  {line}\n" for line in dict.fromkeys(complaints)), end="")
+    print(f"{name}: {said}; {len(wrong)} complaints")
+    print("".join(f"  {line}\n" for line in wrong), end="")
     too_wide = re.search(r"(-?\d+) pixels too wide", said)
     fits = too_wide is not None and int(too_wide[1]) <= 0
-    return not complaints and ", 0 that show nothing, 0 panels" in said and fits
+    return not wrong and ", 0 that show nothing, 0 panels" in said and fits
 
 
 def add_arguments(parser):

@@ -1,0 +1,109 @@
+"""The page of a run and that of a task graph, opened in a browser: nothing on the console, and all is drawn.
+
+    cd tools/python; python3 -m tests.test_browser [--tamp build/release/tamp]
+
+Ends with exit code 77, as skipped, where there is no Chromium."""
+
+import argparse
+import json
+import pathlib
+import re
+import shutil
+import subprocess
+import sys
+import tempfile
+import unittest
+
+from tamp import program
+from tamp.charts import look_at_page
+
+SCENE = program.INPUTS / "punch/quick.json"
+TAMP = program.USUAL
+BROWSERS = ["chromium", "chromium-browser", "google-chrome"]
+BROWSER = next((found for found in map(shutil.which, BROWSERS) if found), None)
+SKIPPED = 77
+PHONE, HEIGHT = 390, 2000
+
+
+def made(*words):
+    done = subprocess.run([TAMP, *words], capture_output=True, text=True, env=program.ENVIRONMENT)
+    assert done.returncode == 0, done.stderr
+
+
+class Opened:
+    """What a browser made of a page: its elements after the scripts have run, and what the console said."""
+
+    def __init__(self, page, part="", flags=()):
+        with tempfile.TemporaryDirectory() as folder:
+            done = look_at_page.chromium(BROWSER, folder, page.resolve().as_uri() + part, [*flags, "--dump-dom"])
+        self.complaints, self.text = look_at_page.complaints(done), done.stdout
+
+    def count(self, pattern):
+        return len(re.findall(pattern, self.text))
+
+
+class Pages(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.holder = tempfile.TemporaryDirectory()
+        cls.folder = pathlib.Path(cls.holder.name)
+        cls.report, cls.graph = cls.folder / "run/report.html", cls.folder / "graph.html"
+        made("run", SCENE, "--steps", "60", "--quiet", "--out", cls.folder / "run")
+        made("profile", cls.folder / "run", "--format", "html")
+        made("graph", SCENE, "--run", cls.folder / "run", "--format", "html", "--out", cls.graph)
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.holder.cleanup()
+
+    def looks(self, page, part=""):
+        for name, (width, flags) in look_at_page.LOOKS.items():
+            opened = Opened(page, part, [*flags, f"--window-size={max(width, 500)},{HEIGHT}"])
+            self.assertEqual(opened.complaints, [], name)
+            yield opened
+
+    def test_the_report_has_each_chart_twice_and_its_pictures_and_tasks(self):
+        tasks = json.loads((self.folder / "run/profile.json").read_text())["tasks"]
+        for opened in self.looks(self.report):
+            n_charts = opened.count("<figure")
+            self.assertGreaterEqual(n_charts, 11)
+            self.assertEqual(opened.count('<svg [^>]*role="img"'), 2 * n_charts)
+            self.assertGreaterEqual(opened.count(r'id="particles-\d-kind-\d"'), 5)
+            self.assertGreater(opened.count(r'id="timeline-bar-\d+"'), 100)
+            self.assertIn("</html>", opened.text)
+            for task in tasks:
+                self.assertIn(f"<td>{task['name']}</td>", opened.text)
+
+    def test_the_report_is_no_wider_than_a_phone(self):
+        outer = self.folder / "phone.html"
+        outer.write_text(look_at_page.framed(self.report, PHONE, HEIGHT))
+
+        opened = Opened(outer, flags=[f"--window-size=500,{HEIGHT}"])
+
+        self.assertEqual(opened.complaints, [])
+        self.assertIn(" 0 pixels too wide</title>", opened.text)
+
+    def test_the_script_of_the_graph_shows_a_task_with_a_button_for_each_instance(self):
+        made("graph", SCENE, "--format", "json", "--out", self.folder / "graph.json")
+        tasks = json.loads((self.folder / "graph.json").read_text())["folded"]["tasks"]
+        for opened in self.looks(self.graph, "#t0"):
+            self.assertGreater(opened.count("<rect"), 20)
+            self.assertEqual(opened.count('<button class="place'), tasks[0]["instances"])
+            self.assertIn("<h3>Measured</h3>", opened.text)
+
+    def test_a_page_whose_script_throws_is_found_out(self):
+        for script in ["throw new Error('thrown')", "nothing.there()", "console.error('said')", "let let = 1"]:
+            page = self.folder / "wrong.html"
+            page.write_text(f"<!DOCTYPE html><title>wrong</title><script>{script}</script>")
+            self.assertEqual(len(Opened(page).complaints), 1, script)
+
+
+if __name__ == "__main__":
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    program.add_option(parser)
+    options, rest = parser.parse_known_args()
+    TAMP = options.tamp.resolve()
+    if BROWSER is None:
+        print("skipped: there is no Chromium (Debian: chromium)")
+        sys.exit(SKIPPED)
+    unittest.main(argv=sys.argv[:1] + rest)
