@@ -27,21 +27,37 @@ struct View {
   double half_thickness = std::numeric_limits<double>::infinity();
 };
 
-/// Where the particles of a material are at the start, and how fast they are along each axis.
+/// Where particles are at the start, and how fast they are along each axis.
 struct Whereabouts {
   Eigen::Vector3d lower = Eigen::Vector3d::Constant(std::numeric_limits<double>::infinity());
   Eigen::Vector3d upper = -lower;
   Eigen::Vector3d fastest = Eigen::Vector3d::Zero();
 };
 
-Whereabouts whereabouts(const FieldReader& fields, const std::string& output, const std::string& material)
+/// The materials of bodies that move at the start, are driven or rigid; all where there is no such body.
+std::vector<std::string> moving_materials(const Json& scene, const std::vector<std::string>& all)
+{
+  std::vector<std::string> moving;
+  for (const auto& [name, body] : scene.at("bodies").items()) {
+    const auto is_not_0 = [](const Json& v) { return v.is_number() && v != 0; };
+    const bool has_velocity = body.contains("velocity") && std::ranges::any_of(body["velocity"], is_not_0);
+    if (!has_velocity && body.at("driven").is_null() && body.at("rigid") != true) continue;
+    const auto found = std::ranges::find(all, body.at("material").get<std::string>());
+    if (found != all.end()) moving.push_back(*found);
+  }
+  return moving.empty() ? all : moving;
+}
+
+Whereabouts whereabouts(const FieldReader& fields, const std::string& output, const std::vector<std::string>& materials)
 {
   Whereabouts found;
-  fields.for_each(output, material, [&](const StoredParticle& particle) {
-    found.lower = found.lower.cwiseMin(particle.position);
-    found.upper = found.upper.cwiseMax(particle.position);
-    if (particle.velocity.allFinite()) found.fastest = found.fastest.cwiseMax(particle.velocity.cwiseAbs());
-  });
+  for (const std::string& material : materials) {
+    fields.for_each(output, material, [&](const StoredParticle& particle) {
+      found.lower = found.lower.cwiseMin(particle.position);
+      found.upper = found.upper.cwiseMax(particle.position);
+      if (particle.velocity.allFinite()) found.fastest = found.fastest.cwiseMax(particle.velocity.cwiseAbs());
+    });
+  }
   return found;
 }
 
@@ -73,11 +89,7 @@ double place_across(const Json& scene, const Whereabouts& moving, std::size_t ax
 View view_of(const Json& scene, const FieldReader& fields, const std::string& output)
 {
   if (scene.at("dimension").get<int>() == 2) return {};
-  Whereabouts moving;
-  for (const std::string& material : fields.materials(output)) {
-    const Whereabouts found = whereabouts(fields, output, material);
-    if (moving.fastest.norm() < found.fastest.norm() || !moving.lower.allFinite()) moving = found;
-  }
+  const Whereabouts moving = whereabouts(fields, output, moving_materials(scene, fields.materials(output)));
   View view;
   view.across = moving.fastest[0] < moving.fastest[1] ? 0 : 1;
   view.axes = {1 - view.across, 2};

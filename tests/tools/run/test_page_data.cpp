@@ -79,12 +79,15 @@ TEST_CASE("pictures of a run show which material is where at its start and at it
   CHECK(at(first, "speeds", 0.1, 0.7).is_null());
 }
 
-TEST_CASE("in space the plane of symmetry on which something moves is shown, seen along it")
+TEST_CASE("in space the plane of symmetry is shown on which a body moves or is driven, seen along it")
 {
   const TemporaryFolder folder;
   const fs::path scene = folder.write("falling.json", falling);
+  const std::string driven = R"( --set /bodies/block/driven='{"velocities": [[0, 0, 0, 0], [1, 0, 0, -1]]}')";
+  const std::string at_rest = " --set /bodies/block/velocity=null --set /bodies/block/rigid=true" + driven;
+  const std::string way = GENERATE_COPY(std::string(), at_rest);
 
-  const Json page = page_of(run_of(folder, scene.string() + " --steps 1"));
+  const Json page = page_of(run_of(folder, scene.string() + " --steps 1" + way));
 
   const Json& first = page["pictures"][0];
   CHECK(first["slab"] == Json{{"axis", "y"}, {"at", 0.0}});

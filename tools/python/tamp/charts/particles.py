@@ -93,9 +93,9 @@ def draw(view, layout):
     scale = (layout.width - left - RIGHT) / (across[1] - across[0])
     height = min(max(scale * (up[1] - up[0]), 40), MOST_HEIGHT)
     sheet = Sheet(layout, view.title, view.axes[1]["name"], view.axes[0]["name"], legend, height=height, left=left)
-    sheet.axis.grid(False)
-    for which, limits in [("x", across), ("y", up)]:
-        set_ticks(sheet.axis, which, limits, lambda tick: si_text(tick, "m"), logarithmic=False)
+    few = linear_ticks(*up, min(height / 30, 7))
+    for which, limits, ticks in [("x", across, None), ("y", up, few)]:
+        set_ticks(sheet.axis, which, limits, lambda tick: si_text(tick, "m"), logarithmic=False, ticks=ticks)
         sheet.axis.grid(False, axis=which)
     if height == MOST_HEIGHT:
         sheet.axis.set_aspect("equal", anchor="W")
