@@ -11,6 +11,7 @@
 #include "runtime/profile/table.hpp"
 #include "tools/run/run_document.hpp"
 #include "tools/run/run_folder.hpp"
+#include "tools/system/errors.hpp"
 #include "tools/system/suggestion.hpp"
 
 namespace tamp::tools
