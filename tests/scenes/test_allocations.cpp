@@ -1,10 +1,14 @@
 #include <sys/resource.h>
 
 #include <algorithm>
+#include <atomic>
 #include <catch2/catch.hpp>
+#include <chrono>
 #include <memory>
+#include <thread>
 #include <vector>
 
+#include "runtime/execute/on_workers.hpp"
 #include "tasks/simulation.hpp"
 #include "tests/scenes/count_allocations.hpp"
 #include "tools/scene/read_scene.hpp"
@@ -31,6 +35,17 @@ long n_page_faults()
   return usage.ru_minflt;
 }
 
+/// On a busy machine a thread may first come along when many steps have been run, and asks for memory of its own then.
+void wait_for_threads(runtime::Executor& executor)
+{
+  std::atomic<int> n_there{0};
+  const auto too_late = std::chrono::steady_clock::now() + std::chrono::seconds(60);
+  runtime::on_workers(executor, executor.n_threads(), [&](int) {
+    ++n_there;
+    while (n_there < executor.n_threads() && std::chrono::steady_clock::now() < too_late) std::this_thread::yield();
+  });
+}
+
 Requests requests_of(const std::string& scene, const std::vector<std::string>& assignments, int n_threads,
                      int n_steps = 120)
 {
@@ -38,6 +53,7 @@ Requests requests_of(const std::string& scene, const std::vector<std::string>& a
       tasks::Simulation::make(tools::read_scene(TAMP_SOURCE_DIR "/inputs/" + scene, assignments).scene, n_threads);
   const runtime::LedgerEntry& memory = simulation->engine().warehouse().ledger().total();
   Requests requests;
+  wait_for_threads(simulation->engine().executor());
   for (int i = 0; i < n_steps; ++i) {
     const std::size_t bytes = memory.current();
     const long allocations = n_allocations(), page_faults = n_page_faults();
