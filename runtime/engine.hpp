@@ -64,6 +64,11 @@ class Engine
 
   /// The profile of the steps so far on all ranks.
   Profile profile() const { return profiler_.profile(communicator_); }
+  /// How many times as long a step would be if each run of a task took `factor` times as long; see Profiler.
+  double step_ratio(const std::string& task, double factor) const
+  {
+    return profiler_.step_ratio(task, factor, communicator_);
+  }
   /// Which steps are traced, before the first of them; none if it was not called.
   void trace_steps(const TraceChoice& choice)
   {

@@ -29,17 +29,24 @@ bool uses(const runtime::TaskGraph& graph, const runtime::Label& label)
   });
 }
 
+std::vector<runtime::GraphTasks> changed_by(const ChangeStep& change, std::vector<runtime::GraphTasks> graphs)
+{
+  if (change) change(graphs[step_graph].tasks);
+  return graphs;
+}
+
 template <int D>
 class SimulationOf : public Simulation
 {
  public:
-  SimulationOf(Scene given, std::shared_ptr<runtime::Executor> executor, const runtime::Communicator& communicator)
+  SimulationOf(Scene given, std::shared_ptr<runtime::Executor> executor, const runtime::Communicator& communicator,
+               const ChangeStep& change)
       : Simulation(std::move(given), std::move(executor)), method_(scene_)
   {
     const BodyParticles<D> particles(scene_, runtime::PatchLayout(scene_.grid, scene_.n_patches));
     const std::vector<std::size_t> n_particles = particles.counts();
     engine_ = std::make_unique<runtime::Engine>(dealt(scene_, n_particles, communicator.size()), material_names(scene_),
-                                                graphs_of(method_), *executor_, communicator);
+                                                changed_by(change, graphs_of(method_)), *executor_, communicator);
     particles.store(warehouse());
     make_rigid_bodies(particles);
     warehouse().global_state(refused_steps) = {};
@@ -79,12 +86,12 @@ std::unique_ptr<Simulation> Simulation::make(Scene scene, int n_threads)
 }
 
 std::unique_ptr<Simulation> Simulation::make(Scene scene, std::shared_ptr<runtime::Executor> executor,
-                                             const runtime::Communicator& communicator)
+                                             const runtime::Communicator& communicator, const ChangeStep& change)
 {
   if (scene.grid.dimension == 2) {
-    return std::make_unique<SimulationOf<2>>(std::move(scene), std::move(executor), communicator);
+    return std::make_unique<SimulationOf<2>>(std::move(scene), std::move(executor), communicator, change);
   }
-  return std::make_unique<SimulationOf<3>>(std::move(scene), std::move(executor), communicator);
+  return std::make_unique<SimulationOf<3>>(std::move(scene), std::move(executor), communicator, change);
 }
 
 double Simulation::next_step_size() const

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -41,6 +42,9 @@ struct MeanForces {
   std::vector<Eigen::Vector3d> loads;
 };
 
+/// Changes the tasks of a step before they become its graph: for what measures them.
+using ChangeStep = std::function<void(runtime::TaskList& step)>;
+
 /// A scene in time. Made with all particles in place; each `advance` is one time step. Over several ranks every call is
 /// collective unless it says otherwise, and what it returns is the same on all of them.
 class Simulation
@@ -51,7 +55,8 @@ class Simulation
   /// On an executor that several simulations may share, as long as they advance in turn, and over the ranks of a
   /// communicator.
   static std::unique_ptr<Simulation> make(Scene scene, std::shared_ptr<runtime::Executor> executor,
-                                          const runtime::Communicator& communicator = {});
+                                          const runtime::Communicator& communicator = {},
+                                          const ChangeStep& change = {});
   virtual ~Simulation() = default;
 
   const Scene& scene() const { return scene_; }

@@ -376,6 +376,23 @@ TimedStep Profiler::mean_step(const Communicator& communicator, double second) c
   return step;
 }
 
+/// A step with each run of a task taking `factor` times as long.
+TimedStep Profiler::changed(TimedStep step, const std::string& task, double factor) const
+{
+  for (std::size_t i = 0; i < step.instance_s.size(); ++i) {
+    if (rows_[row_of_instance_[i]].name == task) step.instance_s[i] *= factor;
+  }
+  return step;
+}
+
+double Profiler::step_ratio(const std::string& task, double factor, const Communicator& communicator) const
+{
+  if (n_followed_ == 0) return 1;
+  const TimedStep mean = mean_step(communicator, rate_.seconds_per_tick());
+  if (!communicator.is_first()) return 1;
+  return replay(changed(mean, task, factor), n_workers_) / replay(mean, n_workers_);
+}
+
 /// Replays the mean step as it is, and with each of the dearest tasks faster: what is worth speeding up. The first
 /// rank does that for all.
 void Profiler::replay_mean_step(Profile& profile, const Communicator& communicator, double second) const
@@ -407,11 +424,7 @@ void Profiler::replay_mean_step(Profile& profile, const Communicator& communicat
   for (std::size_t k = 0; k < n_tasks; ++k) {
     TaskStatistics& t = profile.tasks[k];
     const auto gain = [&](double part) {
-      TimedStep faster = mean;
-      for (std::size_t i = 0; i < faster.instance_s.size(); ++i) {
-        if (rows_[row_of_instance_[i]].name == t.name) faster.instance_s[i] *= 1 - part;
-      }
-      return 1 - replay(faster, n_workers_) / profile.replayed_s;
+      return 1 - replay(changed(mean, t.name, 1 - part), n_workers_) / profile.replayed_s;
     };
     t.gain_of_tenth = gain(0.1);
     t.gain_of_all = gain(1);

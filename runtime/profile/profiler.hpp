@@ -48,6 +48,9 @@ class Profiler
   std::vector<double> take_patch_costs();
   /// The profile of all ranks together. Collective.
   Profile profile(const Communicator& communicator = {}) const;
+  /// How many times as long the mean step would be if each run of a task took `factor` times as long, by replay. The
+  /// first rank has it; 1 on the others, and where no step was recorded. Collective.
+  double step_ratio(const std::string& task, double factor, const Communicator& communicator = {}) const;
   /// The trace of all ranks together. Collective.
   Trace trace(const Communicator& communicator = {}) const;
 
@@ -83,6 +86,7 @@ class Profiler
   double time_for_each_looked_at() const;
   std::vector<Wait> waits(const Communicator& communicator, double second) const;
   TimedStep mean_step(const Communicator& communicator, double second) const;
+  TimedStep changed(TimedStep step, const std::string& task, double factor) const;
   void replay_mean_step(Profile& profile, const Communicator& communicator, double second) const;
   Traffic traffic() const;
 

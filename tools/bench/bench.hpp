@@ -46,6 +46,19 @@ struct PeerOptions {
 /// plain MLS-MPM that does no more than it must: the same particles and steps on one thread, in processor time.
 Result peers(const PeerOptions& options);
 
+struct GainOptions {
+  std::filesystem::path scene;
+  /// Each is slower in a run of its own.
+  std::vector<std::string> tasks{"update stress: sand", "accelerate nodes"};
+  int n_rounds = 15;
+  long n_steps = 400;
+};
+
+/// Whether what a profile says of a faster task comes true: on two threads a task is made one and a half times as long,
+/// and the step that replay forecasts from a run without that compared with the one measured, in turns. Throws
+/// InputError for a task that the scene's step has not.
+Result gains(const GainOptions& options);
+
 struct TaskOptions {
   int n_rounds = 15;
   /// After this no further round begins: where others use the cores, schedulers that spin may take very long.

@@ -30,6 +30,7 @@ struct BenchArguments {
   bench::TaskOptions tasks;
   bench::WindowOptions windows;
   bench::PeerOptions peers;
+  bench::GainOptions gains;
 };
 
 /// Measures a scene that comes with TAMP, unless another was given.
@@ -39,11 +40,19 @@ bench::Result windows_of(const std::string& name, const char* shipped, bench::Wi
   return bench::windows(name, options);
 }
 
+bench::Result gains_of(const BenchArguments& given)
+{
+  bench::GainOptions options = given.gains;
+  options.scene = given.windows.scene.empty() ? shipped_input("punch/quick.json") : given.windows.scene;
+  return bench::gains(options);
+}
+
 using Benchmark = std::function<bench::Result(const BenchArguments&)>;
 
 const std::map<std::string, Benchmark>& benchmarks()
 {
   static const std::map<std::string, Benchmark> all{
+      {"gains", gains_of},
       {"moduli", [](const BenchArguments&) { return bench::moduli(shipped_input("materials/concrete-sand")); }},
       {"peers", [](const BenchArguments& options) { return bench::peers(options.peers); }},
       {"projectile",
@@ -102,26 +111,36 @@ CLI::App* add_bench_command(CLI::App& app)
   command
       ->add_option_function<int>(
           "--rounds",
-          [options](int n) { options->tasks.n_rounds = options->windows.n_rounds = options->peers.n_rounds = n; },
-          "of tasks (15, as far as a minute allows), windows of punch and projectile (5) and peers (5): how often each "
-          "is measured")
+          [options](int n) {
+            options->tasks.n_rounds = options->windows.n_rounds = options->peers.n_rounds = options->gains.n_rounds = n;
+          },
+          "of tasks (15, as far as a minute allows), gains (15), windows of punch and projectile (5) and peers (5): "
+          "how "
+          "often each is measured")
       ->check(is_whole_from(1));
   command
       ->add_option(
           "--scene", options->windows.scene,
-          "of punch and projectile: run this scene instead of inputs/punch/quick.json, which takes a minute, or "
+          "of punch, projectile and gains: run this scene instead of inputs/punch/quick.json, which takes a minute, or "
           "inputs/uxo/quick.json, which takes five")
       ->check(CLI::ExistingFile);
   command
       ->add_option_function<int>(
-          "--steps", [options](int n) { options->windows.n_steps = options->peers.n_steps = n; },
+          "--steps",
+          [options](int n) { options->windows.n_steps = options->peers.n_steps = options->gains.n_steps = n; },
           "of punch and projectile: steps of a window, instead of a twentieth of the run, or two seconds if that is "
-          "less; of peers: steps of a round, instead of 50")
+          "less; of peers and gains: steps of a round, instead of 50 and 400")
       ->check(is_whole_from(1));
   command
       ->add_option("--particles", options->peers.n_particles,
                    "of peers: about how many, instead of 40,000 in the plane and 64,000 in space")
       ->check(is_from_to(64, 100'000'000));
+  command
+      ->add_option("--task", options->gains.tasks,
+                   "of gains: slow this task down, instead of \"update stress: sand\" and \"accelerate nodes\"")
+      ->type_name("NAME")
+      ->allow_extra_args(false)
+      ->check(is_not_empty());
   command->add_option("--threads", options->tasks.n_threads, "of tasks: numbers of threads, as in 1,2")
       ->delimiter(',')
       ->allow_extra_args(false)
@@ -131,7 +150,8 @@ CLI::App* add_bench_command(CLI::App& app)
                    "of tasks on several ranks: data that one sends to the next in a step, a multiple of 8")
       ->check(is_from_to(8, 1 << 20))
       ->check(CLI::Validator(multiple_of_8, ""));
-  command->footer(examples({{"tamp bench moduli", "Table, SVR and MLP by evaluation"},
+  command->footer(examples({{"tamp bench gains", "whether what a profile says of faster tasks comes true"},
+                            {"tamp bench moduli", "Table, SVR and MLP by evaluation"},
                             {"tamp bench peers", "TAMP beside a plain MLS-MPM"},
                             {"tamp bench punch --json punch.json", "windows of the quick punch"}}));
   command->callback([options] { run_benchmarks(*options); });

@@ -133,6 +133,20 @@ TEST_CASE("on one worker a step gains what a task takes, and a tenth of it", "[p
   CHECK(profile.replayed_s <= profile.step_s);
 }
 
+TEST_CASE("a step is forecast to be longer with a slower task and shorter with a faster one, by its share", "[profile]")
+{
+  test::Heat heat(16, {2, 2, 1}, 1);
+  heat.run(20, 1e-4);
+
+  const auto tasks = heat.engine.profile().tasks;
+  const auto diffuse = std::ranges::find(tasks, "diffuse", &TaskStatistics::name);
+
+  REQUIRE(diffuse != tasks.end());
+  CHECK(heat.engine.step_ratio("diffuse", 1.5) == Approx(1 + 0.5 * diffuse->share));
+  CHECK(heat.engine.step_ratio("diffuse", 0.5) == Approx(1 - 0.5 * diffuse->share));
+  CHECK(heat.engine.step_ratio("no such task", 1.5) == 1);
+}
+
 TEST_CASE("a chain through ranks is no longer than the step", "[profile][ranks]")
 {
   const Communicator ranks = Communicator::world();
