@@ -16,10 +16,11 @@ namespace
 std::vector<TaskContest> contests_of(const TaskOptions& options)
 {
   std::vector<TaskContest> contests;
-  for (const TaskPattern& pattern : {stencil_pattern(32, 10), nearest_27_pattern(4, 10)}) {
+  for (const TaskPattern& pattern :
+       {stencil_pattern(32, 10), nearest_27_pattern(4, 10), fft_pattern(32, 10), tree_pattern(32, 10)}) {
     for (const int n_threads : options.n_threads) {
       for (const TaskContestant& contestant : task_contestants()) {
-        if (n_threads == 1 || !contestant.one_thread_only) contests.push_back({contestant, pattern, n_threads});
+        if (contestant.can_run(pattern, n_threads)) contests.push_back({contestant, pattern, n_threads});
       }
     }
   }

@@ -39,7 +39,7 @@ TaskDeclaration declare_row(StampedTasks& tasks)
         const auto before = data[made_in<row_before>];
         data[made_in<Row>][cell] = before.empty() ? 0 : before[cell] + 1;
         const Index& n = at.layout.n_patches();
-        tasks.run(Row * tasks.width() + (cell[2] * n[1] + cell[1]) * n[0] + cell[0]);
+        tasks.run(tasks.row(Row) + (cell[2] * n[1] + cell[1]) * n[0] + cell[0]);
       });
 }
 
@@ -67,8 +67,8 @@ class DeclaredTasks : public TaskScheduler
   DeclaredTasks(StampedTasks& tasks, int n_threads)
       : tasks_(tasks),
         executor_(n_threads),
-        engine_(layout_of(tasks.shape()), {"all"}, {declare_all(tasks, std::make_integer_sequence<int, most_rows>())},
-                executor_)
+        engine_(layout_of(tasks.shape().value()), {"all"},
+                {declare_all(tasks, std::make_integer_sequence<int, most_rows>())}, executor_)
   {
   }
 
@@ -90,9 +90,11 @@ class DeclaredTasks : public TaskScheduler
 
 TaskContestant declared_contestant()
 {
-  return {"tamp, declared", [](StampedTasks& tasks, int n_threads) -> std::unique_ptr<TaskScheduler> {
-            return std::make_unique<DeclaredTasks>(tasks, n_threads);
-          }};
+  TaskContestant declared{"tamp, declared", [](StampedTasks& tasks, int n_threads) -> std::unique_ptr<TaskScheduler> {
+                            return std::make_unique<DeclaredTasks>(tasks, n_threads);
+                          }};
+  declared.reads_neighbours_only = true;
+  return declared;
 }
 
 }  // namespace tamp::tools::bench

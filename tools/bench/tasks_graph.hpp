@@ -3,6 +3,7 @@
 #include <atomic>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -13,16 +14,18 @@
 namespace tamp::tools::bench
 {
 
-/// The tasks of a pattern, to be run again and again by some scheduler. Task `step * width + point` checks the stamp of
-/// everything that it reads, runs the kernel, and leaves its own stamp: one number for (run, step, point).
+/// The tasks of a pattern, to be run again and again by some scheduler; they are numbered row by row. A task checks the
+/// stamp of everything that it reads, runs the kernel, and leaves its own stamp: one number for (run, step, point).
 class StampedTasks
 {
  public:
   explicit StampedTasks(const TaskPattern& pattern);
 
-  int width() const { return width_; }
-  int n_steps() const { return n_steps_; }
-  const PatternShape& shape() const { return shape_; }
+  int n_steps() const { return static_cast<int>(rows_.size()) - 1; }
+  /// The first task of a step; of the one after the last, the number of all.
+  int row(int step) const { return rows_[static_cast<std::size_t>(step)]; }
+  int step_of(int task) const;
+  const std::optional<PatternShape>& shape() const { return shape_; }
   int size() const { return static_cast<int>(outputs_.size()); }
   /// The tasks that a task reads.
   std::span<const int> inputs(int task) const
@@ -64,9 +67,8 @@ class StampedTasks
     double value = 0;
   };
 
-  int width_;
-  int n_steps_;
-  PatternShape shape_;
+  std::vector<int> rows_;
+  std::optional<PatternShape> shape_;
   /// Inputs of task t stand in inputs_ from first_inputs_[t] up to first_inputs_[t + 1].
   std::vector<int> first_inputs_;
   std::vector<int> inputs_;

@@ -69,13 +69,13 @@ class BarrierTeam : public TaskScheduler
  private:
   void take_part(int thread, int n_runs)
   {
-    const int first = tasks_.width() * thread / n_threads_, end = tasks_.width() * (thread + 1) / n_threads_;
     for (int i = 0; i < n_runs; ++i) {
       if (thread == 0) tasks_.begin_run();
       for (int step = 0; step < tasks_.n_steps(); ++step) {
         barrier_.wait();
-        const int row = step * tasks_.width();
-        for (int point = first; point < end; ++point) tasks_.run(row + point);
+        const int row = tasks_.row(step), width = tasks_.row(step + 1) - row;
+        const int end = row + width * (thread + 1) / n_threads_;
+        for (int task = row + width * thread / n_threads_; task < end; ++task) tasks_.run(task);
       }
       barrier_.wait();
     }

@@ -24,6 +24,13 @@ struct TaskContestant {
   std::string name;
   std::unique_ptr<TaskScheduler> (*make)(StampedTasks& tasks, int n_threads);
   bool one_thread_only = false;
+  /// It can run patterns with a shape in space.
+  bool reads_neighbours_only = false;
+
+  bool can_run(const TaskPattern& pattern, int n_threads) const
+  {
+    return (n_threads == 1 || !one_thread_only) && (pattern.shape || !reads_neighbours_only);
+  }
 };
 
 /// TAMP's own executor, which records when and where each task ran as it does in every run.

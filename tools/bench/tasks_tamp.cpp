@@ -18,7 +18,8 @@ class StampedWork : public runtime::Work
   std::span<const int> predecessors(int instance) const override { return tasks_.inputs(instance); }
   int home(int instance, int n_workers) const override
   {
-    return instance % tasks_.width() * n_workers / tasks_.width();
+    const int step = tasks_.step_of(instance), first = tasks_.row(step);
+    return (instance - first) * n_workers / (tasks_.row(step + 1) - first);
   }
   void run(int instance, const runtime::Step& /*step*/) override { tasks_.run(instance); }
   std::string describe(int instance) const override { return tasks_.describe(instance); }

@@ -39,9 +39,9 @@ class ParallelFor : public TaskScheduler
       for (int i = 0; i < n_runs; ++i) {
         tasks_.begin_run();
         for (int step = 0; step < tasks_.n_steps(); ++step) {
-          const int row = step * tasks_.width();
           oneapi::tbb::parallel_for(
-              row, row + tasks_.width(), [this](int task) { tasks_.run(task); }, oneapi::tbb::static_partitioner());
+              tasks_.row(step), tasks_.row(step + 1), [this](int task) { tasks_.run(task); },
+              oneapi::tbb::static_partitioner());
         }
       }
     });
@@ -80,7 +80,7 @@ class FlowGraph : public TaskScheduler
     start_.emplace(*graph_);
     for (int task = 0; task < tasks_.size(); ++task) {
       Node& node = nodes_.emplace_back(*graph_, [this, task](const flow::continue_msg&) noexcept { tasks_.run(task); });
-      if (task < tasks_.width()) flow::make_edge(*start_, node);
+      if (task < tasks_.row(1)) flow::make_edge(*start_, node);
       for (const int input : tasks_.inputs(task)) flow::make_edge(nodes_[static_cast<std::size_t>(input)], node);
     }
   }
@@ -108,7 +108,7 @@ class TaskGroup : public TaskScheduler
     arena_.arena.execute([&] {
       for (int i = 0; i < n_runs; ++i) {
         tasks_.begin_run();
-        for (int task = 0; task < tasks_.width(); ++task) start(task);
+        for (int task = 0; task < tasks_.row(1); ++task) start(task);
         group_.wait();
       }
     });

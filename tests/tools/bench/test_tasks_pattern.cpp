@@ -26,7 +26,9 @@ TEST_CASE("a point of the stencil reads itself and its neighbours, and the ends 
   const TaskPattern pattern = stencil_pattern(4, 10);
 
   CHECK(pattern.n_tasks() == 40);
-  CHECK(pattern.dependencies == std::vector<std::vector<int>>{{0, 1}, {0, 1, 2}, {1, 2, 3}, {2, 3}});
+  REQUIRE(pattern.rows.size() == 10);
+  CHECK(pattern.rows[0] == PatternRow(4));
+  for (const std::size_t step : {1, 9}) CHECK(pattern.rows[step] == PatternRow{{0, 1}, {0, 1, 2}, {1, 2, 3}, {2, 3}});
 }
 
 TEST_CASE("a point of the cube reads exactly the 27 points around it, across the faces too")
@@ -35,18 +37,41 @@ TEST_CASE("a point of the cube reads exactly the 27 points around it, across the
 
   const TaskPattern pattern = nearest_27_pattern(edge, 10);
 
-  REQUIRE(pattern.width == edge * edge * edge);
-  for (int a = 0; a < pattern.width; ++a) {
+  const int n = edge * edge * edge;
+  REQUIRE(pattern.rows.back().size() == static_cast<std::size_t>(n));
+  for (int a = 0; a < n; ++a) {
     std::vector<int> expected;
-    for (int b = 0; b < pattern.width; ++b) {
+    for (int b = 0; b < n; ++b) {
       if (near(a % edge, b % edge, edge) && near(a / edge % edge, b / edge % edge, edge) &&
           near(a / (edge * edge), b / (edge * edge), edge)) {
         expected.push_back(b);
       }
     }
     CHECK(expected.size() == 27);
-    CHECK(pattern.dependencies[static_cast<std::size_t>(a)] == expected);
+    CHECK(pattern.rows.back()[static_cast<std::size_t>(a)] == expected);
   }
+}
+
+TEST_CASE(
+    "a point of the fft reads itself and what is a butterfly apart, twice as far in each step and then as near again")
+{
+  const TaskPattern pattern = fft_pattern(8, 5);
+
+  REQUIRE(pattern.rows.size() == 5);
+  CHECK(pattern.rows[0] == PatternRow(8));
+  CHECK(pattern.rows[1] ==
+        PatternRow{{0, 1}, {0, 1, 2}, {1, 2, 3}, {2, 3, 4}, {3, 4, 5}, {4, 5, 6}, {5, 6, 7}, {6, 7}});
+  CHECK(pattern.rows[2] == PatternRow{{0, 2}, {1, 3}, {0, 2, 4}, {1, 3, 5}, {2, 4, 6}, {3, 5, 7}, {4, 6}, {5, 7}});
+  CHECK(pattern.rows[3] == PatternRow{{0, 4}, {1, 5}, {2, 6}, {3, 7}, {0, 4}, {1, 5}, {2, 6}, {3, 7}});
+  CHECK(pattern.rows[4] == pattern.rows[1]);
+}
+
+TEST_CASE("a tree doubles until it is as wide as it may be, and then keeps its points")
+{
+  const TaskPattern pattern = tree_pattern(4, 4);
+
+  CHECK(pattern.n_tasks() == 1 + 2 + 4 + 4);
+  CHECK(pattern.rows == std::vector<PatternRow>{{{}}, {{0}, {0}}, {{0}, {0}, {1}, {1}}, {{0}, {1}, {2}, {3}}});
 }
 
 }  // namespace test_tasks_pattern
