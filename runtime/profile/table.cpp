@@ -33,31 +33,45 @@ std::string rate(const nlohmann::json& task, const char* key, double unit)
   return n > 0 && seconds > 0 ? fmt::format("{:.3g}", n / seconds / unit) : "";
 }
 
-std::string header()
+/// What a task's bytes a second are of those that memory gives a worker; nothing where either is not known.
+std::string of_memory(const nlohmann::json& task, double memory_rate)
 {
-  return fmt::format("{:<32} {:>8} {:>9} {:>9} {:>7} {:>7} {:>8} {:>6} {:>8} {:>8} {:>7}\n", "task", "count", "mean us",
-                     "p95 us", "share", "uneven", "Mpart/s", "GB/s", "on chain", "10% less", "if free");
+  const double n = task.value("bytes", 0.0), seconds = task.at("total_s").get<double>();
+  return n > 0 && seconds > 0 && memory_rate > 0 ? fmt::format("{:.0f}%", 100 * n / seconds / memory_rate) : "";
 }
 
-std::string row(const nlohmann::json& t)
+/// The column of it, which is left out where nothing is known.
+std::string memory_column(const std::string& text, const TableChoice& choice)
 {
-  return fmt::format("{:<32} {:>8.0f} {:>9.2f} {:>9.2f} {:>6.2f}% {:>7.3f} {:>8} {:>6} {:>8} {:>8} {:>7}\n",
+  return choice.memory_rate > 0 ? fmt::format(" {:>7}", text) : "";
+}
+
+std::string header(const TableChoice& choice)
+{
+  return fmt::format("{:<32} {:>8} {:>9} {:>9} {:>7} {:>7} {:>8} {:>6}{} {:>8} {:>8} {:>7}\n", "task", "count",
+                     "mean us", "p95 us", "share", "uneven", "Mpart/s", "GB/s", memory_column("of mem", choice),
+                     "on chain", "10% less", "if free");
+}
+
+std::string row(const nlohmann::json& t, const TableChoice& choice)
+{
+  return fmt::format("{:<32} {:>8.0f} {:>9.2f} {:>9.2f} {:>6.2f}% {:>7.3f} {:>8} {:>6}{} {:>8} {:>8} {:>7}\n",
                      t.at("name").get<std::string>(), t.at("count").get<double>(), t.at("mean_s").get<double>() * 1e6,
                      t.at("p95_s").get<double>() * 1e6, t.at("share").get<double>() * 100,
                      t.at("imbalance").get<double>(), rate(t, "particles", 1e6), rate(t, "bytes", 1e9),
-                     percent(t, "on_chain"), percent(t, "step_gain_if_a_tenth_faster"),
-                     percent(t, "step_gain_if_free"));
+                     memory_column(of_memory(t, choice.memory_rate), choice), percent(t, "on_chain"),
+                     percent(t, "step_gain_if_a_tenth_faster"), percent(t, "step_gain_if_free"));
 }
 
 /// The chosen ones of a list of tasks.
 std::string tasks_text(const nlohmann::json& profile, const TableChoice& choice)
 {
-  std::string text = header();
+  std::string text = header(choice);
   int n = 0;
   for (const nlohmann::json& t : list_of(profile, "tasks")) {
     if (!choice.phase.empty() && phase_of(t.at("name").get<std::string>()) != choice.phase) continue;
     if (choice.n_rows > 0 && n++ == choice.n_rows) break;
-    text += row(t);
+    text += row(t, choice);
   }
   return text;
 }
@@ -135,6 +149,10 @@ std::string to_text(const nlohmann::json& profile, const TableChoice& choice)
       profile.at("step_s").get<double>() * 1e6,
       profile.value("longest_chain_s", profile.at("critical_path_s").get<double>()) * 1e6,
       profile.at("overhead").get<double>() * 100, profile.at("memory").at("total").get<double>() / (1024 * 1024));
+  if (choice.memory_rate > 0) {
+    text += fmt::format("memory gives {:.1f} GB/s to a worker while all ask it; more comes from caches\n",
+                        choice.memory_rate * 1e-9);
+  }
   text += messages_text(profile);
   if (choice.n_rows > 0 || !choice.phase.empty()) return text;
   if (profile.contains("replayed_s")) {

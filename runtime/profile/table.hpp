@@ -14,6 +14,8 @@ struct TableChoice {
   std::string phase{};
   /// At most so many rows; 0: all, and what workers waited for.
   int n_rows = 0;
+  /// Bytes that memory gives a worker in a second while all ask it; 0: not known, and tasks are not compared with it.
+  double memory_rate = 0;
 };
 
 /// The run as a whole, most expensive task first.

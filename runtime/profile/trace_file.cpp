@@ -43,7 +43,8 @@ struct Span {
 class TraceWriter
 {
  public:
-  TraceWriter(const Trace& trace, const std::function<void(std::string_view)>& write);
+  TraceWriter(const Trace& trace, const std::function<void(std::string_view)>& write,
+              const nlohmann::ordered_json& about);
   void write_all();
 
  private:
@@ -77,6 +78,7 @@ class TraceWriter
 
   const Trace& trace_;
   const std::function<void(std::string_view)>& write_;
+  const nlohmann::ordered_json& about_;
   std::string text_;
   const char* before_ = "\n";
   /// By task and by group, as JSON.
@@ -88,8 +90,9 @@ class TraceWriter
   std::vector<Nanoseconds> lanes_;
 };
 
-TraceWriter::TraceWriter(const Trace& trace, const std::function<void(std::string_view)>& write)
-    : trace_(trace), write_(write)
+TraceWriter::TraceWriter(const Trace& trace, const std::function<void(std::string_view)>& write,
+                         const nlohmann::ordered_json& about)
+    : trace_(trace), write_(write), about_(about)
 {
   names_.reserve(trace.tasks.size());
   categories_.reserve(trace.tasks.size());
@@ -128,13 +131,13 @@ Nanoseconds TraceWriter::time(std::uint64_t tick, int rank) const
 
 void TraceWriter::write_all()
 {
-  text_ = R"({"displayTimeUnit":"ns","otherData":{"clock_uncertainty_us":[)";
-  const char* comma = "";
+  nlohmann::ordered_json about = about_;
+  about["clock_uncertainty_us"] = nlohmann::ordered_json::array();
   for (const Trace::Rank& rank : trace_.ranks) {
-    text_ += fmt::format("{}{:.3f}", comma, static_cast<double>(rank.clock.uncertainty()) * trace_.second * 1e6);
-    comma = ",";
+    const double ns = static_cast<double>(rank.clock.uncertainty()) * trace_.second * 1e9;
+    about["clock_uncertainty_us"].push_back(std::round(ns) / 1000);
   }
-  text_ += R"(]},"traceEvents":[)";
+  text_ = fmt::format(R"({{"displayTimeUnit":"ns","otherData":{},"traceEvents":[)", about.dump());
   for (rank_ = 0; rank_ < static_cast<int>(trace_.ranks.size()); ++rank_) {
     lanes_.clear();
     write_steps();
@@ -273,9 +276,10 @@ std::size_t TraceWriter::lane(const Span& span)
 
 }  // namespace
 
-void write_trace(const Trace& trace, const std::function<void(std::string_view)>& write)
+void write_trace(const Trace& trace, const std::function<void(std::string_view)>& write,
+                 const nlohmann::ordered_json& about)
 {
-  TraceWriter(trace, write).write_all();
+  TraceWriter(trace, write, about).write_all();
 }
 
 }  // namespace tamp::runtime

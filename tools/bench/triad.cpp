@@ -2,16 +2,17 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <thread>
 #include <vector>
 
 #include "tools/system/processor_time.hpp"
+#include "tools/system/statistics.hpp"
 
 namespace tamp::tools::bench
 {
 
-double triad_bytes_per_second()
+double triad_bytes_per_second(std::size_t n)
 {
-  constexpr std::size_t n = std::size_t{1} << 24;
   constexpr int n_passes = 5;
   std::vector<double> a(n, 0.0);
   std::vector<double> b(n, 1.0);
@@ -27,6 +28,18 @@ double triad_bytes_per_second()
     std::swap(a, b);
   }
   return b[n / 2] > 0 ? best : 0;
+}
+
+double triad_bytes_per_second_each(int n_threads)
+{
+  // 100 MB each, more than caches hold, and together no more than 400 MB.
+  const std::size_t n = (std::size_t{1} << 24) / static_cast<std::size_t>(std::max(n_threads, 4));
+  std::vector<double> rates(static_cast<std::size_t>(n_threads));
+  std::vector<std::thread> threads;
+  threads.reserve(rates.size());
+  for (double& rate : rates) threads.emplace_back([&rate, n] { rate = triad_bytes_per_second(n); });
+  for (std::thread& thread : threads) thread.join();
+  return median(rates);
 }
 
 }  // namespace tamp::tools::bench

@@ -1,10 +1,15 @@
 #pragma once
 
+#include <cstddef>
+
 namespace tamp::tools::bench
 {
 
 /// Bytes per second of a[i] = b[i] + s c[i] on one thread, 24 bytes an element as STREAM counts them, over arrays far
 /// larger than a core's own caches; the best of a few passes, as the bound that it serves for should be.
-double triad_bytes_per_second();
+double triad_bytes_per_second(std::size_t n = std::size_t{1} << 24);
+
+/// What each of `n_threads` threads gets while all do so at once, in about a tenth of a second.
+double triad_bytes_per_second_each(int n_threads);
 
 }  // namespace tamp::tools::bench

@@ -1,16 +1,20 @@
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <memory>
 
+#include "tools/bench/triad.hpp"
 #include "tools/commands/command_line/help_text.hpp"
 #include "tools/commands/command_line/option_checks.hpp"
 #include "tools/commands/commands.hpp"
 #include "tools/run/page_data.hpp"
 #include "tools/run/profile_text.hpp"
+#include "tools/run/run_machine.hpp"
 #include "tools/system/charts.hpp"
 #include "tools/system/console.hpp"
 #include "tools/system/errors.hpp"
+#include "tools/system/usable_cores.hpp"
 
 namespace tamp::tools
 {
@@ -36,11 +40,22 @@ void expect_text(const ProfileArguments& options)
                     options.format == "json" ? "expected it of all, or with --compare alone" : "expected it of all"});
 }
 
+/// Measured now, where the run was made on this machine.
+double memory_rate_of(const nlohmann::json& profile)
+{
+  const auto machine = profile.find("machine");
+  if (machine == profile.end() || !is_this_machine(*machine)) return 0;
+  const double workers = machine->at("ranks").get<double>() * machine->at("threads").get<double>();
+  const int cores = usable_cores().of_machine;
+  return bench::triad_bytes_per_second_each(static_cast<int>(std::clamp(workers, 1.0, static_cast<double>(cores))));
+}
+
 void show_profile(ProfileArguments& options)
 {
   expect_text(options);
   const std::filesystem::path folder = options.folder;
   if (!options.other.empty()) options.view.other = options.other;
+  options.view.memory_rate = memory_rate_of;
   options.view.as_json = options.format == "json";
   // Read in any case: where the run left none, or a damaged one, this says so.
   const std::string text = profile_text(folder, options.view);

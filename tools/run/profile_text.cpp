@@ -48,10 +48,12 @@ std::string view_of(const nlohmann::json& profile, const ProfileView& view)
   if (view.chain) return runtime::chain_text(profile);
   if (view.patches) return runtime::patches_text(profile);
   if (view.memory) return runtime::memory_text(profile);
-  if (view.ranks.empty()) return runtime::to_text(profile, {.phase = view.phase});
+  const runtime::TableChoice choice{.phase = view.phase,
+                                    .memory_rate = view.memory_rate ? view.memory_rate(profile) : 0};
+  if (view.ranks.empty()) return runtime::to_text(profile, choice);
   std::vector<std::string> tables;
   tables.reserve(view.ranks.size());
-  for (const std::size_t rank : view.ranks) tables.push_back(runtime::rank_text(profile, rank, {.phase = view.phase}));
+  for (const std::size_t rank : view.ranks) tables.push_back(runtime::rank_text(profile, rank, choice));
   return fmt::format("{}", fmt::join(tables, "\n"));
 }
 

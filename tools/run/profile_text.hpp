@@ -22,6 +22,8 @@ struct ProfileView {
   bool memory = false;
   /// The folder of another run, to compare with.
   std::optional<std::filesystem::path> other{};
+  /// Says of a profile how many bytes memory gives a worker in a second; 0 if that is not known. See TableChoice.
+  std::function<double(const nlohmann::json& profile)> memory_rate{};
   /// As JSON in place of tables for people.
   bool as_json = false;
 };

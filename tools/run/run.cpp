@@ -23,6 +23,7 @@
 #include "tools/run/progress.hpp"
 #include "tools/run/run_folder.hpp"
 #include "tools/run/run_history.hpp"
+#include "tools/run/run_machine.hpp"
 #include "tools/run/run_output.hpp"
 #include "tools/run/run_summary.hpp"
 #include "tools/run/run_trace.hpp"
@@ -433,7 +434,8 @@ class Runner
     history_.measure();
     const runtime::Profile profile = simulation_->engine().profile();
     parts_.end = seconds_since(last_output);
-    const nlohmann::json json = to_json(profile, simulation_->engine().warehouse().ledger(), options_.communicator);
+    nlohmann::json json = to_json(profile, simulation_->engine().warehouse().ledger(), options_.communicator);
+    json["machine"] = machine();
     const nlohmann::ordered_json summary = run_summary(
         *simulation_, history_,
         {status, reason, seconds_since(start_), median({step_seconds_.begin(), step_seconds_.end()}), parts_,
@@ -450,10 +452,13 @@ class Runner
               options_.folder.string());
   }
 
+  nlohmann::ordered_json machine() const { return run_machine(options_.communicator.size(), simulation_->n_threads()); }
+
   void write_trace()
   {
     const StepsRun run{std::max(restarted_at_, 0L) + 1, simulation_->n_steps()};
-    const std::string missing = tools::write_trace(simulation_->engine(), options_.traced_steps, run, options_.folder);
+    const std::string missing =
+        tools::write_trace(simulation_->engine(), options_.traced_steps, run, machine(), options_.folder);
     if (!missing.empty()) print_err("tamp: {}\n", missing);
   }
 

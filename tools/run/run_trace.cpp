@@ -32,13 +32,14 @@ std::string missing_steps(const runtime::TraceChoice& choice, const StepsRun& ru
 }  // namespace
 
 std::string write_trace(const runtime::Engine& engine, const runtime::TraceChoice& choice, const StepsRun& run,
-                        const std::filesystem::path& folder)
+                        const nlohmann::ordered_json& machine, const std::filesystem::path& folder)
 {
   const runtime::Trace trace = engine.trace();
   std::string line;
   runtime::on_first_rank(engine.communicator(), [&] {
     runtime::WholeFile file(folder / "trace.json");
-    runtime::write_trace(trace, [&](std::string_view text) { file.write(text); });
+    runtime::write_trace(
+        trace, [&](std::string_view text) { file.write(text); }, machine);
     file.publish();
     line = missing_steps(choice, run, trace.ranks.front().tape.steps);
   });

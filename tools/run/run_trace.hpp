@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <nlohmann/json.hpp>
 #include <string>
 
 #include "runtime/engine.hpp"
@@ -14,10 +15,11 @@ struct StepsRun {
   long last = 0;
 };
 
-/// Writes `trace.json`, of the steps that the engine was asked to trace. Throws FileError. Collective.
+/// Writes `trace.json`, of the steps that the engine was asked to trace, with what the run ran on. Throws FileError.
+/// Collective.
 ///
 /// Returns a line for the user, on the first rank, if steps of a range are missing from it; empty otherwise.
 std::string write_trace(const runtime::Engine& engine, const runtime::TraceChoice& choice, const StepsRun& run,
-                        const std::filesystem::path& folder);
+                        const nlohmann::ordered_json& machine, const std::filesystem::path& folder);
 
 }  // namespace tamp::tools

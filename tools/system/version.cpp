@@ -11,6 +11,8 @@
 #include <array>
 #include <nlohmann/json.hpp>
 
+#include "tools/system/commit.hpp"
+
 namespace tamp::tools
 {
 
@@ -34,6 +36,15 @@ std::string mpi_version()
   return all.substr(0, all.find(','));
 }
 
+std::string compiler()
+{
+#ifdef __clang__
+  return fmt::format("clang {}", __clang_version__);
+#else
+  return fmt::format("gcc {}", __VERSION__);
+#endif
+}
+
 }  // namespace
 
 std::string version()
@@ -41,12 +52,21 @@ std::string version()
   return TAMP_VERSION;
 }
 
+nlohmann::ordered_json build_json()
+{
+  return {{"version", version()},
+          {"commit", commit()},
+          {"build", TAMP_BUILD_TYPE},
+          {"architecture", TAMP_ARCH},
+          {"compiler", compiler()}};
+}
+
 std::string version_text()
 {
   return fmt::format(
       "tamp {}\n"
       "build     {} for {}\n"
-      "compiler  {} {}\n"
+      "compiler  {}\n"
       "oneTBB    {}\n"
       "Eigen     {}.{}.{}\n"
       "HDF5      {}\n"
@@ -55,16 +75,10 @@ std::string version_text()
       "json      {}.{}.{}\n"
       "CLI11     {}\n"
       "xxHash    {}.{}.{}",
-      version(), TAMP_BUILD_TYPE, TAMP_ARCH,
-#ifdef __clang__
-      "clang", __clang_version__,
-#else
-      "gcc", __VERSION__,
-#endif
-      TBB_runtime_version(), EIGEN_WORLD_VERSION, EIGEN_MAJOR_VERSION, EIGEN_MINOR_VERSION, hdf5_version(),
-      mpi_version(), FMT_VERSION / 10000, FMT_VERSION / 100 % 100, FMT_VERSION % 100, NLOHMANN_JSON_VERSION_MAJOR,
-      NLOHMANN_JSON_VERSION_MINOR, NLOHMANN_JSON_VERSION_PATCH, CLI11_VERSION, XXH_VERSION_MAJOR, XXH_VERSION_MINOR,
-      XXH_VERSION_RELEASE);
+      version(), TAMP_BUILD_TYPE, TAMP_ARCH, compiler(), TBB_runtime_version(), EIGEN_WORLD_VERSION,
+      EIGEN_MAJOR_VERSION, EIGEN_MINOR_VERSION, hdf5_version(), mpi_version(), FMT_VERSION / 10000,
+      FMT_VERSION / 100 % 100, FMT_VERSION % 100, NLOHMANN_JSON_VERSION_MAJOR, NLOHMANN_JSON_VERSION_MINOR,
+      NLOHMANN_JSON_VERSION_PATCH, CLI11_VERSION, XXH_VERSION_MAJOR, XXH_VERSION_MINOR, XXH_VERSION_RELEASE);
 }
 
 }  // namespace tamp::tools

@@ -4,6 +4,7 @@
 #include <catch2/catch.hpp>
 
 #include "runtime/profile/report.hpp"
+#include "runtime/profile/table.hpp"
 #include "tests/runtime/heat.hpp"
 
 namespace tamp::runtime::test_profiler
@@ -105,6 +106,21 @@ TEST_CASE("the ledger knows the bytes of each label", "[profile]")
 
   // Four patches of 8 x 8 cells with one layer of halo, before and after the step.
   CHECK(bytes == 4 * 10 * 10 * sizeof(double) * 2);
+}
+
+TEST_CASE("the table has what part of the memory's rate a task takes, where that is known", "[profile]")
+{
+  test::Heat heat(16, {2, 2, 1}, 1);
+  heat.run(10, 1e-4);
+  nlohmann::json json = to_json(heat.engine.profile(), heat.engine.warehouse().ledger());
+  nlohmann::json& task = json["tasks"][0];
+  task["total_s"] = 2;
+  task["bytes"] = 6e9;
+
+  const std::string known = to_text(json, {.memory_rate = 12e9}), unknown = to_text(json);
+
+  CHECK_THAT(known, Catch::Contains("of mem") && Catch::Contains(" 25%") && Catch::Contains("12.0 GB/s to a worker"));
+  CHECK_THAT(unknown, !Catch::Contains("of mem") && !Catch::Contains("to a worker"));
 }
 
 }  // namespace tamp::runtime::test_profiler

@@ -46,6 +46,32 @@ TEST_CASE("a profile is shown by rank, by phase and by patch, and beside that of
   CHECK(nlohmann::json::parse(shown("--compare " + out + " --format json"))[0]["ratio"] == 1);
 }
 
+TEST_CASE("a profile says what the run ran on, and compares tasks with the memory of no other machine")
+{
+  const TemporaryFolder folder;
+  const fs::path out = folder.path() / "run";
+  REQUIRE(
+      tamp_with("run " TAMP_SOURCE_DIR "/inputs/punch/quick.json --steps 20 --threads 1 --quiet --out " + out.string())
+          .exit_code == 0);
+
+  const Outcome here = tamp_with("profile " + out.string());
+  auto profile = nlohmann::json::parse(read_text(out / "profile.json"));
+  const nlohmann::json machine = profile["machine"];
+  profile["machine"]["processor"] = "another one";
+  folder.write("run/profile.json", profile.dump());
+  const Outcome elsewhere = tamp_with("profile " + out.string());
+
+  CHECK(machine["ranks"] == 1);
+  CHECK(machine["threads"] == 1);
+  for (const char* key : {"host", "processor", "instruction_set", "version", "build", "compiler"}) {
+    CHECK_FALSE(machine.at(key).get<std::string>().empty());
+  }
+  CHECK(machine.contains("commit"));
+  CHECK_THAT(here.out, Catch::Contains("of mem") && Catch::Contains("GB/s to a worker"));
+  CHECK(elsewhere.exit_code == 0);
+  CHECK_THAT(elsewhere.out, Catch::Contains("update stress: sand") && !Catch::Contains("of mem"));
+}
+
 TEST_CASE("what is not in a profile, or no run, is refused with what there is")
 {
   const TemporaryFolder folder;

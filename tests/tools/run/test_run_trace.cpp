@@ -30,6 +30,8 @@ void expect_whole(const TraceReader& reader, int n_ranks)
 {
   for (const std::string& problem : reader.problems()) FAIL_CHECK(problem);
   CHECK(reader.processes().size() == static_cast<std::size_t>(n_ranks));
+  CHECK(reader.file()["otherData"]["ranks"] == n_ranks);
+  CHECK_FALSE(reader.file()["otherData"]["processor"].get<std::string>().empty());
   std::set<std::string> categories, materials, tracks;
   for (const auto& [track, name] : reader.tracks()) tracks.insert(name);
   for (const TraceReader::Slice& slice : reader.slices()) {

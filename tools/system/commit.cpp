@@ -1,0 +1,13 @@
+#include "tools/system/commit.hpp"
+
+#include "tamp_commit.hpp"
+
+namespace tamp::tools
+{
+
+std::string commit()
+{
+  return TAMP_COMMIT;
+}
+
+}  // namespace tamp::tools
