@@ -2,11 +2,13 @@
 # Installed is what a program includes, and what these headers include in turn; tests/install compiles them alone.
 set(for_programs
   engine.hpp file_error.hpp step_error.hpp execute/on_workers.hpp graph/dump.hpp graph/page.hpp graph/step_verdict.hpp
-  graph/svg.hpp grid/curve_order.hpp profile/memory_table.hpp profile/compare.hpp profile/report.hpp profile/table.hpp profile/trace_file.hpp
+  graph/svg.hpp grid/curve_order.hpp profile/compare.hpp profile/dealt_step.hpp profile/mean_step.hpp
+  profile/memory_table.hpp profile/report.hpp profile/table.hpp profile/trace_file.hpp
   ranks/deal_patches.hpp ranks/on_all_ranks.hpp storage/background_writer.hpp storage/csv_writer.hpp
   storage/fields/field_file.hpp warehouse/storage_forecast.hpp)
 set(included_by_them
-  data/bound_argument.hpp data/buffer.hpp data/combine.hpp data/field.hpp data/heap.hpp data/label.hpp data/memory_ledger.hpp
+  data/bound_argument.hpp data/buffer.hpp data/combine.hpp data/field.hpp data/heap.hpp data/label.hpp
+  data/memory_ledger.hpp
   data/views.hpp execute/bound_graph.hpp execute/clock.hpp execute/exchange.hpp execute/executor.hpp execute/halo.hpp
   execute/migration.hpp execute/step_graphs.hpp execute/watchdog.hpp execute/work.hpp graph/declaration.hpp
   graph/fold.hpp graph/graph_error.hpp graph/task_data.hpp graph/task_graph.hpp grid/index_box.hpp

@@ -72,6 +72,17 @@ struct ChainLink {
   double message_s = 0;
 };
 
+/// What an instance of a task takes in the mean step [s], and how long the message that it receives is on its way.
+struct InstanceTime {
+  std::string task;
+  /// -1 for what belongs to a rank as a whole, and for all groups.
+  int patch = -1;
+  int group = -1;
+  int rank = 0;
+  double task_s = 0;
+  double message_s = 0;
+};
+
 /// Workers that stood still because an instance of `task` waited for one of `cause`; seconds over all steps.
 struct Wait {
   std::string task;
@@ -98,6 +109,8 @@ struct Profile {
   /// threads. And how long the mean step takes when it is replayed, beside `step_s`; 0 where it was not.
   double longest_chain_s = 0;
   double replayed_s = 0;
+  /// The mean step, in the order of its graph; empty where that is large.
+  std::vector<InstanceTime> mean_step;
   /// That chain, first to last.
   std::vector<ChainLink> chain;
   /// What the record itself takes, and all that the host does between steps, for each step.

@@ -393,6 +393,22 @@ double Profiler::step_ratio(const std::string& task, double factor, const Commun
   return replay(changed(mean, task, factor), n_workers_) / replay(mean, n_workers_);
 }
 
+std::vector<InstanceTime> Profiler::times_of(const TimedStep& step) const
+{
+  constexpr std::size_t most_instances = 20'000;
+  const auto& instances = step.graph->instances();
+  std::vector<InstanceTime> times;
+  if (instances.size() > most_instances) return times;
+  times.reserve(instances.size());
+  for (std::size_t i = 0; i < instances.size(); ++i) {
+    const Instance& instance = instances[i];
+    const bool receives = instance.kind == InstanceKind::receive_message;
+    times.push_back({rows_[row_of_instance_[i]].name, instance.patch, instance.group, instance.rank, step.instance_s[i],
+                     receives ? step.message_s[static_cast<std::size_t>(instance.message)] : 0});
+  }
+  return times;
+}
+
 /// Replays the mean step as it is, and with each of the dearest tasks faster: what is worth speeding up. The first
 /// rank does that for all.
 void Profiler::replay_mean_step(Profile& profile, const Communicator& communicator, double second) const
@@ -400,6 +416,7 @@ void Profiler::replay_mean_step(Profile& profile, const Communicator& communicat
   if (n_followed_ == 0) return;
   const TimedStep mean = mean_step(communicator, second);
   if (!communicator.is_first()) return;
+  profile.mean_step = times_of(mean);
   const Chain chain = longest_chain(mean);
   profile.longest_chain_s = chain.length_s;
   const auto task = [&](std::size_t row) {

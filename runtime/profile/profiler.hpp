@@ -86,6 +86,7 @@ class Profiler
   double time_for_each_looked_at() const;
   std::vector<Wait> waits(const Communicator& communicator, double second) const;
   TimedStep mean_step(const Communicator& communicator, double second) const;
+  std::vector<InstanceTime> times_of(const TimedStep& step) const;
   TimedStep changed(TimedStep step, const std::string& task, double factor) const;
   void replay_mean_step(Profile& profile, const Communicator& communicator, double second) const;
   Traffic traffic() const;

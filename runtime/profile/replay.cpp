@@ -34,9 +34,9 @@ class Replay
       : step_(step),
         n_workers_(n_workers),
         instances_(step.graph->instances()),
-        n_ranks_(step.graph->layout().n_ranks())
+        n_ranks_(step.graph->layout().n_ranks()),
+        homes_(homes_of(*step.graph, n_workers))
   {
-    find_homes();
     find_successors();
     ready_.resize(place(n_ranks_ * n_workers_));
     idle_.resize(place(n_ranks_));
@@ -70,18 +70,6 @@ class Replay
  private:
   /// When something happens: a worker is done with an instance, or (worker -1) an instance becomes ready.
   using Event = std::tuple<double, int, int>;
-
-  /// As BoundGraph::home has it: patches in a row are one worker's, and what belongs to a rank is the first one's.
-  void find_homes()
-  {
-    std::vector<int> n_patches(place(n_ranks_), 0), row;
-    for (const Patch& patch : step_.graph->layout()) row.push_back(n_patches[place(patch.rank)]++);
-    for (const Instance& instance : instances_) {
-      const int worker =
-          instance.patch < 0 ? 0 : row[place(instance.patch)] * n_workers_ / n_patches[place(instance.rank)];
-      homes_.push_back(instance.rank * n_workers_ + worker);
-    }
-  }
 
   void find_successors()
   {
@@ -163,6 +151,19 @@ class Replay
 };
 
 }  // namespace
+
+std::vector<int> homes_of(const TaskGraph& graph, int n_workers)
+{
+  std::vector<int> n_patches(place(graph.layout().n_ranks()), 0), row, homes;
+  for (const Patch& patch : graph.layout()) row.push_back(n_patches[place(patch.rank)]++);
+  homes.reserve(graph.instances().size());
+  for (const Instance& instance : graph.instances()) {
+    const int worker =
+        instance.patch < 0 ? 0 : row[place(instance.patch)] * n_workers / n_patches[place(instance.rank)];
+    homes.push_back(instance.rank * n_workers + worker);
+  }
+  return homes;
+}
 
 double replay(const TimedStep& step, int n_workers)
 {

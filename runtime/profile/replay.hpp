@@ -16,6 +16,10 @@ struct TimedStep {
   std::vector<double> message_s;
 };
 
+/// Whose each instance is where each rank has `n_workers`: rank times these plus worker. Patches in a row are one
+/// worker's, and what belongs to a rank as a whole is its first one's, as BoundGraph::home has it.
+std::vector<int> homes_of(const TaskGraph& graph, int n_workers);
+
 /// How long a step takes [s] on `n_workers` threads a rank: what the executor would do, without doing it. Every patch
 /// has its worker, who runs what is ready in serial order and takes from others what it finds there when idle. Neither
 /// the scheduler nor the record take time here.

@@ -4,6 +4,8 @@
 
 #include <cmath>
 
+#include "runtime/profile/mean_step.hpp"
+
 namespace tamp::runtime
 {
 
@@ -115,6 +117,7 @@ nlohmann::json to_json(const Profile& profile, const MemoryLedger& ledger, const
           {"step_s", profile.step_s},
           {"longest_chain_s", profile.longest_chain_s},
           {"longest_chain", to_json(profile.chain)},
+          {"mean_step", to_json(profile.mean_step)},
           {"replayed_s", profile.replayed_s},
           {"recording_s", profile.recording_s},
           {"between_s", profile.between_s},

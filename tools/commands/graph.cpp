@@ -1,10 +1,13 @@
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <memory>
 
 #include "runtime/graph/dump.hpp"
 #include "runtime/graph/page.hpp"
 #include "runtime/graph/svg.hpp"
+#include "runtime/profile/dealt_step.hpp"
+#include "runtime/profile/mean_step.hpp"
 #include "runtime/storage/whole_file.hpp"
 #include "tasks/forecast/demand.hpp"
 #include "tasks/step_graph.hpp"
@@ -31,10 +34,12 @@ struct GraphArguments {
   std::string out;
   std::string run;
   int n_ranks = 1;
+  /// 0: the graph itself is wanted.
+  int n_threads = 0;
   int patch = -1;
 };
 
-constexpr int most_ranks = 1024;
+constexpr int most_ranks = 1024, most_threads = 1024;
 
 void expect_patch(int patch, const std::string& format, int n_patches)
 {
@@ -58,8 +63,28 @@ std::string page_of(const runtime::TaskGraph& graph, const GraphArguments& optio
   });
 }
 
+/// As so many threads would have it; with what a run took, on how many how fast.
+std::string threads_text(const runtime::TaskGraph& graph, const GraphArguments& options)
+{
+  if (options.run.empty()) return to_text(runtime::deal_to_threads(graph, options.n_threads));
+  return with_profile(options.run, [&](const nlohmann::json& profile) {
+    const nlohmann::json& machine = profile.at("machine");
+    if (machine.at("ranks").get<int>() != options.n_ranks) {
+      throw InputError({"--ranks", std::to_string(options.n_ranks),
+                        fmt::format("expected those of the run, {}", machine.at("ranks").get<int>())});
+    }
+    const runtime::TimedStep step = timed_step(graph, profile);
+    if (std::ranges::all_of(step.instance_s, [](double s) { return s == 0; })) {
+      throw InputError({"--run", options.run, "expected a run of this scene, of at most 20,000 tasks a step"});
+    }
+    return to_text(deal_to_threads(step, options.n_threads)) +
+           replays_text(step, options.n_threads, machine.at("threads").get<int>(), profile.at("step_s").get<double>());
+  });
+}
+
 std::string text_of(const runtime::TaskGraph& graph, const tasks::Scene& scene, const GraphArguments& options)
 {
+  if (options.n_threads > 0) return threads_text(graph, options);
   if (options.format == "json") {
     return to_json(graph, static_cast<std::size_t>(tasks::demand_of(scene).fields)).dump(1) + "\n";
   }
@@ -70,8 +95,8 @@ std::string text_of(const runtime::TaskGraph& graph, const tasks::Scene& scene, 
 
 void dump_graph(const GraphArguments& options)
 {
-  if (!options.run.empty() && options.format != "html") {
-    throw InputError({"--run", "--format " + options.format, "expected --format html"});
+  if (!options.run.empty() && options.format != "html" && options.n_threads == 0) {
+    throw InputError({"--run", "--format " + options.format, "expected --format html or --threads"});
   }
   const CheckedScene scene = read_scene(options.scene, options.assignments);
   print_notes(scene.notes);
@@ -94,22 +119,34 @@ CLI::App* add_graph_command(CLI::App& app)
   const auto options = std::make_shared<GraphArguments>();
   command->add_option("SCENE", options->scene, "the scene's JSON file")->type_name("FILE")->required();
   add_assignments(*command, options->assignments, "scene");
-  command->add_option("--format", options->format, "dot (for graphviz), json, html (a page) or svg")
-      ->check(is_one_of({"dot", "json", "html", "svg"}));
+  CLI::Option* const format =
+      command->add_option("--format", options->format, "dot (for graphviz), json, html (a page) or svg")
+          ->check(is_one_of({"dot", "json", "html", "svg"}));
   command->add_option("--ranks", options->n_ranks, "as so many ranks would have it, with their messages")
       ->check(is_from_to(1, most_ranks));
   command
-      ->add_option("--run", options->run, "with the times that a run of the scene took, and its longest chain (html)")
+      ->add_option(
+          "--run", options->run,
+          "with the times that a run of the scene took, and its longest chain (html), or on how many threads it would "
+          "be how fast (--threads)")
       ->type_name("RUN_DIR")
       ->check(is_not_empty());
   command->add_option("--out", options->out, "write to this file")->type_name("FILE");
-  command->add_option("--patch", options->patch, "only this patch and what it touches (dot)")->check(is_whole_from(0));
+  CLI::Option* const patch = command->add_option("--patch", options->patch, "only this patch and what it touches (dot)")
+                                 ->check(is_whole_from(0));
+  command
+      ->add_option("--threads", options->n_threads,
+                   "in place of the graph, what so many threads of each rank have of it, and how much may run at once")
+      ->check(is_from_to(1, most_threads))
+      ->excludes(format)
+      ->excludes(patch);
   command->footer(examples(
       {{"tamp graph inputs/punch/quick.json --format html --out graph.html",
         "a page: tasks, and behind each its patches"},
        {"tamp graph inputs/punch/quick.json --run runs/quick --format html --out graph.html",
         "the same, with what each task took in a run"},
        {"tamp graph inputs/punch/quick.json --ranks 2 --format svg --out graph.svg", "a drawing, with the messages"},
+       {"tamp graph inputs/punch/quick.json --threads 4 --run runs/quick", "how fast a step would be on four threads"},
        {"tamp graph inputs/punch/quick.json --patch 0 | dot -Tsvg > patch.svg", "what one patch does in a step"},
        {"tamp graph inputs/punch/quick.json --format json --out graph.json", "for other programs"}}));
   command->callback([options] { dump_graph(*options); });

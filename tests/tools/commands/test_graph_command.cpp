@@ -77,9 +77,29 @@ TEST_CASE("a page of the graph has what a run of the scene took, and its longest
   for (const auto& edge : folded["edges"]) n_critical += std::size_t{edge.value("critical", false)};
   CHECK(shares > 0.9);  // but for the engine's own
   CHECK(n_critical > 3);
-  CHECK(tamp_with(graph + " --format svg").err == "tamp: --run: --format svg; expected --format html\n");
+  CHECK(tamp_with(graph + " --format svg").err == "tamp: --run: --format svg; expected --format html or --threads\n");
   const Outcome of_other = tamp_with("graph " TAMP_SOURCE_DIR "/inputs/footing/quick.json --format html --run " + run);
   CHECK(of_other.exit_code == 0);
+}
+
+TEST_CASE("a step is dealt to threads, and with a run of its scene told how fast it would be on them")
+{
+  const TemporaryFolder folder;
+  const std::string run = (folder.path() / "run").string();
+  REQUIRE(tamp_with("run " + scene + " --steps 20 --threads 1 --quiet --out " + run).exit_code == 0);
+
+  const Outcome dealt = tamp_with("graph " + scene + " --threads 3 --ranks 2");
+  const Outcome timed = tamp_with("graph " + scene + " --threads 4 --run " + run);
+
+  CHECK(dealt.exit_code == 0);
+  CHECK_THAT(dealt.out, Catch::Contains("narrower than the 6 threads") && !Catch::Contains("by replay"));
+  CHECK(timed.exit_code == 0);
+  CHECK_THAT(timed.out, Catch::Contains("over mean") && Catch::Contains("us on 1, by replay"));
+  CHECK_THAT(timed.out, Catch::Contains("\n      4 ") && Catch::Contains("the longest chain takes"));
+  CHECK(tamp_with("graph " + scene + " --threads 4 --ranks 2 --run " + run).err ==
+        "tamp: --ranks: 2; expected those of the run, 1\n");
+  CHECK(tamp_with("graph " + scene + " --threads 0").exit_code == 2);
+  CHECK(tamp_with("graph " + scene + " --threads 4 --format svg").exit_code == 2);
 }
 
 TEST_CASE("under a launcher the first rank alone writes the graph", "[mpiexec]")

@@ -1,0 +1,20 @@
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <vector>
+
+#include "runtime/profile/profile.hpp"
+#include "runtime/profile/replay.hpp"
+
+namespace tamp::runtime
+{
+
+/// The mean step as a profile keeps it: by task, for each of its instances the patch, the group, the rank, how long it
+/// takes [s], and how long the message that it receives was on its way [s].
+nlohmann::json to_json(const std::vector<InstanceTime>& mean_step);
+
+/// A step of a graph, with the times of that of a `profile.json`. Instances are known by their task, patch and group,
+/// or rank; those that the profile has not take no time. Throws nlohmann's exceptions for what no run has written.
+TimedStep timed_step(const TaskGraph& graph, const nlohmann::json& profile);
+
+}  // namespace tamp::runtime
