@@ -60,6 +60,7 @@ Engine::Engine(const PatchLayout& layout, std::vector<std::string> group_names, 
       executor_(executor),
       communicator_(communicator),
       after_failure_(communicator.duplicate()),
+      clocks_(communicator),
       compiled_(compiled_on(layout)),
       warehouse_(compiled_->pointers(), communicator.rank()),
       ready_(ready(*compiled_)),
@@ -84,7 +85,7 @@ std::unique_ptr<CompiledGraphs> Engine::compiled_on(const PatchLayout& layout) c
 
 std::unique_ptr<ReadyGraphs> Engine::ready(const CompiledGraphs& compiled)
 {
-  return std::make_unique<ReadyGraphs>(compiled, warehouse_, executor_.n_threads(), communicator_);
+  return std::make_unique<ReadyGraphs>(compiled, warehouse_, executor_.n_threads(), communicator_, clocks_);
 }
 
 Progress& Engine::now()
@@ -111,6 +112,7 @@ bool Engine::advance(double size, double end)
   asked_ = told.bits;
   if (schedule().recording) profiler_.add_step({n_steps + 1, size, told.previous_wall});
   constexpr double round_off = 1e-14;
+  clocks_.follow(n_steps + 1);
   now() = {n_steps + 1, time + size >= end * (1 - round_off) ? end : time + size, size};
   return true;
 }

@@ -117,6 +117,7 @@ class Engine
   Communicator communicator_;
   /// Ranks that failed at different places meet here, where no other messages are.
   Communicator after_failure_;
+  RankClocks clocks_;
   std::unique_ptr<CompiledGraphs> compiled_;
   Warehouse warehouse_;
   std::unique_ptr<ReadyGraphs> ready_;

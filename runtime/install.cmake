@@ -8,11 +8,11 @@ set(for_programs
   storage/fields/field_file.hpp warehouse/storage_forecast.hpp)
 set(included_by_them
   data/bound_argument.hpp data/buffer.hpp data/combine.hpp data/field.hpp data/heap.hpp data/label.hpp
-  data/memory_ledger.hpp
-  data/views.hpp execute/bound_graph.hpp execute/clock.hpp execute/exchange.hpp execute/executor.hpp execute/halo.hpp
-  execute/migration.hpp execute/step_graphs.hpp execute/watchdog.hpp execute/work.hpp graph/declaration.hpp
+  data/memory_ledger.hpp data/views.hpp execute/bound_graph.hpp execute/clock.hpp execute/clock_line.hpp
+  execute/exchange.hpp execute/executor.hpp execute/halo.hpp execute/migration.hpp execute/rank_clocks.hpp
+  execute/step_graphs.hpp execute/watchdog.hpp execute/work.hpp graph/declaration.hpp
   graph/fold.hpp graph/graph_error.hpp graph/task_data.hpp graph/task_graph.hpp grid/index_box.hpp
-  grid/patch_layout.hpp profile/clock_line.hpp profile/duration_histogram.hpp profile/over_time.hpp
+  grid/patch_layout.hpp profile/duration_histogram.hpp profile/over_time.hpp
   profile/profile.hpp profile/profiler.hpp profile/replay.hpp profile/task_rows.hpp profile/trace.hpp
   profile/trace_choice.hpp profile/trace_recorder.hpp profile/worker_waits.hpp ranks/communicator.hpp
   ranks/load_balance.hpp storage/checkpoints/checkpoint.hpp storage/checkpoints/state_tables.hpp

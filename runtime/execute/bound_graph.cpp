@@ -25,7 +25,8 @@ std::span<Field* const> fields_of(const BoundArgument& argument)
 
 }  // namespace
 
-BoundGraph::BoundGraph(const TaskGraph& graph, Warehouse& warehouse, const Communicator& communicator)
+BoundGraph::BoundGraph(const TaskGraph& graph, Warehouse& warehouse, const Communicator& communicator,
+                       const RankClocks* clocks)
     : graph_(graph), warehouse_(warehouse), rank_(communicator.rank())
 {
   for (const Patch& patch : graph.layout()) {
@@ -42,7 +43,7 @@ BoundGraph::BoundGraph(const TaskGraph& graph, Warehouse& warehouse, const Commu
     }
   }
   if (communicator.size() > 1) {
-    exchange_ = std::make_unique<Exchange>(graph, warehouse, migration_.get(), communicator);
+    exchange_ = std::make_unique<Exchange>(graph, warehouse, migration_.get(), communicator, clocks);
   }
 }
 

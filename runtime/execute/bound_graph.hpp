@@ -18,8 +18,9 @@ namespace tamp::runtime
 class BoundGraph final : public Work
 {
  public:
-  /// Collective: the ranks of the communicator are those of the graph's layout.
-  BoundGraph(const TaskGraph& graph, Warehouse& warehouse, const Communicator& communicator = {});
+  /// Collective: the ranks of the communicator are those of the graph's layout. For `clocks` see Exchange.
+  BoundGraph(const TaskGraph& graph, Warehouse& warehouse, const Communicator& communicator = {},
+             const RankClocks* clocks = nullptr);
 
   const TaskGraph& graph() const { return graph_; }
   /// Null when the graph moves no particles.

@@ -1,4 +1,4 @@
-#include "runtime/profile/clock_line.hpp"
+#include "runtime/execute/clock_line.hpp"
 
 #include <algorithm>
 #include <array>

@@ -40,6 +40,8 @@ class ClockLine
 
   /// For any tick; it is known to `uncertainty` for those between the two pairs.
   std::uint64_t first_rank(std::uint64_t own) const;
+  /// As those of one machine are.
+  bool is_the_same() const { return own_ == first_rank_ && drift_ == 0; }
   /// In ticks of this rank.
   std::uint64_t uncertainty() const { return uncertainty_; }
 

@@ -50,11 +50,13 @@ void Traffic::add(const Traffic& other)
   waited_for += other.waited_for;
 }
 
-Exchange::Exchange(const TaskGraph& graph, Warehouse& warehouse, Migration* migration, const Communicator& communicator)
+Exchange::Exchange(const TaskGraph& graph, Warehouse& warehouse, Migration* migration, const Communicator& communicator,
+                   const RankClocks* clocks)
     : graph_(graph),
       warehouse_(warehouse),
       migration_(migration),
       communicator_(communicator.duplicate()),
+      clocks_(clocks),
       unit_(unit()),
       lines_(graph.messages().size()),
       failure_text_(longest_failure, '\0'),
@@ -228,11 +230,19 @@ void Exchange::take(int message, std::vector<int>& arrived, std::uint64_t idle_s
   line.arrived = {sent, now, line.bytes.size()};
   ++traffic_.n_messages;
   traffic_.n_bytes += line.bytes.size();
-  if (now <= sent) return;
-  traffic_.under_way += now - sent;
-  message_ticks_[static_cast<std::size_t>(message)] += now - sent;
-  const std::uint64_t waiting_since = std::max(sent, idle_since);
-  if (idle_since != 0 && now > waiting_since) traffic_.waited_for += now - waiting_since;
+  const std::uint64_t posted = first_rank(line.message->from_rank, sent);
+  const std::uint64_t seen = first_rank(communicator_.rank(), now);
+  if (seen <= posted) return;
+  traffic_.under_way += seen - posted;
+  message_ticks_[static_cast<std::size_t>(message)] += seen - posted;
+  if (idle_since == 0) return;
+  const std::uint64_t waiting_since = std::max(posted, first_rank(communicator_.rank(), idle_since));
+  if (seen > waiting_since) traffic_.waited_for += seen - waiting_since;
+}
+
+std::uint64_t Exchange::first_rank(int rank, std::uint64_t ticks) const
+{
+  return clocks_ == nullptr ? ticks : clocks_->first_rank(rank, ticks);
 }
 
 void Exchange::fail(const std::string& what)

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "runtime/execute/migration.hpp"
+#include "runtime/execute/rank_clocks.hpp"
 #include "runtime/graph/task_graph.hpp"
 #include "runtime/ranks/communicator.hpp"
 #include "runtime/warehouse/warehouse.hpp"
@@ -21,8 +22,7 @@ struct OtherRankFailed : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// Messages that this rank has received, and how long they took. Times in ticks; the clocks of ranks on one machine
-/// agree.
+/// Messages that this rank has received, and how long they took. Times in ticks of the first rank's clock.
 struct Traffic {
   std::uint64_t n_messages = 0;
   std::uint64_t n_bytes = 0;
@@ -49,8 +49,10 @@ struct MessageTimes {
 class Exchange
 {
  public:
-  /// Collective over the communicator. `migration` may be null where the graph moves no particles.
-  Exchange(const TaskGraph& graph, Warehouse& warehouse, Migration* migration, const Communicator& communicator);
+  /// Collective over the communicator. `migration` may be null where the graph moves no particles, and `clocks` where
+  /// those of all ranks are the same; they must outlive it.
+  Exchange(const TaskGraph& graph, Warehouse& warehouse, Migration* migration, const Communicator& communicator,
+           const RankClocks* clocks);
   ~Exchange();
   Exchange(const Exchange&) = delete;
   Exchange& operator=(const Exchange&) = delete;
@@ -94,12 +96,14 @@ class Exchange
   void unpack(const Line& line);
   void probe(int message, std::vector<int>& arrived, std::uint64_t idle_since);
   void take(int message, std::vector<int>& arrived, std::uint64_t idle_since);
+  std::uint64_t first_rank(int rank, std::uint64_t ticks) const;
   void take_failure();
 
   const TaskGraph& graph_;
   Warehouse& warehouse_;
   Migration* migration_;
   Communicator communicator_;
+  const RankClocks* clocks_;
   /// What lengths are counted in.
   MPI_Datatype unit_;
   std::mutex mutex_;

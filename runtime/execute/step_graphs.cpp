@@ -21,10 +21,10 @@ std::vector<const TaskGraph*> CompiledGraphs::pointers() const
 }
 
 ReadyGraphs::ReadyGraphs(const CompiledGraphs& compiled, Warehouse& warehouse, int n_workers,
-                         const Communicator& communicator)
+                         const Communicator& communicator, const RankClocks& clocks)
 {
   for (const TaskGraph& graph : compiled.graphs) {
-    bound.emplace_back(graph, warehouse, communicator);
+    bound.emplace_back(graph, warehouse, communicator, &clocks);
     schedules.emplace_back(bound.back(), n_workers);
   }
 }

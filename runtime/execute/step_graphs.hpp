@@ -36,7 +36,8 @@ struct CompiledGraphs {
 /// Compiled graphs tied to their data, ready to run.
 struct ReadyGraphs {
   /// `n_workers` is the number of threads of the executor that will run them. Collective.
-  ReadyGraphs(const CompiledGraphs& compiled, Warehouse& warehouse, int n_workers, const Communicator& communicator);
+  ReadyGraphs(const CompiledGraphs& compiled, Warehouse& warehouse, int n_workers, const Communicator& communicator,
+              const RankClocks& clocks);
   ReadyGraphs(const ReadyGraphs&) = delete;
   ReadyGraphs& operator=(const ReadyGraphs&) = delete;
 

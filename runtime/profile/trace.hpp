@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "runtime/profile/clock_line.hpp"
+#include "runtime/execute/clock_line.hpp"
 
 namespace tamp::runtime
 {
