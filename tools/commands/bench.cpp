@@ -127,7 +127,7 @@ CLI::App* add_bench_command(CLI::App& app)
   command
       ->add_option_function<int>(
           "--steps",
-          [options](int n) { options->windows.n_steps = options->peers.n_steps = options->gains.n_steps = n; },
+          [options](int n) { options->windows.n_steps = options->gains.n_steps = options->peers.n_steps = n; },
           "of punch and projectile: steps of a window, instead of a twentieth of the run, or two seconds if that is "
           "less; of peers and gains: steps of a round, instead of 50 and 400")
       ->check(is_whole_from(1));
