@@ -170,6 +170,7 @@ TaskGraph::TaskGraph(std::vector<TaskDeclaration> declarations, const PatchLayou
   }
   put_in_order(order, step);
   instances_ = std::move(step.instances);
+  instances_.shrink_to_fit();
   edges_ = std::move(step.edges);
   messages_ = std::move(step.messages);
   label_uses_ = list_uses(streams, host, n_groups());

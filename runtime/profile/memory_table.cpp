@@ -17,14 +17,15 @@ double in_mebibytes(double bytes)
   return bytes / (1024 * 1024);
 }
 
-/// Numbers by name, the largest first; nothing for none.
-std::vector<std::pair<double, std::string>> sorted(const nlohmann::json& by_name)
+/// Numbers by name, the largest first, without those that are next to nothing.
+std::vector<std::pair<double, std::string>> sorted(const nlohmann::json& by_name, double total)
 {
+  constexpr double next_to_nothing = 1e-4;
   std::vector<std::pair<double, std::string>> all;
   const auto& object = by_name.get_ref<const nlohmann::json::object_t&>();
   all.reserve(object.size());
   for (const auto& [name, bytes] : object) {
-    if (bytes.get<double>() > 0) all.emplace_back(bytes.get<double>(), name);
+    if (bytes.get<double>() > next_to_nothing * total) all.emplace_back(bytes.get<double>(), name);
   }
   std::sort(all.begin(), all.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
   return all;
@@ -38,12 +39,12 @@ std::string memory_text(const nlohmann::json& profile)
   const auto total = memory.at("total").get<double>();
   std::string text = fmt::format("{:.1f} MiB at most, of all ranks\n\n{:<32} {:>9} {:>7} {:>9}\n", in_mebibytes(total),
                                  "label", "MiB then", "share", "MiB most");
-  for (const auto& [bytes, label] : sorted(memory.at("at_high_water"))) {
+  for (const auto& [bytes, label] : sorted(memory.at("at_high_water"), total)) {
     text += fmt::format("{:<32} {:>9.2f} {:>6.2f}% {:>9.2f}\n", label, in_mebibytes(bytes), 100 * bytes / total,
                         in_mebibytes(memory.at("labels").at(label).get<double>()));
   }
   text += fmt::format("\n{:<32} {:>9} {:>7}\n", "task that makes it", "MiB then", "share");
-  for (const auto& [bytes, task] : sorted(memory.at("tasks"))) {
+  for (const auto& [bytes, task] : sorted(memory.at("tasks"), total)) {
     text += fmt::format("{:<32} {:>9.2f} {:>6.2f}%\n", task, in_mebibytes(bytes), 100 * bytes / total);
   }
   return text;

@@ -124,7 +124,7 @@ struct Profile {
   std::uint64_t message_bytes = 0;
   double message_s = 0;
   double message_wait_s = 0;
-  /// By the names of labels, the task of the step that makes them.
+  /// By the names of labels, the task of the step that makes them, or several with commas between them.
   std::map<std::string, std::string> makers;
 };
 

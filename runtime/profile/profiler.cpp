@@ -11,14 +11,15 @@ namespace tamp::runtime
 namespace
 {
 
-/// For each label the first task that makes it.
+/// For each label the tasks that make it, of which each may do so for other groups.
 std::map<std::string, std::string> makers_of(const TaskGraph& graph)
 {
   std::map<std::string, std::string> makers;
   for (const TaskDeclaration& task : graph.declarations()) {
     for (const Access& access : task.accesses) {
-      const bool makes = access.mode != Mode::read && access.mode != Mode::update;
-      if (makes) makers.emplace(access.label->name(), task.name);
+      if (access.mode == Mode::read || access.mode == Mode::update) continue;
+      std::string& names = makers[access.label->name()];
+      names += (names.empty() ? "" : ", ") + task.name;
     }
   }
   return makers;

@@ -63,7 +63,7 @@ double state_bytes(std::span<const runtime::TaskGraph* const> graphs, const std:
 }
 
 /// Tasks with their data, schedule and profile take so much more memory than the compiled graphs alone.
-constexpr double of_compiled = 6.5;
+constexpr double of_compiled = 8.5;
 
 /// The memory of fields, of the graphs, and of a copy of the state.
 template <int D>

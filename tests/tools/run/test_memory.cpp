@@ -16,7 +16,7 @@ TEST_CASE("what is forecast of memory, what the ledger knows of and what a proce
   const std::string scene =
       TAMP_SOURCE_DIR "/inputs/uxo/quick.json --set /grid/cell_size=0.0033333333333333335 --set /grid/patches=[1,1,6] ";
 
-  REQUIRE(tamp_with("run " + scene + "--quiet --steps 3 --threads 1 --out " + run).exit_code == 0);
+  REQUIRE(tamp_with("run " + scene + "--quiet --steps 3 --checkpoint-steps 2 --threads 1 --out " + run).exit_code == 0);
 
   const nlohmann::json memory = nlohmann::json::parse(read_text(run + "/summary.json"))["memory"];
   const auto ledger = memory["ledger_bytes"].get<double>();
