@@ -47,7 +47,7 @@ def add_arguments(parser):
 
 
 def main(options):
-    print_head(["scene", "particles", "memory, forecast / used [MB]", "steps, forecast / taken",
+    print_head(["scene", "particles", "memory, forecast / ledger / process [MB]", "steps, forecast / taken",
                 "core-seconds, forecast / taken"])
     with tempfile.TemporaryDirectory() as place:
         for name in options.scenes:
@@ -61,6 +61,7 @@ def main(options):
             forecast = summary["forecast"]
             print_row([name if name == "million" else file.resolve().relative_to(INPUTS),
                        f"{summary['particles']['total']:,}",
-                       f"{forecast['memory_bytes'] / 1e6:.1f} / {summary['peak_rss_bytes']['max'] / 1e6:.1f}",
+                       " / ".join(f"{summary['memory'][key] / 1e6:.1f}"
+                                  for key in ["forecast_bytes", "ledger_bytes", "process_bytes"]),
                        f"{whole(forecast['steps'])} / {summary['steps']:,}",
                        f"{whole(forecast['core_seconds'])} / {used:,.0f}"])
