@@ -138,7 +138,7 @@ def written_by_tamp(path):
         raise
     except Refusal as refusal:
         raise Failure(refusal) from None
-    except (AttributeError, IndexError, KeyError, TypeError, ValueError) as error:
+    except (ArithmeticError, AttributeError, IndexError, KeyError, TypeError, ValueError) as error:
         raise Failure(path, f"damaged: {error!r}", "what TAMP has written") from None
 
 

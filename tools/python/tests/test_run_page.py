@@ -54,6 +54,10 @@ class TheStep(unittest.TestCase):
     def test_there_is_none_in_a_trace_without_steps(self):
         self.assertIsNone(timeline.read_step(trace()))
 
+    def test_is_refused_where_it_takes_no_time(self):
+        for length in [0, -1]:
+            self.assertRaises(ValueError, timeline.read_step, trace(step(2, 0, length), task(2, 0, 4)))
+
     def test_is_drawn_with_a_text_for_each_task_in_both_widths(self):
         known = timeline.read_step(trace(step(2, 0, 10), task(2, 0, 4, "push <up>"), task(2, 5, 5, phase="stress")))
 
@@ -91,6 +95,18 @@ class Neighbours(unittest.TestCase):
         lanes = {(0, 0): bars((0, 1), (1, 2))}
 
         self.assertEqual(timeline.fewer(lanes, 2), lanes)
+
+    def test_stay_apart_where_each_lane_has_one_or_none_can_be_joined(self):
+        single = {(0, k): bars((0, 1)) for k in range(8)}
+        at_once = {(0, 0): bars((0, 1), (5, 6))}
+
+        self.assertEqual(timeline.fewer(single, 2, most=5), single)
+        self.assertEqual(timeline.fewer(at_once, 0, most=1), at_once)
+
+    def test_of_many_lanes_are_those_of_the_first(self):
+        many = {(0, k): bars((0, 1)) for k in range(1000)}
+
+        self.assertEqual(len(timeline.first_lanes(timeline.Step(1, 1, many, 1))), timeline.MOST_LANES)
 
 
 class Pictures(unittest.TestCase):
@@ -166,15 +182,15 @@ class TheMemory(unittest.TestCase):
     def test_is_drawn_beside_what_was_expected_and_what_the_fields_take(self):
         machine = run_page.History.__new__(run_page.History)
         machine.columns = {"time": [0, 1e-3], "rss": [3e7, 4e7]}
-        run = {"machine": machine, "summary": {"ledger_peak_bytes": 3e6, "forecast": {"memory_bytes": None}}}
+        summary = {"ledger_peak_bytes": 3e6, "forecast": {"memory_bytes": None}}
 
-        plot, = run_page.memory_plots(run)
+        plot, = run_page.memory_plots(machine, run_page.memory_levels(summary))
 
         self.assertEqual([(line.name, line.y) for line in plot.lines],
                          [("resident, all ranks", [3e7, 4e7]), ("labels, at most", [3e6, 3e6])])
 
     def test_is_not_drawn_where_it_was_not_measured(self):
-        self.assertEqual(run_page.memory_plots({"machine": None, "summary": {}}), [])
+        self.assertEqual(run_page.memory_plots(None, []), [])
 
 
 class TheSentence(unittest.TestCase):

@@ -14,11 +14,8 @@ NORMALS = {"regression": "its normal is that of a plane which parts the particle
 CELLS = "on its way into {}; with fewer than 6 the force on it is a tenth or more too large"
 
 
-def table(scene, words, summary):
-    """`words` are those of page.json, with their meanings."""
-    left_out = summary.get("left_out")  # older runs do not say
-    rows = word_rows(words, left_out) + contact_rows(scene, left_out) + number_rows(scene, left_out)
-    return Table(["choice", "is", "from", "meaning"], rows + cell_rows(summary["bodies"]))
+def table(*rows):
+    return Table(["choice", "is", "from", "meaning"], sum(rows, []))
 
 
 def source(pointers, left_out):

@@ -43,6 +43,7 @@ def read_run(folder):
     run["page"] = read(folder / "page.json", plain_document)
     run["step"] = read(folder / "trace.json", lambda path: timeline.read_step(files.document(path)))
     run["views"] = read(folder / "page.json", lambda path: particles.views(run["page"])) or []
+    run["folder"] = folder
     return run
 
 
@@ -62,16 +63,27 @@ def write(run, folder):
 
 def whole_page(run):
     summary, profile = run["summary"], run["profile"]
-    content = f"<h1>{escaped(summary['scene'])}</h1>\n<p class=\"faint\">{lead(summary)}</p>\n"
-    content += warnings(summary) + page.as_html(monitors(summary))
-    content += the_scene(run) + "<h2>Over time</h2>\n" + charts(plots(run), "plot")
-    content += "<h2>Where the time went</h2>\n" + time_of_steps(profile) + one_step(run["step"])
-    content += page.as_html(tasks(profile))
-    if profile.get("waits"):
-        content += "<h2>What workers waited for</h2>\n" + page.as_html(waits(profile))
-    content += "<h2>What the memory is for</h2>\n" + charts(memory_plots(run), "memory")
-    content += page.as_html(memory(profile))
+    content = of(run, "summary.json", lambda: head(summary)) + the_scene(run)
+    content += "<h2>Over time</h2>\n" + of(run, "history.csv", lambda: charts(plots(run), "plot"))
+    content += "<h2>Where the time went</h2>\n" + of(run, "profile.json", lambda: time_of_steps(profile))
+    content += of(run, "trace.json", lambda: one_step(run["step"]))
+    content += of(run, "profile.json", lambda: tasks_and_waits(profile))
+    levels = of(run, "summary.json", lambda: memory_levels(summary))
+    content += "<h2>What the memory is for</h2>\n"
+    content += of(run, "machine.csv", lambda: charts(memory_plots(run["machine"], levels), "memory"))
+    content += of(run, "profile.json", lambda: page.as_html(memory(profile)))
     return page.whole_page(f"{summary['scene']}: a run", f"<main>\n{content}</main>\n", kind="compare")
+
+
+def of(run, name, make):
+    """What is made of a file of the run, which is named where it is damaged."""
+    with files.written_by_tamp(run["folder"] / name):
+        return make()
+
+
+def head(summary):
+    text = f"<h1>{escaped(summary['scene'])}</h1>\n<p class=\"faint\">{lead(summary)}</p>\n"
+    return text + warnings(summary) + page.as_html(monitors(summary))
 
 
 def charts(plots, name):
@@ -89,13 +101,24 @@ def the_scene(run):
     scene, prepared = run["scene"], run["page"]
     if scene is None or prepared is None:
         return ""
-    text = f"<h2>The scene</h2>\n<p>{escaped(scene['title'])}. {escaped(bodies(scene))}</p>\n"
-    if run["views"]:
-        text += in_columns(particles.chart(view, f"particles-{k + 1}") for k, view in enumerate(run["views"]))
-    else:
-        text += "<p>The run wrote no fields, from which its particles could be drawn.</p>\n"
-    chosen = choices.table(scene, prepared["words"], run["summary"])
+    text = "<h2>The scene</h2>\n" + of(run, "scene.json", lambda: title_and_bodies(scene))
+    text += of(run, "page.json", lambda: pictures(run["views"]))
+    left_out = run["summary"].get("left_out")  # older runs do not say
+    chosen = choices.table(
+        of(run, "page.json", lambda: choices.word_rows(prepared["words"], left_out)),
+        of(run, "scene.json", lambda: choices.contact_rows(scene, left_out) + choices.number_rows(scene, left_out)),
+        of(run, "summary.json", lambda: choices.cell_rows(run["summary"]["bodies"])))
     return text + "<h2>What was chosen</h2>\n" + page.as_html(chosen, "words")
+
+
+def title_and_bodies(scene):
+    return f"<p>{escaped(scene['title'])}. {escaped(bodies(scene))}</p>\n"
+
+
+def pictures(views):
+    if not views:
+        return "<p>The run wrote no fields, from which its particles could be drawn.</p>\n"
+    return in_columns(particles.chart(view, f"particles-{k + 1}") for k, view in enumerate(views))
 
 
 def bodies(scene):
@@ -212,6 +235,13 @@ def one_step(step):
     return page.figure(timeline.chart(step, "timeline"))
 
 
+def tasks_and_waits(profile):
+    text = page.as_html(tasks(profile))
+    if profile.get("waits"):
+        text += "<h2>What workers waited for</h2>\n" + page.as_html(waits(profile))
+    return text
+
+
 def tasks(profile):
     rows = [[t["name"], f"{t['count']}", si_text(t["mean_s"], "s"), si_text(t["p95_s"], "s"), percent_text(t["share"]),
              number_text(t["imbalance"]), percent_text(t.get("step_gain_if_a_tenth_faster")),
@@ -225,15 +255,17 @@ def waits(profile):
                  [[w["task"], w["waits_for"], si_text(w["s"], "s")] for w in profile["waits"]])
 
 
-def memory_plots(run):
+def memory_levels(summary):
+    return [("labels, at most", summary["ledger_peak_bytes"]),
+            ("forecast of all", summary["forecast"]["memory_bytes"])]
+
+
+def memory_plots(machine, levels):
     """What the processes hold, beside what the fields take at most and what was expected of all."""
-    machine, summary = run["machine"], run["summary"]
     if machine is None or not machine.columns["time"]:
         return []
     held = machine.line("resident, all ranks", "rss")
     ends = [held.x[0], held.x[-1]]
-    levels = [("labels, at most", summary["ledger_peak_bytes"]),
-              ("forecast of all", summary["forecast"]["memory_bytes"])]
     lines = [held] + [Line(name, ends, [level, level]) for name, level in levels if is_number(level)]
     return [Plot("Memory", "memory", "B", lines)]
 

@@ -1,5 +1,6 @@
 """The timeline of one step of a run: what each worker of each rank did when, from the run's trace."""
 
+import math
 from typing import NamedTuple
 
 from tamp.charts.axes import NARROW, Entry, Sheet, set_ticks, text_width
@@ -50,6 +51,8 @@ def read_step(trace):
             durations[number] = max(durations.get(number, 0), event["dur"])
     if not durations:
         return None
+    if not all(0 < time < math.inf for time in durations.values()):
+        raise ValueError("a step that takes no time")
     number = typical(durations)
     chosen = [event for event in spans if event["args"]["step"] == number]
     begin = min(event["ts"] for event in chosen)
@@ -85,11 +88,15 @@ def task_of(event):
 # --- what is drawn of it ---
 
 
+def first_lanes(step):
+    return dict(list(step.lanes.items())[:MOST_LANES])
+
+
 def fewer(lanes, duration, most=MOST_BARS):
-    """Lanes in which neighbours are joined until no more bars than that are left."""
+    """Lanes in which neighbours are joined until no more bars than that are left, or each lane has one."""
     gap = duration / 4000
     alike = True
-    while sum(map(len, lanes.values())) > most:
+    while sum(map(len, lanes.values())) > most and gap > 0 and any(len(bars) > 1 for bars in lanes.values()):
         lanes = {lane: joined(bars, gap, alike) for lane, bars in lanes.items()}
         # First neighbours of the same phase, then any that are short.
         alike, gap = gap < duration / 200 and not alike, 1.3 * gap
@@ -141,7 +148,7 @@ def chart(step, name):
 
 
 def draw(step, layout):
-    shown = dict(list(fewer(step.lanes, step.duration).items())[:MOST_LANES])
+    shown = fewer(first_lanes(step), step.duration)
     paint, found = colours(step), shares(step)
     labels = [lane_name(step, lane) for lane in shown]
     entries = [Entry(f"{phase} ({percent_text(found[phase], 2)})" if phase in found else phase,
@@ -190,7 +197,7 @@ def describe(step):
 def caption(step):
     text = (f"Of {counted(step.n_traced, 'traced step')} the one whose time, {si_text(step.duration, 's')}, is the "
             "median. Each bar is a task on a patch; its name shows under the mouse.")
-    if sum(map(len, step.lanes.values())) > MOST_BARS:
+    if sum(map(len, first_lanes(step).values())) > MOST_BARS:
         text += " Short neighbours are drawn as one."
     if len(step.lanes) > MOST_LANES:
         text += f" Of {len(step.lanes)} lanes the first {MOST_LANES} are drawn."
