@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
 
 namespace tamp::tools
 {
@@ -9,6 +10,8 @@ namespace tamp::tools
 Raster::Raster(std::array<double, 2> lower, std::array<double, 2> upper, int most)
     : lower_(lower), size_(std::max(upper[0] - lower[0], upper[1] - lower[1]) / most), n_{}
 {
+  const bool is_box = upper[0] > lower[0] && upper[1] > lower[1];
+  if (!is_box || !std::isfinite(size_) || !(size_ > 0)) throw std::out_of_range("the box of a picture");
   for (std::size_t k = 0; k < 2; ++k) {
     n_[k] = std::max(1, static_cast<int>(std::ceil((upper[k] - lower[k]) / size_ - 1e-9)));
   }

@@ -20,7 +20,7 @@ class Raster
     double distance = 0;
   };
 
-  /// Of a box, with `most` squares along its longer side.
+  /// Of a box, with `most` squares along its longer side. Throws std::out_of_range for what is no box.
   Raster(std::array<double, 2> lower, std::array<double, 2> upper, int most);
 
   /// A particle is a square that reaches so far from its middle, a cell at least; `off` is how far it is from the

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <stdexcept>
 #include <string>
 
 #include "tools/run/field_reader.hpp"
@@ -66,9 +67,13 @@ double domain_bound(const Json& scene, const char* end, std::size_t axis)
   return scene.at("grid").at(end).at(axis).get<double>();
 }
 
+/// A domain has a cell at least; with larger ones each particle would fill the picture.
 double cell_size_of(const Json& scene)
 {
-  return scene.at("grid").at("cell_size").get<double>();
+  const double size = scene.at("grid").at("cell_size").get<double>();
+  const double width = domain_bound(scene, "upper", 0) - domain_bound(scene, "lower", 0);
+  if (!(size > 0 && size < 1.001 * width)) throw std::out_of_range("the cell size");
+  return size;
 }
 
 /// The plane of symmetry that particles of what moves touch, or else its middle.
@@ -105,6 +110,7 @@ double reach_of(const Json& scene, const std::string& material)
   const Json& per_axis =
       own.contains("particles_per_axis") ? own["particles_per_axis"] : scene.at("particles_per_cell").at(0);
   const double n = per_axis.is_number() ? per_axis.get<double>() : scene.at("particles_per_cell").at(0).get<double>();
+  if (!(n >= 1)) throw std::out_of_range("particles per axis");
   return 0.62 * cell_size_of(scene) / n;
 }
 

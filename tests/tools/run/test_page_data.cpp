@@ -122,4 +122,20 @@ TEST_CASE("a damaged scene of a run is refused by its name")
   CHECK_THROWS_WITH(page_of(run), Catch::Contains("scene.json: is damaged"));
 }
 
+TEST_CASE("a scene of a run whose domain or cells cannot be is refused by its name")
+{
+  const TemporaryFolder folder;
+  const fs::path run = run_of(folder, TAMP_SOURCE_DIR "/inputs/punch/quick.json --steps 2");
+  const Json change = GENERATE(Json{{"upper", {0, 0}}}, Json{{"upper", {1, -1}}}, Json{{"lower", {2, 2}}},
+                               Json{{"cell_size", 0}}, Json{{"cell_size", 1e300}});
+  Json scene = Json::parse(read_text(run / "scene.json"));
+  scene["grid"].update(change);
+  folder.write("run/scene.json", scene.dump());
+
+  const Outcome page = tamp_with("profile --format html " + run.string());
+
+  CHECK(page.exit_code == 4);
+  CHECK_THAT(page.err, Catch::Contains("scene.json: is damaged"));
+}
+
 }  // namespace test_page_data

@@ -1,5 +1,7 @@
 #include <algorithm>
 #include <catch2/catch.hpp>
+#include <limits>
+#include <stdexcept>
 
 #include "tools/run/raster.hpp"
 
@@ -70,6 +72,15 @@ TEST_CASE("a particle far outside draws nothing, and one that is smaller than a 
   raster.add({1.4, 0.6}, 1e-9, 0, 1, 0);
 
   CHECK(drawn(raster) == ".1.\n");
+}
+
+TEST_CASE("a box without an inside, or without an end, has no picture")
+{
+  const double infinity = std::numeric_limits<double>::infinity();
+  const double upper = GENERATE_COPY(0.0, -1.0, infinity, std::numeric_limits<double>::quiet_NaN());
+
+  CHECK_THROWS_AS(Raster({0, 0}, {1, upper}, 4), std::out_of_range);
+  CHECK_THROWS_AS(Raster({0, 0}, {upper, 1}, 4), std::out_of_range);
 }
 
 }  // namespace test_raster
