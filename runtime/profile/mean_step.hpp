@@ -1,6 +1,7 @@
 #pragma once
 
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <vector>
 
 #include "runtime/profile/profile.hpp"
@@ -14,7 +15,8 @@ namespace tamp::runtime
 nlohmann::json to_json(const std::vector<InstanceTime>& mean_step);
 
 /// A step of a graph, with the times of that of a `profile.json`. Instances are known by their task, patch and group,
-/// or rank; those that the profile has not take no time. Throws nlohmann's exceptions for what no run has written.
-TimedStep timed_step(const TaskGraph& graph, const nlohmann::json& profile);
+/// or rank; nothing unless the profile has each of them, and no others but the engine's own. Throws nlohmann's
+/// exceptions and std::out_of_range for what no run has written.
+std::optional<TimedStep> timed_step(const TaskGraph& graph, const nlohmann::json& profile);
 
 }  // namespace tamp::runtime

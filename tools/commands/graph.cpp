@@ -1,7 +1,7 @@
 #include <fmt/core.h>
 
-#include <algorithm>
 #include <memory>
+#include <stdexcept>
 
 #include "runtime/graph/dump.hpp"
 #include "runtime/graph/page.hpp"
@@ -63,22 +63,37 @@ std::string page_of(const runtime::TaskGraph& graph, const GraphArguments& optio
   });
 }
 
+/// Earlier versions did not write all that replay needs.
+void expect_mean_step(const nlohmann::json& profile, const std::string& run)
+{
+  if (profile.contains("machine") && profile.contains("mean_step")) return;
+  throw InputError({"--run", run, "expected a run of this version of TAMP"});
+}
+
+int threads_of(const nlohmann::json& machine)
+{
+  const double n = machine.at("threads").get<double>();
+  if (!(n >= 1 && n <= most_threads)) throw std::out_of_range("threads");
+  return static_cast<int>(n);
+}
+
 /// As so many threads would have it; with what a run took, on how many how fast.
 std::string threads_text(const runtime::TaskGraph& graph, const GraphArguments& options)
 {
   if (options.run.empty()) return to_text(runtime::deal_to_threads(graph, options.n_threads));
   return with_profile(options.run, [&](const nlohmann::json& profile) {
+    expect_mean_step(profile, options.run);
     const nlohmann::json& machine = profile.at("machine");
     if (machine.at("ranks").get<int>() != options.n_ranks) {
       throw InputError({"--ranks", std::to_string(options.n_ranks),
                         fmt::format("expected those of the run, {}", machine.at("ranks").get<int>())});
     }
-    const runtime::TimedStep step = timed_step(graph, profile);
-    if (std::ranges::all_of(step.instance_s, [](double s) { return s == 0; })) {
+    const auto step = timed_step(graph, profile);
+    if (!step) {
       throw InputError({"--run", options.run, "expected a run of this scene, of at most 20,000 tasks a step"});
     }
-    return to_text(deal_to_threads(step, options.n_threads)) +
-           replays_text(step, options.n_threads, machine.at("threads").get<int>(), profile.at("step_s").get<double>());
+    return to_text(deal_to_threads(*step, options.n_threads)) +
+           replays_text(*step, options.n_threads, threads_of(machine), profile.at("step_s").get<double>());
   });
 }
 

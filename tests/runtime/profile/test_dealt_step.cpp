@@ -73,11 +73,25 @@ TEST_CASE("the mean step of a profile is that of its graph again", "[profile][ra
   const Profile profile = heat.engine.profile();
   const nlohmann::json json = to_json(profile, heat.engine.warehouse().ledger(), ranks);
   if (!ranks.is_first()) return;
-  const TimedStep step = timed_step(heat.engine.graph(), json);
+  const auto step = timed_step(heat.engine.graph(), json);
 
   CHECK(profile.mean_step.size() == heat.engine.graph().instances().size());
-  CHECK(replay(step, 1) == Approx(profile.replayed_s));
-  CHECK(longest_chain(step).length_s == Approx(profile.longest_chain_s));
+  REQUIRE(step);
+  CHECK(replay(*step, 1) == Approx(profile.replayed_s));
+  CHECK(longest_chain(*step).length_s == Approx(profile.longest_chain_s));
+}
+
+TEST_CASE("the mean step of a profile is that of no graph with other instances")
+{
+  test::Heat heat(24, {4, 3, 1}, 1);
+  const test::Heat in_fewer_patches(24, {4, 2, 1}, 1), in_more_patches(24, {4, 4, 1}, 1);
+  heat.run(20, 1e-4);
+
+  const nlohmann::json json = to_json(heat.engine.profile(), heat.engine.warehouse().ledger());
+
+  CHECK(timed_step(heat.engine.graph(), json));
+  CHECK_FALSE(timed_step(in_fewer_patches.engine.graph(), json));
+  CHECK_FALSE(timed_step(in_more_patches.engine.graph(), json));
 }
 
 }  // namespace tamp::runtime::test_dealt_step

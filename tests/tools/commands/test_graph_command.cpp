@@ -102,6 +102,47 @@ TEST_CASE("a step is dealt to threads, and with a run of its scene told how fast
   CHECK(tamp_with("graph " + scene + " --threads 4 --format svg").exit_code == 2);
 }
 
+TEST_CASE("no step is replayed from a run that is another's, damaged or of an earlier version")
+{
+  const TemporaryFolder folder;
+  const std::string run = (folder.path() / "run").string();
+  REQUIRE(tamp_with("run " + scene + " --steps 20 --threads 1 --quiet --out " + run).exit_code == 0);
+  const auto profile = nlohmann::json::parse(read_text(folder.path() / "run" / "profile.json"));
+  const auto outcome_with = [&](const nlohmann::json& changed, const std::string& options = "") {
+    folder.write("run/profile.json", changed.dump());
+    return tamp_with("graph " + scene + " --threads 4 --run " + run + options);
+  };
+  const auto without = [&](const char* key) {
+    nlohmann::json changed = profile;
+    changed.erase(key);
+    return changed;
+  };
+  nlohmann::json longer = profile, shorter = profile, negative = profile;
+  auto& times = shorter["mean_step"].begin().value();
+  longer["mean_step"]["another task"] = times;
+  negative["mean_step"].begin().value()[0][3] = -1e-6;
+  times.erase(times.size() - 1);
+
+  for (const auto& threads : {nlohmann::json(0), nlohmann::json(-1), nlohmann::json(2e9), nlohmann::json(300000)}) {
+    nlohmann::json changed = profile;
+    changed["machine"]["threads"] = threads;
+    const Outcome damaged = outcome_with(changed);
+    CHECK(damaged.exit_code == 4);
+    CHECK_THAT(damaged.err, Catch::Contains("profile.json: is damaged"));
+  }
+  CHECK(outcome_with(negative).exit_code == 4);
+  for (const Outcome& other :
+       {outcome_with(longer), outcome_with(shorter), outcome_with(profile, " --set '/grid/patches=[4, 2]'")}) {
+    CHECK(other.exit_code == 2);
+    CHECK_THAT(other.err, Catch::Contains("expected a run of this scene"));
+  }
+  for (const char* key : {"machine", "mean_step"}) {
+    const Outcome old = outcome_with(without(key));
+    CHECK(old.exit_code == 2);
+    CHECK_THAT(old.err, Catch::Contains("expected a run of this version of TAMP"));
+  }
+}
+
 TEST_CASE("under a launcher the first rank alone writes the graph", "[mpiexec]")
 {
   const Outcome alone = tamp_with("graph " + scene);
