@@ -53,13 +53,44 @@ std::unique_ptr<tasks::Simulation> with_slower(const tasks::Scene& scene, const 
   });
 }
 
+/// The dearest task that `is_wanted`; none where there is no such task.
+template <class Wanted>
+std::vector<std::string> dearest(const std::vector<runtime::TaskStatistics>& tasks, const Wanted& is_wanted)
+{
+  const runtime::TaskStatistics* found = nullptr;
+  for (const runtime::TaskStatistics& task : tasks) {
+    if (is_wanted(task) && (!found || task.share > found->share)) found = &task;
+  }
+  return found ? std::vector{found->name} : std::vector<std::string>{};
+}
+
+/// The dearest on the longest chain of most steps, and the dearest that hardly ever is on it.
+std::vector<std::string> typical_tasks(const tasks::Scene& scene)
+{
+  std::vector<std::string> known;
+  const auto executor = std::make_shared<runtime::Executor>(n_threads);
+  const auto run =
+      tasks::Simulation::make(scene, executor, {}, [&](runtime::TaskList& step) { known = names_of(step); });
+  while (run->n_steps() < 4 * steps_of_turn && run->time() < scene.time.end) run->advance(scene.time.end);
+  std::vector<runtime::TaskStatistics> all = run->engine().profile().tasks;
+  // What the runtime itself does is no scene's task.
+  std::erase_if(all, [&](const auto& task) { return std::ranges::find(known, task.name) == known.end(); });
+  std::vector<std::string> found = dearest(all, [](const auto& task) { return task.on_chain > 0.5; });
+  for (const std::string& name : dearest(all, [](const auto& task) { return task.on_chain < 0.1; })) {
+    found.push_back(name);
+  }
+  return found.empty() ? dearest(all, [](const auto&) { return true; }) : found;
+}
+
 /// A run as it is and one for each task that is slower, in turns.
 class GainBenchmark
 {
  public:
   explicit GainBenchmark(const GainOptions& options) : options_(options), scene_(read_scene(options.scene).scene)
   {
-    for (const std::string& task : options.tasks) tasks_.push_back({task});
+    const std::vector<std::string> names = options.tasks.empty() ? typical_tasks(scene_) : options.tasks;
+    tasks_.reserve(names.size());
+    for (const std::string& task : names) tasks_.push_back({task});
   }
 
   Result result()

@@ -136,8 +136,9 @@ CLI::App* add_bench_command(CLI::App& app)
                    "of peers: about how many, instead of 40,000 in the plane and 64,000 in space")
       ->check(is_from_to(64, 100'000'000));
   command
-      ->add_option("--task", options->gains.tasks,
-                   "of gains: slow this task down, instead of \"update stress: sand\" and \"accelerate nodes\"")
+      ->add_option(
+          "--task", options->gains.tasks,
+          "of gains: slow this task down, instead of the dearest on the longest chain and the dearest beside it")
       ->type_name("NAME")
       ->allow_extra_args(false)
       ->check(is_not_empty());

@@ -85,6 +85,27 @@ TEST_CASE("the benchmark of gains has for each task what was forecast beside wha
   CHECK_THAT(outcome.out, Catch::Contains("update stress: sand") && Catch::Contains("difference"));
 }
 
+TEST_CASE("the benchmark of gains finds tasks on the longest chain and beside it in any scene")
+{
+  const TemporaryFolder folder;
+  const std::string file = (folder.path() / "gains.json").string();
+  std::string scene = read_text(TAMP_SOURCE_DIR "/inputs/punch/quick.json");
+  for (std::size_t at = scene.find("\"sand\""); at != std::string::npos; at = scene.find("\"sand\"")) {
+    scene.replace(at, 6, "\"soil\"");
+  }
+  const std::string above = "../materials";
+  scene.replace(scene.find(above), above.size(), TAMP_SOURCE_DIR "/inputs/materials");
+  const std::string other = folder.write("soil.json", scene).string();
+
+  const Outcome outcome = tamp_with("bench gains --steps 20 --rounds 1 --scene " + other + " --json " + file);
+
+  INFO(outcome.err);
+  REQUIRE(outcome.exit_code == 0);
+  const auto json = nlohmann::json::parse(read_text(file)).at("gains");
+  REQUIRE(json.at("tasks").size() == 2);
+  CHECK(json.at("tasks").at(0).at("task") == "update stress: soil");
+}
+
 TEST_CASE("the benchmark of gains names the tasks of a step where one is asked for that it has not")
 {
   const Outcome outcome = tamp_with("bench gains --rounds 1 --task stress");
