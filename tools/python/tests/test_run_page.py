@@ -57,6 +57,7 @@ class TheStep(unittest.TestCase):
     def test_is_refused_where_it_takes_no_time(self):
         for length in [0, -1]:
             self.assertRaises(ValueError, timeline.read_step, trace(step(2, 0, length), task(2, 0, 4)))
+        self.assertRaises(ValueError, timeline.read_step, trace(step(2, 0, 5), task(2, 0, -4)))
 
     def test_is_drawn_with_a_text_for_each_task_in_both_widths(self):
         known = timeline.read_step(trace(step(2, 0, 10), task(2, 0, 4, "push <up>"), task(2, 5, 5, phase="stress")))

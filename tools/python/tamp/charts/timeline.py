@@ -51,8 +51,8 @@ def read_step(trace):
             durations[number] = max(durations.get(number, 0), event["dur"])
     if not durations:
         return None
-    if not all(0 < time < math.inf for time in durations.values()):
-        raise ValueError("a step that takes no time")
+    if not all(0 < time < math.inf for time in durations.values()) or any(event["dur"] < 0 for event in spans):
+        raise ValueError("what takes no time")
     number = typical(durations)
     chosen = [event for event in spans if event["args"]["step"] == number]
     begin = min(event["ts"] for event in chosen)
