@@ -53,7 +53,8 @@ class SimulationOf : public Simulation
     warehouse().global_state(monitor_records) = {};
     warehouse().global_state(longest_step) = initial_stable_step(method_, particles);
     warehouse().global_state(energy_ledger).elastic = particles.stored_energy();
-    forecast_bytes_ = static_cast<std::size_t>(runtime::forecast_bytes(engine_->graphs(), n_particles));
+    forecast_bytes_ =
+        static_cast<std::size_t>(runtime::forecast_bytes(engine_->graphs(), n_particles, communicator.size()));
   }
 
   runtime::FieldCopy fields(const FieldChoice& choice, bool with_nodes) override

@@ -33,7 +33,10 @@ struct Field {
   bool computed = false;
   bool accumulated = false;
 
-  /// Stored from when it is first written to: a node or cell field that is no state, or a patch's part of a reduction.
+  /// Whether it is known to be zero where nothing is written to it: a node or cell field that is no state, or a patch's
+  /// part of a reduction.
+  bool tracks_zero = false;
+  /// Of these, stored from when it is first written to.
   bool on_demand = false;
   /// What a node or cell field is read from until then.
   const Buffer* zeros = nullptr;
@@ -66,23 +69,18 @@ struct Field {
   /// Where to write them. To be called by whoever does.
   std::byte* written_values(FieldBuffer which)
   {
-    if (on_demand) buffer(which).reserve(n_bytes());
+    if (on_demand) {
+      buffer(which).reserve(n_bytes());
+      idle_ = false;
+    }
     written_[static_cast<std::size_t>(which)] = true;
     if (written_rows_ != nullptr) rows_of(which).clear();
-    idle_ = false;
     return buffer(which).data();
   }
-  /// Where to write a halo around them: that changes nothing about the values themselves.
-  std::byte* halo_values(FieldBuffer which)
-  {
-    if (on_demand) buffer(which).reserve(n_bytes());
-    return buffer(which).data();
-  }
-  bool is_stored(FieldBuffer which) const { return !on_demand || buffer(which).data() != nullptr; }
 
   /// Whether all values of a buffer are known to be zero, but for what was filled in from neighbours; or a part of a
-  /// reduction to be neutral. So it is at first; of what is not stored on demand it is never known.
-  bool is_zero(FieldBuffer which) const { return on_demand && !written_[static_cast<std::size_t>(which)]; }
+  /// reduction to be neutral. So it is at first; of anything else it is never known.
+  bool is_zero(FieldBuffer which) const { return tracks_zero && !written_[static_cast<std::size_t>(which)]; }
   void make_zero(FieldBuffer which)
   {
     if (is_zero(which)) return;

@@ -142,12 +142,9 @@ BoundHalo bind_halo_fill(Warehouse& warehouse, const Label& label, int patch, in
 
 void fill_halo(const BoundHalo& halo, FieldBuffer buffer)
 {
-  const bool is_stored = std::any_of(halo.parts.begin(), halo.parts.end(),
-                                     [&](const BoundHalo::Part& part) { return part.from->is_stored(buffer); });
-  if (!is_stored && !halo.to->is_stored(buffer)) return;
-  std::byte* const to = halo.to->halo_values(buffer);
+  std::byte* const to = halo.to->buffer(buffer).data();
   for (const BoundHalo::Part& part : halo.parts) {
-    const std::byte* const values = part.from->values(buffer);
+    const std::byte* const values = part.from->buffer(buffer).data();
     for_each_row(*halo.to, part, [&](std::size_t to_offset, std::size_t from_offset, std::size_t bytes) {
       std::memcpy(to + to_offset, values + from_offset, bytes);
     });

@@ -174,6 +174,10 @@ TaskGraph::TaskGraph(std::vector<TaskDeclaration> declarations, const PatchLayou
   edges_ = std::move(step.edges);
   messages_ = std::move(step.messages);
   label_uses_ = list_uses(streams, host, n_groups());
+  for (const Instance& instance : instances_) {
+    if (instance.kind != InstanceKind::fill_halo || instance.of_previous_step) continue;
+    for (LabelUse& use : label_uses_) use.filled |= use.label == instance.labels.front();
+  }
   for (const TaskDeclaration& declaration : declarations_) {
     for (const Access& access : declaration.accesses) storage_halo_ = std::max(storage_halo_, access.halo);
   }
@@ -223,6 +227,7 @@ std::vector<LabelUse> label_uses(std::span<const TaskGraph* const> graphs)
         same->state |= use.state;
         same->computed |= use.computed;
         same->accumulated |= use.accumulated;
+        same->filled |= use.filled;
       }
     }
   }

@@ -97,6 +97,8 @@ struct LabelUse {
   /// Made anew by the step.
   bool computed = false;
   bool accumulated = false;
+  /// Has halos filled from neighbours, of the values of this step.
+  bool filled = false;
 };
 
 /// Data that the host, outside of the graph, gives and takes.
@@ -149,7 +151,7 @@ class TaskGraph
   int storage_halo_ = 0;
 };
 
-/// One use of each label and group over all graphs: state and computed where any graph says so.
+/// One use of each label and group over all graphs: with whatever any graph says of it.
 std::vector<LabelUse> label_uses(std::span<const TaskGraph* const> graphs);
 /// The widest halo of all graphs.
 int storage_halo(std::span<const TaskGraph* const> graphs);

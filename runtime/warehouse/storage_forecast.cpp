@@ -4,6 +4,8 @@
 #include <array>
 #include <bitset>
 #include <numeric>
+#include <set>
+#include <tuple>
 #include <unordered_map>
 #include <vector>
 
@@ -169,7 +171,7 @@ double n_values(const LabelUse& use, const Patch& patch, int halo, int dimension
   return static_cast<double>(grown(own, halo, dimension).size());
 }
 
-/// Of all patches together, or, for a reduction or a global, of one rank.
+/// Of all patches together; of what has one value, and of the parts that it is made of, on each rank.
 double bytes_of(const LabelUse& use, const PatchLayout& layout, int n_groups, int halo,
                 std::span<const std::size_t> n_particles, const WrittenBuffers& written)
 {
@@ -184,8 +186,8 @@ double bytes_of(const LabelUse& use, const PatchLayout& layout, int n_groups, in
     if (centring == Centring::particle) {
       const int n_buffers = int{use.state} + int{use.computed || !use.state};
       sum += n_buffers * static_cast<double>(n_particles[static_cast<std::size_t>(patch.id * n_groups + use.group)]);
-    } else if (use.state) {
-      const int n_buffers = 1 + int{use.computed} + int{use.accumulated};
+    } else if (use.state || use.filled) {
+      const int n_buffers = int{use.state} + int{use.computed} + int{use.accumulated};
       sum += n_buffers * n_values(use, patch, halo, layout.grid().dimension);
     } else {
       const auto n_buffers = static_cast<double>(written.n_buffers(*use.label, patch.id, use.group));
@@ -195,17 +197,42 @@ double bytes_of(const LabelUse& use, const PatchLayout& layout, int n_groups, in
   return sum * value_bytes;
 }
 
+/// What messages bring of node and cell fields is kept as on the rank that it comes from.
+double bytes_of_copies(const TaskGraph& graph, int halo, const WrittenBuffers& written)
+{
+  const PatchLayout& layout = graph.layout();
+  std::set<std::tuple<int, const Label*, int, int, FieldBuffer>> copies;
+  double bytes = 0;
+  for (const Message& message : graph.messages()) {
+    for (const MessagePart& part : message.parts) {
+      const bool is_stored = message.purpose != InstanceKind::receive_particles && is_on_grid(part.label->centring()) &&
+                             written.has(*part.label, part.from_patch, part.group, part.buffer);
+      if (!is_stored) continue;
+      if (!copies.emplace(message.to_rank, part.label, part.from_patch, part.group, part.buffer).second) continue;
+      const LabelUse use{part.label};
+      bytes += n_values(use, layout[part.from_patch], halo, layout.grid().dimension) *
+               static_cast<double>(part.label->value_bytes());
+    }
+  }
+  return bytes;
+}
+
 }  // namespace
 
-double forecast_bytes(std::span<const TaskGraph* const> graphs, std::span<const std::size_t> n_particles)
+double forecast_bytes(std::span<const TaskGraph* const> graphs, std::span<const std::size_t> n_particles, int n_ranks)
 {
   const PatchLayout& layout = graphs.front()->layout();
   const int n_groups = graphs.front()->n_groups();
   const std::vector<LabelUse> uses = label_uses(graphs);
   WrittenBuffers written(uses, layout.size(), n_groups);
   for (const TaskGraph* graph : graphs) DryStep(*graph, n_particles, written).go();
+  const int halo = storage_halo(graphs);
   double bytes = 0;
-  for (const LabelUse& use : uses) bytes += bytes_of(use, layout, n_groups, storage_halo(graphs), n_particles, written);
+  for (const LabelUse& use : uses) {
+    const int n_times = has_one_value(use.label->centring()) ? n_ranks : 1;
+    bytes += n_times * bytes_of(use, layout, n_groups, halo, n_particles, written);
+  }
+  for (const TaskGraph* graph : graphs) bytes += bytes_of_copies(*graph, halo, written);
   return bytes;
 }
 

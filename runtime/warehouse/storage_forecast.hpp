@@ -13,6 +13,7 @@ namespace tamp::runtime
 ///
 /// Node and cell fields are stored where something is written to them. Where that is, is found by going through the
 /// graphs without running them.
-double forecast_bytes(std::span<const TaskGraph* const> graphs, std::span<const std::size_t> n_particles);
+double forecast_bytes(std::span<const TaskGraph* const> graphs, std::span<const std::size_t> n_particles,
+                      int n_ranks = 1);
 
 }  // namespace tamp::runtime

@@ -76,7 +76,8 @@ void Warehouse::add_field(const LabelUse& use, int patch, int halo)
     const Patch& p = (*layout_)[patch];
     f.box = grown(centring == Centring::node ? p.nodes : p.cells, halo, layout_->grid().dimension);
   }
-  if (patch >= 0 && !f.state && centring != Centring::particle) store_on_demand(f);
+  f.tracks_zero = patch >= 0 && !f.state && centring != Centring::particle;
+  if (f.tracks_zero && !use.filled) store_on_demand(f);
   if (f.state && !f.carried) changing_.push_back(&f);
   reserve(f);
   const bool is_whole = centring == Centring::reduction && patch < 0;
@@ -91,10 +92,10 @@ void Warehouse::add_field(const LabelUse& use, int patch, int halo)
 void Warehouse::store_on_demand(Field& f)
 {
   f.on_demand = true;
+  on_demand_.push_back(&f);
   if (!is_on_grid(f.label->centring())) return;
   zeros_.reserve(f.n_bytes());
   f.zeros = &zeros_;
-  on_demand_.push_back(&f);
 }
 
 /// Makes room for the values of this rank's patches, and for the whole of a reduction.

@@ -62,26 +62,34 @@ double state_bytes(std::span<const runtime::TaskGraph* const> graphs, const std:
   return bytes;
 }
 
-/// Tasks with their data, schedule and profile take so much more memory than the compiled graphs alone.
-constexpr double of_compiled = 8.5;
+/// Memory of tasks, over that of the compiled graph alone: what each rank has of all tasks, with their labels and their
+/// schedule, and what it has only of its own, such as their data.
+constexpr double of_all_tasks = 3.5;
+constexpr double of_own_tasks = 5;
 
 /// The memory of fields, of the graphs, and of a copy of the state.
 template <int D>
-void add_fields(const Scene& scene, const std::vector<std::size_t>& n_particles, Demand& demand)
+void add_fields(const Scene& scene, const std::vector<std::size_t>& n_particles, int n_ranks, Demand& demand)
 {
   const Method<D> method(scene);
-  const runtime::PatchLayout layout(scene.grid, scene.n_patches);
-  const std::size_t heap_before = runtime::heap_bytes();
+  const std::vector<std::size_t> counts =
+      BodyParticles<D>(scene, runtime::PatchLayout(scene.grid, scene.n_patches)).counts();
+  const runtime::PatchLayout layout = dealt(scene, counts, n_ranks);
+  const auto heap_before = static_cast<double>(runtime::heap_bytes());
   const runtime::CompiledGraphs compiled(layout, material_names(scene), graphs_of(method));
-  demand.graph = of_compiled * static_cast<double>(runtime::heap_bytes() - heap_before);
+  const double compiled_bytes = std::max(0.0, static_cast<double>(runtime::heap_bytes()) - heap_before);
+  demand.graph = (n_ranks * of_all_tasks + of_own_tasks) * compiled_bytes;
   const std::vector<const runtime::TaskGraph*> pointers = compiled.pointers();
-  demand.fields = runtime::forecast_bytes(pointers, BodyParticles<D>(scene, layout).counts());
+  for (const runtime::TaskGraph* graph : pointers) {
+    for (const runtime::Message& message : graph->messages()) demand.graph += 2 * static_cast<double>(message.bytes);
+  }
+  demand.fields = runtime::forecast_bytes(pointers, counts, n_ranks);
   demand.checkpoint_file = state_bytes(pointers, n_particles);
 }
 
 }  // namespace
 
-Demand demand_of(const Scene& scene)
+Demand demand_of(const Scene& scene, int n_ranks)
 {
   const std::vector<std::size_t> n_particles = particles_of_materials(scene);
   Demand demand;
@@ -94,7 +102,8 @@ Demand demand_of(const Scene& scene)
     demand.output_file +=
         bytes_of_number * static_cast<double>(n_output_numbers(scene, static_cast<int>(m)) * n_particles[m]);
   }
-  scene.grid.dimension == 2 ? add_fields<2>(scene, n_particles, demand) : add_fields<3>(scene, n_particles, demand);
+  const auto add = scene.grid.dimension == 2 ? add_fields<2> : add_fields<3>;
+  add(scene, n_particles, n_ranks, demand);
   // One column at a time is there as in the file, too.
   constexpr double most_components = 6;
   const auto most_particles = static_cast<double>(*std::max_element(n_particles.begin(), n_particles.end()));

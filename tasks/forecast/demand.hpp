@@ -12,7 +12,7 @@ struct Demand {
   std::size_t n_particles = 0;
   /// Fields and particles of all ranks.
   double fields = 0;
-  /// Tasks with all that is known of them, of each rank.
+  /// Tasks with all that is known of them, and their messages.
   double graph = 0;
   /// Memory gathered to write one output, and its room on the disk.
   double output_room = 0;
@@ -21,6 +21,6 @@ struct Demand {
   double checkpoint_file = 0;
 };
 
-Demand demand_of(const Scene& scene);
+Demand demand_of(const Scene& scene, int n_ranks = 1);
 
 }  // namespace tamp::tasks

@@ -47,6 +47,20 @@ Eigen::Vector3d shown_by_nodes(Simulation& simulation)
   return sum;
 }
 
+/// What this rank's ledger knows of fields, once all graphs have been run.
+std::size_t of_fields(Simulation& simulation)
+{
+  runtime::Engine& engine = simulation.engine();
+  for (std::size_t g = 1; g < engine.graphs().size(); ++g) engine.run(g, simulation.last_step_size());
+  runtime::MemoryLedger& ledger = engine.warehouse().ledger();
+  std::size_t bytes = ledger.total().current();
+  for (const char* other :
+       {"graph and profile", "messages", "copies for output", "trace", "zeros", "particles that change patches"}) {
+    bytes -= ledger.entry(other).current();
+  }
+  return bytes;
+}
+
 }  // namespace
 
 TEST_CASE("node fields are stored where there is matter, as forecast, and given back behind it")
@@ -57,24 +71,28 @@ TEST_CASE("node fields are stored where there is matter, as forecast, and given 
   CHECK(sums.current() == 0);
 
   simulation->advance(1);
-  runtime::Engine& engine = simulation->engine();
-  for (std::size_t g = 1; g < engine.graphs().size(); ++g) engine.run(g, simulation->last_step_size());
 
   // Of 48 patches the disk and what it gives to take up to nine.
   const std::size_t of_first_step = sums.current();
   const double of_a_patch = 7 * 7 * 2.0 * sizeof(components::NodeSums<2>);
   CHECK(static_cast<double>(of_first_step) > 4 * of_a_patch);
   CHECK(static_cast<double>(of_first_step) < 12 * of_a_patch);
-  std::size_t of_fields = ledger.total().current();
-  for (const char* other :
-       {"graph and profile", "messages", "copies for output", "trace", "zeros", "particles that change patches"}) {
-    of_fields -= ledger.entry(other).current();
-  }
-  CHECK(static_cast<double>(of_fields) == Approx(static_cast<double>(simulation->forecast_bytes())).epsilon(0.01));
+  CHECK(static_cast<double>(of_fields(*simulation)) ==
+        Approx(static_cast<double>(simulation->forecast_bytes())).epsilon(0.01));
 
   advance_to(*simulation, 0.2);
 
   CHECK(static_cast<double>(sums.current()) < 2.0 * static_cast<double>(of_first_step));
+}
+
+TEST_CASE("the memory of fields is forecast with what messages bring", "[ranks]")
+{
+  const auto simulation = on_all_ranks(lone_disk());
+
+  simulation->advance(1);
+
+  const auto now = static_cast<double>(simulation->communicator().sum(of_fields(*simulation)));
+  CHECK(now == Approx(static_cast<double>(simulation->forecast_bytes())).epsilon(0.01));
 }
 
 TEST_CASE("patches that particles have crossed give their memory back")

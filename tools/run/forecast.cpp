@@ -32,12 +32,13 @@ std::string in_time(double seconds)
 
 Forecast forecast(const tasks::Scene& scene, int n_ranks)
 {
-  const tasks::Demand demand = demand_of(scene);
+  const double resident = resident_bytes();
+  const tasks::Demand demand = demand_of(scene, n_ranks);
   const double n_outputs = std::ceil(scene.time.end / scene.output.fields_interval) + 1;
   Forecast all;
   all.n_particles = demand.n_particles;
-  all.at_start = n_ranks * resident_bytes();
-  all.memory = all.at_start + n_ranks * (of_libraries + demand.graph) + demand.fields + demand.output_room;
+  all.at_start = n_ranks * resident;
+  all.memory = all.at_start + n_ranks * of_libraries + demand.graph + demand.fields + demand.output_room;
   // One copy at a time, and on the first rank beside the others' own.
   all.copies = (n_ranks > 1 ? 2 : 1) * std::max(demand.output_room, demand.checkpoint_file) - demand.output_room;
   all.disk = n_outputs * demand.output_file + n_checkpoints_forecast * demand.checkpoint_file + of_reports;

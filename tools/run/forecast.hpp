@@ -43,8 +43,8 @@ struct ForecastMiss {
   std::string what = "memory";
 };
 
-/// Memory and disk space are forecast as what a run takes at most: less of them is no miss. Wall time is left out, as
-/// it depends on what else the machine does. A restart or a run that stops early takes less disk space.
+/// Less memory or disk space than forecast is no miss. Wall time is left out, as it depends on what else the machine
+/// does. A restart or a run that stops early takes less disk space.
 ForecastMiss miss_of(const Forecast& forecast, const UsedByRun& taken);
 
 /// All but the pace.

@@ -42,6 +42,8 @@ class MachineHistory
   long n_steps_ = 0;
   /// On the first rank only.
   std::optional<runtime::CsvWriter> csv_;
+  /// Of a table that goes on; 0 for one that was begun here.
+  std::size_t n_columns_ = 0;
 };
 
 }  // namespace tamp::tools

@@ -115,10 +115,12 @@ struct Outputs {
 class Runner
 {
  public:
-  Runner(const CheckedScene& checked, const RunOptions& options, const Forecast& forecast)
+  Runner(const CheckedScene& checked, const RunOptions& options, const Forecast& forecast,
+         std::size_t resident_at_start)
       : checked_(checked),
         options_(options),
         forecast_(forecast),
+        resident_at_start_(resident_at_start),
         machine_history_(options.communicator),
         folder_(own_folder()),
         executor_(executor_of(options)),
@@ -387,7 +389,9 @@ class Runner
   ForecastMiss miss_of_forecast() const
   {
     const runtime::MemoryLedger& ledger = simulation_->engine().warehouse().ledger();
-    UsedByRun taken{static_cast<double>(options_.communicator.sum(ledger.total().peak()))};
+    // How many steps are traced is no matter of the scene.
+    const std::size_t own = ledger.total().peak() - std::min(ledger.trace.peak(), ledger.total().peak());
+    UsedByRun taken{static_cast<double>(options_.communicator.sum(own))};
     if (simulation_->time() >= checked_.scene.time.end) taken.n_steps = simulation_->n_steps();
     ForecastMiss missed;
     on_first_rank([&] {
@@ -436,11 +440,11 @@ class Runner
     parts_.end = seconds_since(last_output);
     nlohmann::json json = to_json(profile, simulation_->engine().warehouse().ledger(), options_.communicator);
     json["machine"] = machine();
-    const nlohmann::ordered_json summary = run_summary(
-        *simulation_, history_,
-        {status, reason, seconds_since(start_), median({step_seconds_.begin(), step_seconds_.end()}), parts_,
-         restarted_at_, output_.in_background(), output_time, forecast_, missed_, checked_.inputs, checked_.left_out,
-         warnings_});
+    const nlohmann::ordered_json summary =
+        run_summary(*simulation_, history_,
+                    {status, reason, seconds_since(start_), median({step_seconds_.begin(), step_seconds_.end()}),
+                     parts_, resident_at_start_, restarted_at_, output_.in_background(), output_time, forecast_,
+                     missed_, checked_.inputs, checked_.left_out, warnings_});
     on_first_rank([&] {
       runtime::write_whole_file(options_.folder / "summary.json", json_text(summary, 2) + "\n");
       runtime::write_whole_file(options_.folder / "profile.json", json.dump(1) + "\n");
@@ -465,6 +469,7 @@ class Runner
   const CheckedScene& checked_;
   const RunOptions& options_;
   const Forecast& forecast_;
+  std::size_t resident_at_start_;
   Clock::time_point start_ = Clock::now();
   MachineHistory machine_history_;
   std::unique_ptr<RunFolder> folder_;
@@ -494,6 +499,7 @@ class Runner
 void run(const CheckedScene& scene, const RunOptions& options)
 {
   const int ranks_here = usable_cores(options.communicator).ranks_on_machine;
+  const auto resident_at_start = static_cast<std::size_t>(resident_bytes());
   Forecast expected;
   runtime::on_first_rank(options.communicator, [&] {
     expected = forecast(scene.scene, options.communicator.size());
@@ -511,7 +517,7 @@ void run(const CheckedScene& scene, const RunOptions& options)
     flush_out();
   });
   expected.in_background = options.communicator.from_first(int{expected.in_background}) != 0;
-  Runner(scene, options, expected).run();
+  Runner(scene, options, expected, resident_at_start).run();
 }
 
 }  // namespace tamp::tools

@@ -27,8 +27,8 @@ struct OutputTime {
 /// Writes the fields and checkpoints of a run, in the order of the calls.
 ///
 /// In the background they are copied, and the copies brought to the first rank, where a thread of its own writes them
-/// while the run goes on. There is at most one copy of the fields and one of the state: a run that wants to make the
-/// next before the last has been written waits. Otherwise all ranks write together and the run waits.
+/// while the run goes on. There is at most one copy at a time, of fields or state: a run that wants to make the next
+/// before the last has been written waits. Otherwise all ranks write together and the run waits.
 ///
 /// All calls but `has_failed` are collective, and what fails on one rank throws on all: FileError for files. What fails
 /// in the background throws in the next call.

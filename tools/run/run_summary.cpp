@@ -176,6 +176,7 @@ Json run_summary(tasks::Simulation& simulation, const RunHistory& history, const
   const tasks::LostParticles lost = simulation.lost();
   const Json counts = particles(simulation, lost);
   const OverRanks rss = over_ranks(simulation, peak_rss_bytes());
+  const std::size_t growth = simulation.communicator().sum(peak_rss_bytes() - outcome.resident_at_start);
   const OverRanks ledger =
       over_ranks(simulation, static_cast<std::size_t>(simulation.engine().warehouse().ledger().total().peak()));
   const EnergyBalance& e = history.energies();
@@ -207,7 +208,7 @@ Json run_summary(tasks::Simulation& simulation, const RunHistory& history, const
           {"memory",
            {{"forecast_bytes", outcome.forecast.memory - outcome.forecast.at_start},
             {"ledger_bytes", ledger.sum},
-            {"process_bytes", static_cast<double>(rss.sum) - outcome.forecast.at_start}}},
+            {"process_bytes", growth}}},
           {"energy_error", history.energy_error()},
           {"momentum_error", history.momentum_error()},
           {"energies_J",

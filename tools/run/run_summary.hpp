@@ -13,7 +13,6 @@
 namespace tamp::tools
 {
 
-/// How a run went, besides what its simulation and history know.
 /// Where the wall time of a run went [s]: before the first step, in steps, in output that they waited for, and what
 /// follows the last output.
 struct WallParts {
@@ -23,6 +22,7 @@ struct WallParts {
   double end = 0;
 };
 
+/// How a run went, besides what its simulation and history know.
 struct RunOutcome {
   /// completed, completed with warnings, unstable or interrupted, and why.
   std::string status;
@@ -31,6 +31,8 @@ struct RunOutcome {
   double wall = 0;
   double wall_per_step = 0;
   WallParts parts;
+  /// Resident memory of this rank's process before the particles were laid out [bytes].
+  std::size_t resident_at_start = 0;
   /// Where a restarted run went on; -1 for one from the start.
   long restarted_at = -1;
   /// Whether fields and checkpoints were written in the background, and what output took of the time.

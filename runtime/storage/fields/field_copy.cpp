@@ -61,7 +61,8 @@ std::size_t sum(const Counts& counts)
 std::size_t n_items_of(const NodeBlock& nodes)
 {
   const auto& [nx, ny, nz] = nodes.n_nodes;
-  return nodes.boxes ? sum(sizes_of(*nodes.boxes)) : static_cast<std::size_t>(nx * ny * nz);
+  return nodes.boxes ? sum(sizes_of(*nodes.boxes))
+                     : static_cast<std::size_t>(nx) * static_cast<std::size_t>(ny) * static_cast<std::size_t>(nz);
 }
 
 }  // namespace

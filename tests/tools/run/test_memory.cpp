@@ -1,6 +1,7 @@
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
 
+#include "tests/scenes/count_allocations.hpp"
 #include "tests/tools/program.hpp"
 
 namespace test_memory
@@ -21,12 +22,13 @@ TEST_CASE("what is forecast of memory, what the ledger knows of and what a proce
   const nlohmann::json memory = nlohmann::json::parse(read_text(run + "/summary.json"))["memory"];
   const auto ledger = memory["ledger_bytes"].get<double>();
   CHECK(ledger > 2e8);
-  CHECK(memory["forecast_bytes"].get<double>() == Approx(ledger).epsilon(0.05));
-  CHECK(memory["process_bytes"].get<double>() == Approx(ledger).epsilon(0.05));
   const Outcome shown = tamp_with("profile " + run + " --memory");
   CHECK(shown.exit_code == 0);
   CHECK_THAT(shown.out, Catch::Contains("deformation gradient") && Catch::Contains("copies for output") &&
                             Catch::Contains("particles to grid"));
+  if (!counts_allocations) return;
+  CHECK(memory["forecast_bytes"].get<double>() == Approx(ledger).epsilon(0.05));
+  CHECK(memory["process_bytes"].get<double>() == Approx(ledger).epsilon(0.05));
 }
 
 }  // namespace test_memory
