@@ -29,7 +29,8 @@ COMMANDS = {
     "projectile": "methods.projectile", "separation": "methods.separation", "stable-step": "methods.stable_step",
     "stress-tolerance": "methods.stress_tolerance",
     "digests": "checks.digests", "failures": "checks.failures", "forecasts": "checks.forecasts",
-    "kill-and-restart": "checks.kill_and_restart", "mutations": "checks.mutations", "same-bits": "checks.same_bits",
+    "kill-and-restart": "checks.kill_and_restart", "many-patches": "checks.many_patches",
+    "mutations": "checks.mutations", "same-bits": "checks.same_bits",
     "scaling": "checks.scaling", "schema": "checks.schema",
 }
 
