@@ -185,7 +185,9 @@ void Warehouse::advance()
   }
   constexpr long seldom = 64;
   if (++n_advances_ % seldom != 0) return;
-  for (Field* f : on_demand_) f->release_if_idle();
+  for (Field* f : on_demand_) {
+    if (f->current_buffer.capacity() + f->part_buffer.capacity() > 0) f->release_if_idle();
+  }
 }
 
 Field& Warehouse::field(const Label& label, int patch, int group)

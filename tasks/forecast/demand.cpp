@@ -63,7 +63,8 @@ double state_bytes(std::span<const runtime::TaskGraph* const> graphs, const std:
 }
 
 /// Memory of tasks, over that of the compiled graph alone: what each rank has of all tasks, with their labels and their
-/// schedule, and what it has only of its own, such as their data.
+/// schedule, and what it has only of its own, such as their data. The sum is measured on one rank with 400 to 10,000
+/// patches, the parts are an estimate.
 constexpr double of_all_tasks = 3.5;
 constexpr double of_own_tasks = 5;
 

@@ -437,9 +437,9 @@ class Runner
     const Clock::time_point last_output = Clock::now();
     history_.measure();
     const runtime::Profile profile = simulation_->engine().profile();
-    parts_.end = seconds_since(last_output);
     nlohmann::json json = to_json(profile, simulation_->engine().warehouse().ledger(), options_.communicator);
     json["machine"] = machine();
+    parts_.end = seconds_since(last_output);
     const nlohmann::ordered_json summary =
         run_summary(*simulation_, history_,
                     {status, reason, seconds_since(start_), median({step_seconds_.begin(), step_seconds_.end()}),
