@@ -10,11 +10,11 @@
 namespace tamp::components
 {
 
-/// Volume of what `inside` says yes to within a box, from the share of a fixed sequence of 2^20 points: the additive
-/// recurrence of the D-dimensional golden ratio. The error stated is twice the standard error between 16 parts of the
-/// sequence, and no less than one point's share.
-template <int D, class Inside>
-Volume sampled_volume(const Box<D>& box, Inside&& inside)
+/// The integral of `value` over a box, from its mean at a fixed sequence of 2^20 points: the additive recurrence of the
+/// D-dimensional golden ratio. The error stated is twice the standard error between 16 parts of the sequence, and no
+/// less than the share of one point at which the value is 1.
+template <int D, class Value>
+Volume sampled_integral(const Box<D>& box, Value&& value)
 {
   constexpr int n_parts = 16, n_points = 1 << 16;
   // The real root of t^(D+1) = t + 1.
@@ -26,13 +26,13 @@ Volume sampled_volume(const Box<D>& box, Inside&& inside)
   Vector<D> place = Vector<D>::Constant(0.5);
   double sum = 0, sum_of_squares = 0;
   for (int part = 0; part < n_parts; ++part) {
-    int n_inside = 0;
+    double total = 0;
     for (int point = 0; point < n_points; ++point) {
       place += stride;
       place.array() -= place.array().floor();
-      n_inside += inside(Vector<D>(box.lower + place.cwiseProduct(edges))) ? 1 : 0;
+      total += value(Vector<D>(box.lower + place.cwiseProduct(edges)));
     }
-    const double share = static_cast<double>(n_inside) / n_points;
+    const double share = total / n_points;
     sum += share;
     sum_of_squares += share * share;
   }
@@ -40,6 +40,13 @@ Volume sampled_volume(const Box<D>& box, Inside&& inside)
   const double variance = std::max(0.0, sum_of_squares / n_parts - mean * mean) / (n_parts - 1);
   const double least = 1.0 / (static_cast<double>(n_parts) * n_points);
   return {mean * edges.prod(), std::max(2 * std::sqrt(variance), least) * edges.prod()};
+}
+
+/// Volume of what `inside` says yes to within a box.
+template <int D, class Inside>
+Volume sampled_volume(const Box<D>& box, Inside&& inside)
+{
+  return sampled_integral<D>(box, [&inside](const Vector<D>& x) { return inside(x) ? 1.0 : 0.0; });
 }
 
 }  // namespace tamp::components

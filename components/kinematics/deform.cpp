@@ -53,6 +53,20 @@ std::optional<std::size_t> deform(DeformationUpdate update, const DeformedPartic
   return with_update(update, [&]<class Update>(const Update&) { return deform_by<D, Update>(particles); });
 }
 
+std::optional<std::size_t> stretch_hoops(DeformationUpdate update, const StretchedHoops& hoops)
+{
+  return with_update(update, [&]<class Update>(const Update&) -> std::optional<std::size_t> {
+    for (std::size_t p = 0; p < hoops.g.size(); ++p) {
+      const double ratio = Update::stretch(hoops.g[p]);
+      if (!(ratio > 0)) return p;
+      hoops.stretch[p] = ratio * hoops.old_stretch[p];
+      hoops.volume[p] *= ratio;
+      hoops.strain_increment[p][2] = Update::stretch_strain(hoops.g[p]);
+    }
+    return {};
+  });
+}
+
 template std::optional<std::size_t> deform(DeformationUpdate, const DeformedParticles<2>&);
 template std::optional<std::size_t> deform(DeformationUpdate, const DeformedParticles<3>&);
 

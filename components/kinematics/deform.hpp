@@ -31,4 +31,19 @@ struct DeformedParticles {
 template <int D>
 std::optional<std::size_t> deform(DeformationUpdate update, const DeformedParticles<D>& particles);
 
+/// The hoops of particles that are rings, which a step stretches; all spans have one length.
+struct StretchedHoops {
+  /// dt v_r / r at the middle of the step.
+  std::span<const double> g;
+  std::span<const double> old_stretch;
+  std::span<double> stretch;
+  /// As `deform` leaves them: the hoops add their part.
+  std::span<double> volume;
+  std::span<SymmetricTensor<2>> strain_increment;
+};
+
+/// Stretches the hoops of particles that `deform` has deformed in the plane; gives the first that cannot follow. The
+/// axis of a hoop is the principal one across the plane, so that the strain zz is a number of its own.
+std::optional<std::size_t> stretch_hoops(DeformationUpdate update, const StretchedHoops& hoops);
+
 }  // namespace tamp::components

@@ -68,6 +68,18 @@ struct ExactUpdate {
     return strain_between<D, Number>(f, old_rotation, rotation);
   }
 
+  /// The ratio by which a line is stretched that does not turn, as the hoop of a ring, and its strain.
+  template <class Number>
+  static Number stretch(const Number& g)
+  {
+    return 1.0 + g;
+  }
+  template <class Number>
+  static Number stretch_strain(const Number& g)
+  {
+    return g / (1.0 + 0.5 * g);
+  }
+
   /// det f - 1.
   template <int D, class Number>
   static Number volume_change(const Matrix<D, Number>& g)

@@ -58,6 +58,17 @@ struct ExponentialUpdate {
     return strain;
   }
 
+  template <class Number>
+  static Number stretch(const Number& g)
+  {
+    return portable::exp(g);
+  }
+  template <class Number>
+  static Number stretch_strain(const Number& g)
+  {
+    return g;
+  }
+
   template <int D, class Number>
   static Number volume_change(const Matrix<D, Number>& g)
   {

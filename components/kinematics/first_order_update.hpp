@@ -20,6 +20,11 @@ struct FirstOrderUpdate : ExactUpdate {
   {
     return symmetric_part<D>(g);
   }
+  template <class Number>
+  static Number stretch_strain(const Number& g)
+  {
+    return g;
+  }
 };
 
 }  // namespace tamp::components

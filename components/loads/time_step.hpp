@@ -72,6 +72,12 @@ inline double greatest_own_stiffness(int dimension, int n_per_axis, double along
   return portable::pow(std::max(1.0, 0.5 * n_per_axis), dimension - 1) * dimension * along_axis;
 }
 
+/// What the hoop of a particle alone adds to that at worst, half its size from the axis: (h / r)^2.
+inline double greatest_hoop_stiffness(int n_per_axis)
+{
+  return std::max(1.0, 0.5 * n_per_axis) * 4 * n_per_axis * n_per_axis;
+}
+
 /// Bound for matter that has separated and so has no waves, as a part of those above: it moves at most a tenth of a
 /// cell in a step, so that a collision compacts it by no more than that at once.
 constexpr double part_of_step_apart = 0.1;

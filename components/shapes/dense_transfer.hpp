@@ -41,13 +41,16 @@ Matrix<D> second_moments_of(const GridBlock<D>& block, const DenseStencil<D, Sup
   return sum;
 }
 
-template <bool with_surface = true, bool carries = false, Dense Interpolator, int D = Interpolator::dimension>
+template <bool with_surface = true, bool carries = false, Plane plane = Plane::slab, Dense Interpolator,
+          int D = Interpolator::dimension>
 void particles_to_grid(const Interpolator& interpolator, const GridBlock<D>& block, const ParticleSources<D>& from,
                        NodeSums<D>* sums)
 {
   for_each_stencil(interpolator, block, from.places, [&](std::size_t p, const auto& stencil) {
     const double surface = with_surface ? from.volume[p] : 0;
     const ParticleShare<D> share = share_of(from, p, surface);
+    Quad hoop = 0;
+    if constexpr (plane == Plane::revolved) hoop = hoop_share(from, p, surface);
     Vector<D> place;
     std::array<Quad, D> columns;
     if constexpr (carries) {
@@ -62,6 +65,7 @@ void particles_to_grid(const Interpolator& interpolator, const GridBlock<D>& blo
         for (int k = 0; k < D; ++k) first += arm[k] * columns[static_cast<std::size_t>(k)];
       }
       for (int k = 0; k < D; ++k) second += gradient[k] * share.with_derivative[static_cast<std::size_t>(k)];
+      if constexpr (plane == Plane::revolved) second += weight * hoop;
       sums[node].add(0, weight * first);
       sums[node].add(4, second);
       // See ParticleShare.
@@ -70,7 +74,7 @@ void particles_to_grid(const Interpolator& interpolator, const GridBlock<D>& blo
   });
 }
 
-template <Dense Interpolator, int D = Interpolator::dimension>
+template <Dense Interpolator, int D = Interpolator::dimension, Plane plane = Plane::slab>
 void grid_to_particles(const Interpolator& interpolator, int n_per_axis, const GridBlock<D>& block,
                        const ParticlePlaces<D>& places, const NodeMotion<D>* nodes, const ParticleTargets<D>& to)
 {
@@ -94,9 +98,12 @@ void grid_to_particles(const Interpolator& interpolator, int n_per_axis, const G
       to.velocity_moments[p] = moments;
     }
     if (own.stiffness.empty()) return;
+    const double per_radius = plane == Plane::revolved ? 1 / places.position[p][0] : 0;
     double per_mass = 0;
-    for_each_node(block, stencil, [&](std::ptrdiff_t node, double, const Vector<D>& gradient) {
-      per_mass += gradient.squaredNorm() * own.inverse_mass[node];
+    for_each_node(block, stencil, [&](std::ptrdiff_t node, double weight, const Vector<D>& gradient) {
+      double square = gradient.squaredNorm();
+      if constexpr (plane == Plane::revolved) square += weight * weight * per_radius * per_radius;
+      per_mass += square * own.inverse_mass[node];
     });
     own.stiffness[p] = unit * own.mass[p] * per_mass;
   });

@@ -15,24 +15,33 @@ template <class Shape, int D = Shape::dimension>
 class InterpolationBy final : public Interpolation<D>
 {
  public:
-  InterpolationBy(const Shape& shape, int n_per_axis) : shape_(shape), n_per_axis_(n_per_axis) {}
+  InterpolationBy(const Shape& shape, int n_per_axis, Plane plane)
+      : shape_(shape), n_per_axis_(n_per_axis), plane_(plane)
+  {
+  }
 
   double greatest_own_stiffness() const override
   {
-    return components::greatest_own_stiffness(D, n_per_axis_, shape_.greatest_stiffness_along_axis());
+    const double of_gradients =
+        components::greatest_own_stiffness(D, n_per_axis_, shape_.greatest_stiffness_along_axis());
+    return plane_ == Plane::slab ? of_gradients : of_gradients + components::greatest_hoop_stiffness(n_per_axis_);
   }
 
   void particles_to_grid(const GridBlock<D>& block, const ParticleSources<D>& from, bool with_surface,
                          NodeSums<D>* sums) const override
   {
-    if (from.carried_gradient == CarriedGradient::none) return bring<false>(block, from, with_surface, sums);
-    bring<true>(block, from, with_surface, sums);
+    with_plane([&]<Plane plane>() {
+      if (from.carried_gradient == CarriedGradient::none) return bring<false, plane>(block, from, with_surface, sums);
+      bring<true, plane>(block, from, with_surface, sums);
+    });
   }
 
   void grid_to_particles(const GridBlock<D>& block, const ParticlePlaces<D>& places, const NodeMotion<D>* nodes,
                          const ParticleTargets<D>& to) const override
   {
-    components::grid_to_particles(shape_, n_per_axis_, block, places, nodes, to);
+    with_plane([&]<Plane plane>() {
+      components::grid_to_particles<Shape, D, plane>(shape_, n_per_axis_, block, places, nodes, to);
+    });
   }
 
   void interpolate(const GridBlock<D>& block, const ParticlePlaces<D>& places, const NodeVector<D>* nodes,
@@ -72,25 +81,36 @@ class InterpolationBy final : public Interpolation<D>
   }
 
  private:
-  template <bool carries>
+  /// Calls `run.operator()<plane>()`; space is no plane.
+  template <class Run>
+  void with_plane(const Run& run) const
+  {
+    if constexpr (D == 2) {
+      if (plane_ == Plane::revolved) return run.template operator()<Plane::revolved>();
+    }
+    run.template operator()<Plane::slab>();
+  }
+
+  template <bool carries, Plane plane>
   void bring(const GridBlock<D>& block, const ParticleSources<D>& from, bool with_surface, NodeSums<D>* sums) const
   {
-    if (with_surface) return components::particles_to_grid<true, carries>(shape_, block, from, sums);
-    components::particles_to_grid<false, carries>(shape_, block, from, sums);
+    if (with_surface) return components::particles_to_grid<true, carries, plane>(shape_, block, from, sums);
+    components::particles_to_grid<false, carries, plane>(shape_, block, from, sums);
   }
 
   Shape shape_;
   int n_per_axis_;
+  Plane plane_;
 };
 
 }  // namespace
 
 template <int D>
-std::unique_ptr<const Interpolation<D>> Interpolation<D>::make(Interpolator interpolator, int n_per_axis)
+std::unique_ptr<const Interpolation<D>> Interpolation<D>::make(Interpolator interpolator, int n_per_axis, Plane plane)
 {
   return with_shape<D>(interpolator, n_per_axis,
                        [&]<class Shape>(const Shape& shape) -> std::unique_ptr<const Interpolation> {
-                         return std::make_unique<InterpolationBy<Shape>>(shape, n_per_axis);
+                         return std::make_unique<InterpolationBy<Shape>>(shape, n_per_axis, plane);
                        });
 }
 

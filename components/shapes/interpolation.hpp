@@ -20,8 +20,9 @@ template <int D>
 class Interpolation
 {
  public:
-  /// For `n_per_axis` particles along each axis of a cell.
-  static std::unique_ptr<const Interpolation> make(Interpolator interpolator, int n_per_axis);
+  /// For `n_per_axis` particles along each axis of a cell; in space `plane` says nothing.
+  static std::unique_ptr<const Interpolation> make(Interpolator interpolator, int n_per_axis,
+                                                   Plane plane = Plane::slab);
   virtual ~Interpolation() = default;
 
   /// The greatest own stiffness of a particle, one that has its nodes to itself.

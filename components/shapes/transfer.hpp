@@ -10,6 +10,7 @@
 #include "components/shapes/gimp.hpp"
 #include "components/shapes/grid_block.hpp"
 #include "components/shapes/node_sums.hpp"
+#include "components/shapes/plane.hpp"
 #include "components/shapes/stencil.hpp"
 #include "components/tensors.hpp"
 
@@ -44,6 +45,15 @@ struct ParticleShare {
   Quad with_weight;
   std::array<Quad, D> with_derivative;
 };
+
+/// What the hoop of a particle adds to the second of those times its weight: the force of its hoop stress on r, and
+/// V / r to the surface gradient, which so vanishes within a body as it does in a slab.
+inline Quad hoop_share(const ParticleSources<2>& from, std::size_t p, double surface)
+{
+  const double per_radius = 1 / from.places.position[p][0];
+  const double stress = from.stress[p][2] - from.viscous_pressure[p];
+  return quad(-from.volume[p] * stress * per_radius, 0, surface * per_radius, 0);
+}
 
 template <int D>
 [[gnu::always_inline]] inline ParticleShare<D> share_of(const ParticleSources<D>& from, std::size_t p, double surface)
@@ -102,13 +112,16 @@ std::array<Quad, D> beside_mass(const Matrix<D>& gradient)
 /// rigid motion then comes to the grid as it is, where without it nodes at a surface get the velocity of the matter
 /// that they reach, which lies to one side of them. What the gradients bring sums to zero over the nodes: momentum
 /// stays what it is.
-template <bool with_surface = true, bool carries = false, class Interpolator, int D = Interpolator::dimension>
+template <bool with_surface = true, bool carries = false, Plane plane = Plane::slab, class Interpolator,
+          int D = Interpolator::dimension>
 void particles_to_grid(const Interpolator& interpolator, const GridBlock<D>& block, const ParticleSources<D>& from,
                        NodeSums<D>* sums)
 {
   for_each_stencil(interpolator, block, from.places, [&](std::size_t p, const auto& stencil) {
     const double surface = with_surface ? from.volume[p] : 0;
     const ParticleShare<D> share = share_of(from, p, surface);
+    Quad hoop = 0;
+    if constexpr (plane == Plane::revolved) hoop = hoop_share(from, p, surface);
     Arms<D, Interpolator::support> arms;
     std::array<Quad, D> columns;
     if constexpr (carries) {
@@ -126,6 +139,7 @@ void particles_to_grid(const Interpolator& interpolator, const GridBlock<D>& blo
       }
       const Quad first = row.across * with_weight, by_slope = row.across * share.with_derivative[0];
       Quad second = row.slope_across[0] * share.with_derivative[1], third = 0;
+      if constexpr (plane == Plane::revolved) second += row.across * hoop;
       if constexpr (D == 3) {
         second += row.slope_across[1] * share.with_derivative[2];
         third = surface * quad(row.slope_across[0], row.slope_across[1], 0, 0);
@@ -191,7 +205,8 @@ struct ParticleMotion {
 /// How stiff particles make their nodes by themselves, and so how fast they can shake: h^2 m_p sum |grad S_ip|^2 / m_i,
 /// a pure number, in units of their moduli over density and h^2. Particles smaller than half a cell count with as many
 /// of their like as lie side by side across half a cell, as one layer of them moves as one. Inside of a body it is
-/// below 1, at an edge about 5, and up to 9 an axis where a particle has its nodes to itself.
+/// below 1, at an edge about 5, and up to 9 an axis where a particle has its nodes to itself. A ring has (S_ip / r_p)^2
+/// beside |grad S_ip|^2.
 struct OwnStiffness {
   std::span<const double> mass;
   /// Of nodes [1/kg], 0 at those that do not count.
@@ -269,16 +284,22 @@ template <bool with_moments, int D, int Support>
   if constexpr (with_moments) to.velocity_moments[p] = matrix_of<D>(moments);
 }
 
-/// The own stiffness of `size` particles of targets from `first` on.
-template <int D, int Support>
+/// The own stiffness of `size` particles of targets from `first` on, which are at `places`.
+template <Plane plane, int D, int Support>
 void find_stiffness(double unit, const GridBlock<D>& block, const StencilBatch<D, Support>& stencils, std::size_t size,
-                    const OwnStiffness& own, std::size_t first)
+                    const OwnStiffness& own, std::size_t first, const ParticlePlaces<D>& places)
 {
   for (std::size_t p = 0; p < size; p += n_lanes) {
-    Lanes sum = 0.0;
+    Lanes sum = 0.0, per_radius = 0.0;
     const auto stencil = stencils.lanes(p);
+    if constexpr (plane == Plane::revolved) {
+      const std::size_t last = size - 1;
+      per_radius = 1.0 / each_lane([&](std::size_t l) { return places.position[first + std::min(p + l, last)][0]; });
+    }
     for_each_row<D>(block, stencil, [&](const StencilRow<D, Lanes>& row) {
-      const Lanes across = row.across * row.across, slope_across = row.slope_across.squaredNorm();
+      const Lanes across = row.across * row.across;
+      Lanes slope_across = row.slope_across.squaredNorm();
+      if constexpr (plane == Plane::revolved) slope_across += across * per_radius * per_radius;
       for (std::size_t i = 0; i < Support; ++i) {
         const Lanes weight = stencil.weight[0][i], slope = stencil.slope[0][i];
         const std::ptrdiff_t node = row.first + static_cast<std::ptrdiff_t>(i);
@@ -293,7 +314,7 @@ void find_stiffness(double unit, const GridBlock<D>& block, const StencilBatch<D
 }
 
 /// Interpolates the motion of the nodes to particles (PAR-10021867-092020-6, eqs 43, 55), `n_per_axis` across a cell.
-template <class Interpolator, int D = Interpolator::dimension>
+template <class Interpolator, int D = Interpolator::dimension, Plane plane = Plane::slab>
 void grid_to_particles(const Interpolator& interpolator, int n_per_axis, const GridBlock<D>& block,
                        const ParticlePlaces<D>& places, const NodeMotion<D>* nodes, const ParticleTargets<D>& to)
 {
@@ -308,7 +329,7 @@ void grid_to_particles(const Interpolator& interpolator, int n_per_axis, const G
         take_motion<false>(block, stencil, nodes, to, first + p);
       }
     }
-    if (has_stiffness) find_stiffness(unit, block, stencils, size, to.own_stiffness, first);
+    if (has_stiffness) find_stiffness<plane>(unit, block, stencils, size, to.own_stiffness, first, places);
   });
 }
 
