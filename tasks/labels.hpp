@@ -15,7 +15,7 @@
 #include "tasks/step_totals.hpp"
 
 /// Every field of the method, by where it lives. SI units, tension positive unless the name says otherwise; in plane
-/// strain masses, volumes and energies are those of a slab 1 m thick.
+/// strain masses, volumes and energies are those of a slab 1 m thick, in axisymmetric scenes those of whole rings.
 namespace tamp::tasks
 {
 
@@ -46,6 +46,8 @@ template <int D>
 inline const runtime::ParticleLabel<Matrix<D>, "velocity moment"> velocity_moment;
 template <int D>
 inline const runtime::ParticleLabel<Matrix<D>, "deformation gradient"> deformation_gradient;
+/// How much longer than at the start the ring of the particle is. Only in axisymmetric scenes.
+inline const runtime::ParticleLabel<double, "hoop stretch"> hoop_stretch;
 inline const runtime::ParticleLabel<double, "volume"> volume;
 /// Cauchy stress [Pa].
 template <int D>

@@ -21,7 +21,7 @@ double least_particle_mass(const Scene& scene)
   for (int m = 0; m < static_cast<int>(scene.materials.size()); ++m) {
     const double size = scene.grid.cell_size / scene.particles_per_axis_of(m);
     const double density = scene.materials[static_cast<std::size_t>(m)].density;
-    least = std::min(least, density * portable::pow(size, scene.grid.dimension));
+    least = std::min(least, density * portable::pow(size, scene.axisymmetric ? 3 : scene.grid.dimension));
   }
   return least;
 }
@@ -39,6 +39,7 @@ Method<D>::Method(const Scene& given)
       deformation_update(scene.deformation_update),
       anti_locking(scene.anti_locking),
       stress_timing(scene.stress_timing),
+      axisymmetric(scene.axisymmetric),
       cell_size(scene.grid.cell_size),
       least_node_mass(least_weight * least_particle_mass(scene)),
       gravity(vector_of<D>(scene.gravity)),
@@ -50,7 +51,8 @@ Method<D>::Method(const Scene& given)
       materials(scene.materials)
 {
   for (int m = 0; m < static_cast<int>(scene.materials.size()); ++m) {
-    interpolations.push_back(components::Interpolation<D>::make(scene.interpolator, scene.particles_per_axis_of(m)));
+    interpolations.push_back(
+        components::Interpolation<D>::make(scene.interpolator, scene.particles_per_axis_of(m), scene.plane()));
     const auto is_pressed = [m](const SceneBody& body) { return body.is_pressed() && body.material == m; };
     if (std::any_of(scene.bodies.begin(), scene.bodies.end(), is_pressed)) pressed_materials.push_back(m);
     const auto is_rigid = [m](const SceneBody& body) { return body.rigid && body.material == m; };

@@ -111,6 +111,7 @@ struct Method {
   DeformationUpdate deformation_update;
   AntiLocking anti_locking;
   StressTiming stress_timing;
+  bool axisymmetric;
   double cell_size;
   /// Nodes with less mass [kg] are not accelerated: they are touched by an edge of a particle to within round-off, and
   /// as force goes with the slope of the weight but mass with its square, they would turn round-off into finite strain.

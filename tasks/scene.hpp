@@ -22,11 +22,14 @@
 #include "components/problems/body_functions.hpp"
 #include "components/rigid/prescribed_motion.hpp"
 #include "components/shapes/interpolator.hpp"
+#include "components/shapes/plane.hpp"
 #include "components/transfers/transfers.hpp"
 #include "runtime/grid/patch_layout.hpp"
 
-/// A scene that has been checked: what a run is made from. SI units. Two-dimensional scenes (plane strain) use the
-/// first two entries of every triple and are one metre thick; their third axis has one layer of cells.
+/// A scene that has been checked: what a run is made from. SI units. Two-dimensional scenes use the first two entries
+/// of every triple; their third axis has one layer of cells. They are one metre thick (plane strain), or stand for what
+/// turning them about the line x = 0 makes of them (axisymmetric): x is then the distance r from that line, y runs
+/// along it, and masses, forces and energies are those of the whole.
 namespace tamp::tasks
 {
 
@@ -308,6 +311,7 @@ struct Scene {
   /// Where it is periodic, what leaves at one face enters at the other.
   runtime::Grid grid;
   runtime::Index n_patches;
+  bool axisymmetric = false;
   /// faces[axis][0] is the lower one, faces[axis][1] the upper one; along a periodic axis there are none.
   std::array<std::array<Face, 2>, 3> faces{};
   /// Coefficients of the faces with friction.
@@ -335,6 +339,7 @@ struct Scene {
   SceneOutput output;
   SceneLimits limits;
 
+  components::Plane plane() const { return axisymmetric ? components::Plane::revolved : components::Plane::slab; }
   bool is_periodic() const
   {
     return std::find(grid.periodic.begin(), grid.periodic.end(), true) != grid.periodic.end();

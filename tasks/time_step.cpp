@@ -107,6 +107,7 @@ runtime::HostData host_data(const Method<D>& method)
   if (!method.deformable_materials.empty()) data.results.push_back(&unseen_motion);
   for (const SceneMaterial& material : method.materials) add_state_of(material.model, data);
   if (method.scene.is_periodic()) data.state.push_back(&particle::laps);
+  if (method.axisymmetric) data.state.push_back(&particle::hoop_stretch);
   if (method.brings_gradients()) data.state.push_back(&particle::velocity_gradient<D>);
   if (method.brings_moments()) data.state.push_back(&particle::velocity_moment<D>);
   return data;

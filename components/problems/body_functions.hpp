@@ -41,6 +41,7 @@ struct ProblemBody {
   /// Density of the undeformed material [kg/m^3].
   double density;
   const MaterialModel& material;
+  bool axisymmetric = false;
 };
 
 }  // namespace tamp::components

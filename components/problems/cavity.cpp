@@ -29,6 +29,7 @@ struct StressAroundHole {
 /// The solution and its derivatives.
 struct CavityMotion {
   Cavity cavity;
+  Shells shells;
   double density;
   std::shared_ptr<const StressAroundHole> stress;
   /// n, and A.
@@ -56,32 +57,35 @@ struct CavityMotion {
 
   Vector<3> displacement(const Vector<3>& X, double t) const
   {
-    const PolarPlace at = polar_place(X, cavity.centre);
+    const PolarPlace at = polar_place(X, cavity.centre, shells);
     return (radius(at.radius, t) - at.radius) * at.outwards;
   }
   Vector<3> body_force(const Vector<3>& X, double t) const
   {
-    const PolarPlace at = polar_place(X, cavity.centre);
+    const PolarPlace at = polar_place(X, cavity.centre, shells);
     const double R = at.radius, hoop = radius(R, t) / R, along = power(hoop, -cavity.shortening);
     const CubicValue radial = stress->radial.at(portable::log(hoop));
-    // dP_R/dR = (ds_R/de + s_R) dl/dR.
-    const double divergence = ((radial.slope + radial.value) * (along - hoop) + radial.value * hoop -
-                               stress->hoop.at(portable::log(hoop)).value * along) /
+    // dP_R/dR = l^(k-1) (ds_R/de + k s_R) dl/dR, and its share of other hoops.
+    const int k = n_hoops(shells);
+    const double divergence = (k == 1 ? 1 : hoop) *
+                              ((radial.slope + k * radial.value) * (along - hoop) + k * radial.value * hoop -
+                               k * stress->hoop.at(portable::log(hoop)).value * along) /
                               R;
     return (acceleration(R, t) - divergence / density) * at.outwards;
   }
   /// On the rim that is nearer: a node of the surface reaches some matter, and is pressed with its mean.
   double pressure(const Vector<3>& X, double t) const
   {
-    const bool is_inner = 2 * polar_place(X, cavity.centre).radius < cavity.inner_radius + cavity.outer_radius;
+    const bool is_inner = 2 * polar_place(X, cavity.centre, shells).radius < cavity.inner_radius + cavity.outer_radius;
     const double rim = is_inner ? cavity.inner_radius : cavity.outer_radius;
     return -stress->radial.at(portable::log(radius(rim, t) / rim)).value;
   }
 };
 
-StressAroundHole stress_around_hole(const Cavity& cavity, const MaterialModel& material)
+StressAroundHole stress_around_hole(const Cavity& cavity, Shells shells, const MaterialModel& material)
 {
-  const StressPath path = straight_stress_path(material, {-cavity.shortening, 1}, portable::log(1 + cavity.expansion));
+  const Vector<3> direction(-cavity.shortening, 1, shells == Shells::spheres ? 1 : 0);
+  const StressPath path = straight_stress_path(material, direction, portable::log(1 + cavity.expansion));
   return {{path.length, path.along_x}, {path.length, path.along_y}};
 }
 
@@ -89,15 +93,15 @@ StressAroundHole stress_around_hole(const Cavity& cavity, const MaterialModel& m
 
 BodyFunctions Cavity::functions(const ProblemBody& body) const
 {
-  check_annulus(*this, body);
-  const CavityMotion motion{*this, body.density,
-                            std::make_shared<const StressAroundHole>(stress_around_hole(*this, body.material))};
+  const Shells shells = shells_of(*this, body);
+  const CavityMotion motion{*this, shells, body.density,
+                            std::make_shared<const StressAroundHole>(stress_around_hole(*this, shells, body.material))};
   BodyFunctions functions;
   functions.velocity = [](const Vector<3>&) -> Vector<3> { return Vector<3>::Zero(); };
   functions.body_force = [motion](const Vector<3>& X, double t) { return motion.body_force(X, t); };
   functions.pressure = [motion](const Vector<3>& X, double t) { return motion.pressure(X, t); };
   functions.exact_displacement = [motion](const Vector<3>& X, double t) { return motion.displacement(X, t); };
-  set_region(*this, functions);
+  set_region(*this, functions, shells);
   return functions;
 }
 

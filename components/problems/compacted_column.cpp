@@ -18,7 +18,7 @@ namespace
 /// sigma_xx [Pa] against ln F_xx from 0 to `last`, which is below 0, in uniaxial strain.
 MonotoneCubic uniaxial_stress(const MaterialModel& material, double last)
 {
-  StressPath path = straight_stress_path(material, {1, 0}, last);
+  StressPath path = straight_stress_path(material, {1, 0, 0}, last);
   std::ranges::reverse(path.length);
   std::ranges::reverse(path.along_x);
   return {path.length, path.along_x};

@@ -46,6 +46,7 @@ double greatest_strain(const Ring& ring)
 /// The solution and its derivatives.
 struct RingMotion {
   Ring ring;
+  Shells shells;
   RadialProfile profile;
   double density;
   double shear_modulus;
@@ -55,22 +56,22 @@ struct RingMotion {
 
   Vector<3> displacement(const Vector<3>& X, double t) const
   {
-    const PolarPlace at = polar_place(X, ring.centre);
+    const PolarPlace at = polar_place(X, ring.centre, shells);
     return amplitude(t) * profile.value(at.radius) * at.outwards;
   }
   Vector<3> initial_velocity(const Vector<3>& X) const
   {
-    const PolarPlace at = polar_place(X, ring.centre);
+    const PolarPlace at = polar_place(X, ring.centre, shells);
     return omega * ring.amplitude * profile.value(at.radius) * at.outwards;
   }
   Vector<3> body_force(const Vector<3>& X, double t) const
   {
-    const PolarPlace at = polar_place(X, ring.centre);
+    const PolarPlace at = polar_place(X, ring.centre, shells);
     const double R = at.radius, A = amplitude(t), G = shear_modulus;
     const double along = 1 + A * profile.slope(R), across = 1 + A * profile.value(R) / R;
     const auto nominal_stress = [&](double stretch) { return G * (stretch - 1 / stretch); };
-    const double divergence =
-        G * (1 + 1 / (along * along)) * A * profile.curvature(R) + (nominal_stress(along) - nominal_stress(across)) / R;
+    const double divergence = G * (1 + 1 / (along * along)) * A * profile.curvature(R) +
+                              n_hoops(shells) * (nominal_stress(along) - nominal_stress(across)) / R;
     return (-omega * omega * A * profile.value(R) - divergence / density) * at.outwards;
   }
 };
@@ -93,7 +94,7 @@ double modulus_without_poisson_ratio(const MaterialModel& material)
 
 BodyFunctions Ring::functions(const ProblemBody& body) const
 {
-  check_annulus(*this, body);
+  const Shells shells = shells_of(*this, body);
   const double shear_modulus = modulus_without_poisson_ratio(body.material);
   if (outer_radius == 3 * inner_radius) {
     throw BadParameter("outer_radius", fmt::format("{}", outer_radius),
@@ -105,8 +106,8 @@ BodyFunctions Ring::functions(const ProblemBody& body) const
   }
   // Without a Poisson's ratio E is 2 G.
   const double omega = std::numbers::pi / (inner_radius + outer_radius) * std::sqrt(2 * shear_modulus / body.density);
-  const RingMotion motion{*this, profile_of(*this), body.density, shear_modulus, omega};
-  return functions_of(*this, motion);
+  const RingMotion motion{*this, shells, profile_of(*this), body.density, shear_modulus, omega};
+  return functions_of(*this, motion, shells);
 }
 
 }  // namespace tamp::components

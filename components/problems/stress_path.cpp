@@ -28,22 +28,22 @@ TabularCap accurate(const TabularCap& sand)
   return TabularCap(parameters);
 }
 
-template <class Model>
-StressPath straight_path(const Model& of_scene, const Vector<2>& direction, double last)
+template <int D, class Model>
+StressPath straight_path(const Model& of_scene, const Vector<3>& direction, double last)
 {
   const Model model = accurate(of_scene);
   const double step = last / n_increments;
-  const SymmetricTensor<2> increment(step * direction[0], step * direction[1], 0, 0);
-  SymmetricTensor<2> stress = SymmetricTensor<2>::Zero();
-  Matrix<2> f = Matrix<2>::Identity();
+  SymmetricTensor<D> increment = SymmetricTensor<D>::Zero(), stress = SymmetricTensor<D>::Zero();
+  increment.template head<3>() = step * direction;
+  Matrix<D> f = Matrix<D>::Identity();
   typename Model::State state{};
   double bulk_modulus = 0, shear_modulus = 0, plastic_work = 0;
   UpdateCounts counts;
   StressPath path{{0}, {0}, {0}};
   for (int i = 1; i <= n_increments; ++i) {
-    for (int k = 0; k < 2; ++k) f(k, k) = portable::exp(i * step * direction[k]);
+    for (int k = 0; k < D; ++k) f(k, k) = portable::exp(i * step * direction[k]);
     const auto failure = update(model,
-                                MaterialBatch<2, typename Model::State>{.strain_increment = {&increment, 1},
+                                MaterialBatch<D, typename Model::State>{.strain_increment = {&increment, 1},
                                                                         .deformation_gradient = {&f, 1},
                                                                         .old_state = {&state, 1},
                                                                         .stress = {&stress, 1},
@@ -65,9 +65,14 @@ StressPath straight_path(const Model& of_scene, const Vector<2>& direction, doub
 
 }  // namespace
 
-StressPath straight_stress_path(const MaterialModel& material, const Vector<2>& direction, double last)
+StressPath straight_stress_path(const MaterialModel& material, const Vector<3>& direction, double last)
 {
-  return std::visit([&](const auto& model) { return straight_path(model, direction, last); }, material);
+  const bool in_plane = direction[2] == 0;
+  return std::visit(
+      [&](const auto& model) {
+        return in_plane ? straight_path<2>(model, direction, last) : straight_path<3>(model, direction, last);
+      },
+      material);
 }
 
 }  // namespace tamp::components

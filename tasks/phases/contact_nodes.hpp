@@ -16,7 +16,7 @@ namespace tamp::tasks
 template <int D>
 components::ContactThresholds contact_thresholds(const Method<D>& method)
 {
-  return {method.least_node_mass, 1e-9 * portable::pow(method.cell_size, D - 1)};
+  return {method.least_node_mass, 1e-9 * portable::pow(method.cell_size, method.axisymmetric ? 2 : D - 1)};
 }
 
 /// The materials at one node, side by side.

@@ -28,6 +28,27 @@ void leave_undeformed(const Data& data, std::size_t p)
   data[particle::strain_increment<D>][p].setConstant(std::numeric_limits<double>::quiet_NaN());
 }
 
+/// Stretches the hoops of a batch that has been deformed in the plane, by `g` = dt v_r / r.
+template <class Data>
+void stretch_hoops(const Method<2>& method, const Data& data, std::size_t first, std::span<const double> g)
+{
+  while (!g.empty()) {
+    const auto of_batch = [&](const auto& field) { return field.subspan(first, g.size()); };
+    const auto stopped_at = components::stretch_hoops(
+        method.deformation_update, {.g = g,
+                                    .old_stretch = of_batch(data[particle::hoop_stretch.previous()]),
+                                    .stretch = of_batch(data[particle::hoop_stretch]),
+                                    .volume = of_batch(data[particle::volume]),
+                                    .strain_increment = of_batch(data[particle::strain_increment<2>])});
+    if (!stopped_at) return;
+    const std::size_t p = first + *stopped_at;
+    leave_undeformed<2>(data, p);
+    data[particle::hoop_stretch][p] = data[particle::hoop_stretch.previous()][p];
+    first = p + 1;
+    g = g.subspan(*stopped_at + 1);
+  }
+}
+
 /// Deforms particles by the gradient of the velocity at the middle of the step, over the shape at its start (eqs
 /// 54-58), as `g` times dt; the old stress turns with them, and what the material answers is added by the next phase.
 template <int D, class Data>
@@ -96,6 +117,13 @@ void take_gradients(const Method<D>& method, const runtime::TaskContext& at, con
   } else {
     deform<D>(method, data, first, g);
   }
+  if constexpr (D == 2) {
+    if (!method.axisymmetric) return;
+    const auto position = data[particle::position<D>.previous()];
+    std::array<double, motion_batch> hoop;
+    for (std::size_t i = 0; i < g.size(); ++i) hoop[i] = at.step.size * motion[i].velocity[0] / position[first + i][0];
+    stretch_hoops(method, data, first, std::span(hoop).first(g.size()));
+  }
 }
 
 /// How stiff a batch of particles makes its nodes, for the kernel that finds it; 0 where no rule for the step asks.
@@ -127,11 +155,13 @@ auto deforming(const Method<D>& method, Task task, bool deforms)
   const bool keeps = deforms && method.deforms_as_cells(), finishes = deforms && !method.deforms_as_cells();
   return std::move(task)
       .reads(particle::id.previous().when(deforms), particle::volume.previous().when(deforms),
-             particle::stress<D>.previous().when(deforms))
+             particle::stress<D>.previous().when(deforms),
+             particle::hoop_stretch.previous().when(deforms && method.axisymmetric))
       .computes(particle::own_stiffness.when(deforms), particle::step_gradient<D>.when(keeps),
                 cell::volume_change.when(keeps), particle::deformation_gradient<D>.when(finishes),
                 particle::volume.when(finishes), particle::stress<D>.when(finishes),
-                particle::strain_increment<D>.when(finishes));
+                particle::strain_increment<D>.when(finishes),
+                particle::hoop_stretch.when(finishes && method.axisymmetric));
 }
 
 }  // namespace tamp::tasks

@@ -6,6 +6,7 @@
 
 #include "components/errors.hpp"
 #include "components/loads/stress_account.hpp"
+#include "components/materials/hyperelastic_rings.hpp"
 #include "components/materials/state_columns.hpp"
 #include "tasks/labels.hpp"
 #include "tasks/phases/phases.hpp"
@@ -158,6 +159,20 @@ void forget_gradients(const Data& data, std::size_t first, std::span<const doubl
   }
 }
 
+/// The answer of the material to a batch from `first` on.
+template <int D, class Model, class Data>
+components::BatchFailure update_batch(const Method<D>& method, const Model& model,
+                                      const MaterialBatch<D, typename Model::State>& batch, std::size_t first,
+                                      const Data& data, components::UpdateCounts& counts)
+{
+  if constexpr (D == 2 && components::Hyperelastic<Model>) {
+    if (method.axisymmetric) {
+      return update_rings(model, batch, data[particle::hoop_stretch].subspan(first, batch.stress.size()), counts);
+    }
+  }
+  return update(model, batch, counts);
+}
+
 /// Takes all particles to the material batch by batch.
 template <int D, class Model, class Data>
 void update_batches(const Method<D>& method, const Model& model, const TaskContext& at, const Data& data)
@@ -169,7 +184,7 @@ void update_batches(const Method<D>& method, const Model& model, const TaskConte
     const auto batch = batch_at<D, Model>(first, data, answer);
     const std::size_t n = batch.stress.size();
     std::copy(batch.stress.begin(), batch.stress.end(), old_stress.begin());
-    if (const auto failure = update(model, batch, totals.updates)) {
+    if (const auto failure = update_batch<D>(method, model, batch, first, data, totals.updates)) {
       totals.failed =
           std::min(totals.failed, failed_update<D>(model, at.group, first + failure->particle, failure->fault, data));
     }
@@ -215,7 +230,8 @@ runtime::TaskDeclaration update_of(const Method<D>& method, int material, const 
           .reads(particle::id.previous(), particle::mass.previous(), particle::deformation_gradient<D>,
                  particle::volume.previous(), particle::volume, particle::viscous_pressure.previous(),
                  particle::own_stiffness, particle::strain_increment<D>, particle::position<D>.previous(),
-                 particle::velocity<D>.at(end))
+                 particle::velocity<D>.at(end),
+                 particle::hoop_stretch.when(method.axisymmetric && components::Hyperelastic<Model>))
           .updates(particle::stress<D>, particle::velocity_gradient<D>.when(forgets_gradients(model, method.scene)))
           .computes(particle::viscous_pressure)
           .reduces(step_totals));

@@ -123,6 +123,18 @@ void add_flaws(const Scene& scene, int material, std::vector<ParticleField>& fie
       scene.materials[static_cast<std::size_t>(material)].model);
 }
 
+/// The volume over that of the undeformed particle. Rigid bodies keep theirs.
+template <int D>
+ParticleField volume_ratio_field(const Scene& scene, int material)
+{
+  const auto in_plane = [](const Matrix<D>& f) { return f.determinant(); };
+  const auto of_ring = [](const Matrix<D>& f, double hoop_stretch) { return f.determinant() * hoop_stretch; };
+  if (!scene.axisymmetric || scene.is_rigid(material)) {
+    return {"J", ColumnKind::scalar, in_plane, particle::deformation_gradient<D>};
+  }
+  return {"J", ColumnKind::scalar, of_ring, particle::deformation_gradient<D>, particle::hoop_stretch};
+}
+
 /// All that can be written of a material's particles, but for id; the scene must outlive it.
 template <int D>
 std::vector<ParticleField> particle_fields(const Scene& scene, int material)
@@ -138,7 +150,7 @@ std::vector<ParticleField> particle_fields(const Scene& scene, int material)
       {"q", ColumnKind::scalar, [](const Stress& s) { return components::invariants(s).q(); }, particle::stress<D>},
       {"density", ColumnKind::scalar, [](double mass, double volume) { return mass / volume; }, particle::mass,
        particle::volume},
-      {"J", ColumnKind::scalar, [](const Matrix<D>& f) { return f.determinant(); }, particle::deformation_gradient<D>}};
+      volume_ratio_field<D>(scene, material)};
   if (scene.is_periodic()) {
     // How often it has gone around the domain along each axis.
     const auto along_axes = [](const runtime::Index& laps) -> Vector<D> {

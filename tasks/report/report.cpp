@@ -89,7 +89,10 @@ void report_motion(const Method<D>& method, const TaskContext& at, const Data& d
   for (std::size_t p = 0; p < mass.size(); ++p) {
     kinetic += 0.5 * mass[p] * velocity[p].squaredNorm();
     sum_of_momenta += mass[p] * velocity[p].norm();
-    report.bodies[static_cast<std::size_t>(body[p])].template add<D>(mass[p], place(p), reference[p], velocity[p]);
+    Vector<D> x = place(p), start = reference[p];
+    // The centre of a ring is on the axis.
+    if (method.axisymmetric) x[0] = start[0] = 0;
+    report.bodies[static_cast<std::size_t>(body[p])].template add<D>(mass[p], x, start, velocity[p]);
   }
   report.kinetic += kinetic;
   report.sum_of_momenta += sum_of_momenta;

@@ -25,4 +25,7 @@ std::vector<Vector<D>> sites_of(const Scene& scene, const SceneBody& body)
 /// Their volume, all together [m^3].
 double particle_volume(const Scene& scene, const SceneBody& body);
 
+/// That of the body's solid, in an axisymmetric scene of what turning it about the axis makes of it.
+components::Volume solid_volume(const Scene& scene, const SceneBody& body);
+
 }  // namespace tamp::tasks

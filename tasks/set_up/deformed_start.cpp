@@ -17,7 +17,7 @@ template <int D, class Model>
 DeformedStart<D> answer_of(const Model& model, const Matrix<D>& f)
 {
   if constexpr (components::Hyperelastic<Model>) {
-    DeformedStart<D> start{f, SymmetricTensor<D>::Zero(), model.template stored_energy<D>(f), {}};
+    DeformedStart<D> start{f, f.determinant(), SymmetricTensor<D>::Zero(), model.template stored_energy<D>(f), {}};
     const SymmetricTensor<D> no_increment = SymmetricTensor<D>::Zero();
     double plastic_work = 0;
     components::UpdateCounts counts;
@@ -37,6 +37,14 @@ DeformedStart<D> answer_of(const Model& model, const Matrix<D>& f)
   }
 }
 
+/// What a plane that cuts space holds of it.
+template <int D>
+DeformedStart<D> in_plane(const DeformedStart<3>& start)
+{
+  return {start.deformation_gradient.template topLeftCorner<D, D>(), start.volume_ratio,
+          start.stress.template head<n_symmetric<D>>(), start.stored_energy, start.moduli};
+}
+
 }  // namespace
 
 bool may_start_deformed(const MaterialModel& model)
@@ -47,9 +55,13 @@ bool may_start_deformed(const MaterialModel& model)
 template <int D>
 DeformedStart<D> deformed_start(const Scene& scene, const SceneBody& body, const Vector<D>& X)
 {
-  const Matrix<D> f = body.functions.deformation_gradient(in_space<D>(X)).template topLeftCorner<D, D>();
-  return std::visit([&](const auto& model) { return answer_of<D>(model, f); },
-                    scene.materials[static_cast<std::size_t>(body.material)].model);
+  const Matrix<3> f = body.functions.deformation_gradient(in_space<D>(X));
+  return std::visit(
+      [&](const auto& model) {
+        if (scene.axisymmetric) return in_plane<D>(answer_of<3>(model, f));
+        return answer_of<D>(model, Matrix<D>(f.template topLeftCorner<D, D>()));
+      },
+      scene.materials[static_cast<std::size_t>(body.material)].model);
 }
 
 template <int D>
@@ -58,7 +70,7 @@ components::TangentModuli greatest_deformed_moduli(const Scene& scene, const Sce
   components::TangentModuli greatest{0, 0};
   for (const components::Site<D>& site : particle_sites<D>(scene, body)) {
     const DeformedStart<D> start = deformed_start<D>(scene, body, site.place);
-    const double J = start.deformation_gradient.determinant();
+    const double J = start.volume_ratio;
     greatest.bulk_modulus = std::max(greatest.bulk_modulus, J * start.moduli.bulk_modulus);
     greatest.shear_modulus = std::max(greatest.shear_modulus, J * start.moduli.shear_modulus);
   }

@@ -13,6 +13,7 @@ bool may_start_deformed(const MaterialModel& model);
 template <int D>
 struct DeformedStart {
   Matrix<D> deformation_gradient;
+  double volume_ratio;        ///< its determinant, in axisymmetric scenes times the stretch of the hoop
   SymmetricTensor<D> stress;  ///< Cauchy [Pa]
   double stored_energy;       ///< J per m^3 of the undeformed material
   components::TangentModuli moduli;

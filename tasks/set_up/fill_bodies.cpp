@@ -184,6 +184,10 @@ components::MassProperties BodyParticles<D>::mass_properties(int body) const
     std::transform(own.position.begin(), own.position.end(), std::back_inserter(position), in_space<D>);
     for (const components::Site<D>& site : own.site) mass.push_back(density * site.volume);
   }
+  if (scene_.axisymmetric) {
+    // Rings are about the axis.
+    for (Eigen::Vector3d& x : position) x[0] = 0;
+  }
   return components::mass_properties(mass, position, lattice.cell_size / lattice.n_per_axis, D == 2);
 }
 
@@ -217,12 +221,13 @@ void BodyParticles<D>::store(const Particles& particles, int patch, int material
     if (carried == CarriedGradient::gradient)
       state(particle::velocity_gradient<D>)[p] = velocity_gradient<D>(scene_, body, site.place);
     state(particle::deformation_gradient<D>)[p] = particle_axes<D>(scene_, body, site.place);
+    if (scene_.axisymmetric) state(particle::hoop_stretch)[p] = particles.position[p][0] / site.place[0];
     state(particle::volume)[p] = site.volume;
     state(particle::mass)[p] = density * site.volume;
     if (body.functions.deformation_gradient) {
       const DeformedStart<D> start = deformed_start<D>(scene_, body, site.place);
       state(particle::deformation_gradient<D>)[p] = start.deformation_gradient;
-      state(particle::volume)[p] = start.deformation_gradient.determinant() * site.volume;
+      state(particle::volume)[p] = start.volume_ratio * site.volume;
       state(particle::stress<D>)[p] = start.stress;
     }
     if (!body.initial_stress) continue;
@@ -239,7 +244,7 @@ void BodyParticles<D>::store_velocity_moments(const Particles& particles, int pa
 {
   const auto moments = warehouse.state(particle::velocity_moment<D>, patch, material);
   const auto interpolation =
-      components::Interpolation<D>::make(scene_.interpolator, scene_.particles_per_axis_of(material));
+      components::Interpolation<D>::make(scene_.interpolator, scene_.particles_per_axis_of(material), scene_.plane());
   interpolation->second_moments(
       whole_grid<D>(scene_.grid),
       {particles.position, warehouse.state(particle::deformation_gradient<D>, patch, material)}, moments);

@@ -162,6 +162,23 @@ TEST_CASE("a body under pressure ends with the same bits on any ranks and thread
   CHECK(pushed(*simulation) == pushed(*single));
 }
 
+TEST_CASE("rings that meet on the axis end with the same bits on any ranks and threads", "[ranks]")
+{
+  Scene scene = glancing_disks();
+  scene.axisymmetric = true;
+  scene.faces[0][0] = Face::symmetry;
+  scene.bodies.clear();
+  add_disk(scene, 0, 0, 0.5, 0.35, {0, 6, 0});
+  add_disk(scene, 1, 0.1, 1.3, 0.4, {0, -6, 0});
+  scene.transfer = GENERATE(Transfer("flip"), Transfer("apic"));
+  const Ending expected = alone(scene, 0.2);
+
+  const auto simulation = on_all_ranks(scene, 2);
+  advance_to(*simulation, 0.2);
+
+  CHECK(ending(*simulation) == expected);
+}
+
 TEST_CASE("a collision in three dimensions ends with the same bits on any ranks", "[ranks]")
 {
   Scene scene = empty_scene(3, {12, 8, 8}, 0.1);

@@ -27,17 +27,11 @@ struct CheckArguments {
   std::vector<std::string> assignments;
 };
 
-/// Volume of the solid, which may be known only to within an error.
-components::Volume solid_volume(const tasks::SceneBody& body)
-{
-  return std::visit([](const auto& solid) { return solid.volume(); }, body.solid);
-}
-
 /// How much the solid and its particles hold, a line each.
 void print_volumes(const tasks::Scene& scene, const tasks::SceneBody& body)
 {
   const double density = scene.materials[static_cast<std::size_t>(body.material)].density;
-  const components::Volume solid = solid_volume(body);
+  const components::Volume solid = tasks::solid_volume(scene, body);
   const double filled = tasks::particle_volume(scene, body);
   const std::string known =
       solid.is_exact() ? "exact" : fmt::format("within {:.2g} %", 100 * solid.error / solid.value);

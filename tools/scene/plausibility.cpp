@@ -193,7 +193,7 @@ void check_mass(const tasks::Scene& scene, const tasks::SceneBody& body, Warning
   // The volume of many solids that overlap takes too long to find.
   constexpr std::size_t few = 10;
   if (std::visit([](const auto& s) { return s.n_shapes(); }, body.solid) > few) return;
-  const components::Volume solid = std::visit([](const auto& s) { return s.volume(); }, body.solid);
+  const components::Volume solid = tasks::solid_volume(scene, body);
   const double error = tasks::particle_volume(scene, body) / solid.value - 1;
   if (std::abs(error) - solid.error / solid.value <= 0.01) return;
   warnings.push_back(

@@ -244,7 +244,7 @@ std::optional<tasks::SceneBody> read(const std::string& name, JsonReader& reader
   if (!has_room_for(*solid, scene, number, reader.document())) return std::nullopt;
   tasks::SceneBody body{name, number, *solid, {0, 0, 0}, 0};
   if (problem) {
-    auto functions = functions_of(*problem, reader, D, scene.materials[static_cast<std::size_t>(number)]);
+    auto functions = functions_of(*problem, reader, scene, scene.materials[static_cast<std::size_t>(number)]);
     if (!functions) return std::nullopt;
     body.functions = std::move(*functions);
   }

@@ -83,11 +83,18 @@ std::optional<components::Problem> read_problem(JsonReader& body)
 }
 
 std::optional<components::BodyFunctions> functions_of(const components::Problem& problem, const JsonReader& body,
-                                                      int dimension, const tasks::SceneMaterial& material)
+                                                      const tasks::Scene& scene, const tasks::SceneMaterial& material)
 {
-  const components::ProblemBody given{dimension, material.density, material.model};
+  const components::ProblemBody given{scene.grid.dimension, material.density, material.model, scene.axisymmetric};
   try {
-    return std::visit([&](const auto& p) { return p.functions(given); }, problem);
+    return std::visit(
+        [&]<class P>(const P& p) {
+          if constexpr (!requires { p.spherical; }) {
+            if (given.axisymmetric) throw components::BadValue("an axisymmetric scene", "one of plane strain or space");
+          }
+          return p.functions(given);
+        },
+        problem);
   } catch (const components::BadParameter& bad) {
     body.document().add_problem(body.pointer(problem_key) / bad.key, bad.found, "expected " + bad.expected);
   } catch (const components::BadValue& bad) {

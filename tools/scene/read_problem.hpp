@@ -15,7 +15,7 @@ std::optional<components::Problem> read_problem(JsonReader& body);
 
 /// The functions of a problem, set for a body of this material; empty if it cannot be, which the document then knows.
 std::optional<components::BodyFunctions> functions_of(const components::Problem& problem, const JsonReader& body,
-                                                      int dimension, const tasks::SceneMaterial& material);
+                                                      const tasks::Scene& scene, const tasks::SceneMaterial& material);
 
 /// Adds what in a scene does not go with the functions of one of its bodies.
 template <int D>

@@ -10,6 +10,7 @@
 #include "tasks/method.hpp"
 #include "tasks/report/field_columns.hpp"
 #include "tasks/report/report.hpp"
+#include "tools/scene/check_axisymmetry.hpp"
 #include "tools/scene/check_bodies.hpp"
 #include "tools/scene/check_method.hpp"
 #include "tools/scene/json_reader.hpp"
@@ -48,6 +49,7 @@ class SceneReader
     scene_.stress_timing = root_.choice<tasks::StressTiming>("stress_timing");
     read_particles_per_cell();
     read_loads();
+    if (scene_.axisymmetric && dimension_is_good) check_axisymmetry(root_, scene_, grid_is_good);
     read_materials();
     check_stress_timing(root_, scene_);
     read_bodies(dimension_is_good, grid_is_good);
@@ -69,7 +71,14 @@ class SceneReader
     return t;
   }
 
-  void read_dimension() { document_.dimension = scene_.grid.dimension = root_.whole_number("dimension"); }
+  void read_dimension()
+  {
+    document_.dimension = scene_.grid.dimension = root_.whole_number("dimension");
+    scene_.axisymmetric = root_.flag("axisymmetric");
+    if (scene_.axisymmetric && dimension() != 2) {
+      root_.add_problem("axisymmetric", "a scene of dimension 3", "expected one of dimension 2, the plane of r and z");
+    }
+  }
 
   void read_grid()
   {
@@ -301,6 +310,7 @@ class SceneReader
     if (!grid_is_good || document_.problems.size() > n_before) return;
     check_no_overlap(scene_, root_.object("bodies"));
     check_rigid_bodies(scene_, root_.object("bodies"));
+    if (scene_.axisymmetric) check_axisymmetric_bodies(scene_, root_.object("bodies"));
   }
 
   int material_number(const std::string& name) const

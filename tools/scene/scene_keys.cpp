@@ -130,7 +130,14 @@ std::vector<Key> domain_keys()
 {
   const Default empty{Json::object()};
   return {{"title", Text{}, "", {nullptr, "the file's name"}, "one line for people"},
-          {"dimension", WholeNumber{2, 3}, "", compulsory, "2 (plane strain) or 3"},
+          {"dimension", WholeNumber{2, 3}, "", compulsory, "2 (plane strain, or axisymmetric) or 3"},
+          {"axisymmetric",
+           Flag{},
+           "",
+           {false},
+           "with dimension 2: the scene stands for what turning it about the line x = 0 makes of it; x is the distance "
+           "from that line, y runs along it, and masses, forces and energies are those of the whole; see "
+           "[method.md](method.md)"},
           {"grid", Object{grid_keys}, "", compulsory, ""},
           {"boundaries", Object{boundary_keys}, "", empty, ""},
           {"time", Object{time_keys}, "", compulsory, ""}};

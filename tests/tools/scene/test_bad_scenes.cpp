@@ -535,4 +535,39 @@ TEST_CASE("fields to be written are named once each, and of the scene's material
                         {"/output/fields=['equivalent_plastic']", "*\"equivalent_plastic\"*"}});
 }
 
+TEST_CASE("what cannot be turned about the axis of an axisymmetric scene is refused")
+{
+  const std::string block = "/bodies/block/";
+  const std::string rigid =
+      "/grid/upper=[9,9] /bodies/block/rigid=true /bodies/block/geometry/lower=[2,2] "
+      "/bodies/block/geometry/upper=[3,3] ";
+
+  check(
+      problems_with, "/axisymmetric=true",
+      {{"", ""},
+       {"/grid/lower=[-1,0]", "*#/grid/lower: r = -1 m, in an axisymmetric scene; expected x from 0 on, *"},
+       {"/grid/lower=[0,-1]", ""},
+       {"/boundaries={'x-':'open'}",
+        "*#/boundaries/x-: another face than \"symmetry\" on the axis of an axisymmetric scene; expected *"},
+       {"/boundaries={'x-':'periodic','x+':'periodic'}", "*#/boundaries/x-: periodic in r, in an axisymmetric *"},
+       {"/gravity=[1,0]", "/gravity: 1 m/s^2 across the axis of an axisymmetric scene; expected gravity along y alone"},
+       {"/gravity=[0,-1]", ""},
+       {"/anti_locking=f_bar", "/anti_locking: shared changes of volume in an axisymmetric scene; expected \"none\""},
+       {block + "velocity=[1,0]",
+        block + "velocity: a motion across the axis of an axisymmetric scene; expected one along y alone"},
+       {block + "velocity=[0,1]", ""},
+       {block + "angular_velocity=[1]",
+        block + "angular_velocity: a rotation across the axis of an axisymmetric scene; expected none"},
+       {block + "nose=[1,0] /bodies/block/tail=[0,1]",
+        block + "nose: a place at r = 1 m; expected one on the axis of the scene, with x = 0"},
+       {rigid + block + "driven={'velocity':[1,0]}",
+        block + "driven: a motion across the axis of an axisymmetric scene; expected one along y alone"},
+       {rigid + block + "driven={'velocity':[0,1]}", ""},
+       {block + "geometry={'type':'ball','centre':[0,1],'radius':0.5} /bodies/block/particles=rings", "*"}});
+  check(problems_with, {{"/axisymmetric=1", "/axisymmetric: 1; expected true or false"}});
+  check(shipped("cone/quick.json"), "",
+        {{"/axisymmetric=true",
+          "/axisymmetric: a scene of dimension 3; expected one of dimension 2, the plane of r and z"}});
+}
+
 }  // namespace test_bad_scenes
