@@ -1,0 +1,194 @@
+#include "tools/scene/round_scene.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+#include "tasks/method.hpp"
+
+namespace tamp::tools
+{
+
+namespace
+{
+
+using Solid = components::Solid<3>;
+
+/// A line along an axis of the grid, and the two axes across it.
+struct Line {
+  int axis;
+  Vector<3> through;
+
+  int first_across() const { return (axis + 1) % 3; }
+  int second_across() const { return (axis + 2) % 3; }
+
+  /// The point at a height along the line, a distance from it and an angle about it.
+  Vector<3> at(double height, double radius, double angle) const
+  {
+    Vector<3> x = through;
+    x[axis] = height;
+    x[first_across()] += radius * std::cos(angle);
+    x[second_across()] += radius * std::sin(angle);
+    return x;
+  }
+};
+
+components::Box<3> box_of(const runtime::Grid& grid)
+{
+  components::Box<3> box;
+  for (int k = 0; k < 3; ++k) {
+    box.lower[k] = grid.coordinate(k, 0);
+    box.upper[k] = grid.coordinate(k, grid.n_cells[static_cast<std::size_t>(k)]);
+  }
+  return box;
+}
+
+bool is_within(const components::Box<3>& box, const Vector<3>& x)
+{
+  return (x - box.lower).minCoeff() >= 0 && (box.upper - x).minCoeff() >= 0;
+}
+
+/// Numbers of [0, 1) that fill it evenly: the additive recurrence of the golden ratio of two dimensions and more.
+double spread(int i, int axis)
+{
+  constexpr std::array<double, 4> strides{0.8191725133961645, 0.6710436067037893, 0.5497004779019703,
+                                          0.4503249869105786};
+  const double place = 0.5 + i * strides[static_cast<std::size_t>(axis)];
+  return place - std::floor(place);
+}
+
+constexpr int n_samples = 4000;
+/// Points that may be off where surfaces have facets or are cut by rounding.
+constexpr double most_off = 0.01;
+
+/// Whether the solid goes on across the line as far as the grid does.
+bool fills_across(const Solid& solid, const Line& line, const components::Box<3>& grid)
+{
+  const components::Box<3> box = solid.bounding_box();
+  int n_off = 0;
+  for (int i = 0; i < n_samples; ++i) {
+    Vector<3> x, y;
+    for (int k = 0; k < 3; ++k) {
+      x[k] = grid.lower[k] + spread(i, k) * (grid.upper[k] - grid.lower[k]);
+      y[k] = grid.lower[k] + spread(i + n_samples, k) * (grid.upper[k] - grid.lower[k]);
+    }
+    x[line.axis] = y[line.axis] = box.lower[line.axis] + spread(i, 3) * (box.upper[line.axis] - box.lower[line.axis]);
+    if (solid.contains(x) != solid.contains(y)) ++n_off;
+  }
+  return n_off < most_off * n_samples;
+}
+
+/// Whether the solid is the same at all angles about the line that lie within the grid.
+bool is_round(const Solid& solid, const Line& line, const components::Box<3>& grid)
+{
+  const components::Box<3> box = solid.bounding_box();
+  double reach = 0;
+  for (const int k : {line.first_across(), line.second_across()}) {
+    reach = std::max({reach, std::abs(box.lower[k] - line.through[k]), std::abs(box.upper[k] - line.through[k])});
+  }
+  int n_seen = 0, n_off = 0;
+  for (int i = 0; i < n_samples; ++i) {
+    const double height = box.lower[line.axis] + spread(i, 0) * (box.upper[line.axis] - box.lower[line.axis]);
+    const double radius = spread(i, 1) * reach;
+    const Vector<3> x = line.at(height, radius, 2 * std::numbers::pi * spread(i, 2));
+    const Vector<3> y = line.at(height, radius, 2 * std::numbers::pi * spread(i, 3));
+    if (!is_within(grid, x) || !is_within(grid, y)) continue;
+    const bool x_is_in = solid.contains(x), y_is_in = solid.contains(y);
+    n_seen += x_is_in || y_is_in ? 1 : 0;
+    n_off += x_is_in != y_is_in ? 1 : 0;
+  }
+  return n_seen > 0 && n_off < most_off * n_seen;
+}
+
+/// Whether all that moves the body goes along the axis.
+bool moves_along(const tasks::SceneBody& body, int axis)
+{
+  if (body.functions.velocity || body.functions.body_force || body.is_pressed()) return false;
+  if (body.angular_velocity != tasks::Triple{0, 0, 0} || (body.drive && body.drive->turns)) return false;
+  for (int k = 0; k < 3; ++k) {
+    if (k == axis) continue;
+    if (body.velocity[static_cast<std::size_t>(k)] != 0) return false;
+    if (body.drive && body.drive->motion.has_part_along(k)) return false;
+  }
+  return true;
+}
+
+/// Whether the scene treats all directions across the axis alike, but for its bodies.
+bool is_even_across(const tasks::Scene& scene, int axis)
+{
+  if (scene.centrifuge) return false;
+  for (std::size_t k = 0; k < 3; ++k) {
+    if (static_cast<int>(k) == axis) continue;
+    if (scene.gravity[k] != 0 || scene.grid.periodic[k]) return false;
+  }
+  return std::all_of(scene.bodies.begin(), scene.bodies.end(),
+                     [axis](const tasks::SceneBody& body) { return moves_along(body, axis); });
+}
+
+/// Where the line may lie along an axis across it: on symmetry faces, or in the middle.
+std::vector<double> places_across(const tasks::Scene& scene, int axis, const components::Box<3>& grid)
+{
+  const auto& faces = scene.faces[static_cast<std::size_t>(axis)];
+  std::vector<double> places{0.5 * (grid.lower[axis] + grid.upper[axis])};
+  if (faces[0] == tasks::Face::symmetry) places.push_back(grid.lower[axis]);
+  if (faces[1] == tasks::Face::symmetry) places.push_back(grid.upper[axis]);
+  return places;
+}
+
+/// Sites of a body's lattice in the half plane that is turned about the line, out to the farther face.
+std::size_t n_rings(const tasks::Scene& scene, const tasks::SceneBody& body, const Line& line,
+                    const components::Box<3>& grid)
+{
+  const auto& solid = std::get<Solid>(body.solid);
+  const components::Box<3> box = solid.bounding_box();
+  const double spacing = scene.grid.cell_size / scene.particles_per_axis_of(body.material);
+  const int k = line.first_across();
+  const double above = grid.upper[k] - line.through[k], below = line.through[k] - grid.lower[k];
+  const double reach = std::max(above, below), angle = above >= below ? 0 : std::numbers::pi;
+  std::size_t n = 0;
+  for (double z = box.lower[line.axis] + 0.5 * spacing; z < box.upper[line.axis]; z += spacing) {
+    for (double r = 0.5 * spacing; r < reach; r += spacing) {
+      if (solid.contains(line.at(z, r, angle))) ++n;
+    }
+  }
+  return n;
+}
+
+/// The axisymmetric scene about a line, if all bodies are round about it and not all only fill the grid.
+std::optional<RoundScene> about(const tasks::Scene& scene, const Line& line, const components::Box<3>& grid)
+{
+  RoundScene found{line.axis, line.through, 0};
+  bool any_round = false;
+  for (const tasks::SceneBody& body : scene.bodies) {
+    const auto& solid = std::get<Solid>(body.solid);
+    if (!fills_across(solid, line, grid)) {
+      if (!is_round(solid, line, grid)) return std::nullopt;
+      any_round = true;
+    }
+    found.n_particles += n_rings(scene, body, line, grid);
+  }
+  return any_round ? std::optional(found) : std::nullopt;
+}
+
+}  // namespace
+
+std::optional<RoundScene> round_scene(const tasks::Scene& scene)
+{
+  if (scene.grid.dimension != 3) return std::nullopt;
+  const components::Box<3> grid = box_of(scene.grid);
+  for (int axis = 0; axis < 3; ++axis) {
+    if (!is_even_across(scene, axis)) continue;
+    Line line{axis, Vector<3>::Zero()};
+    for (const double a : places_across(scene, line.first_across(), grid)) {
+      for (const double b : places_across(scene, line.second_across(), grid)) {
+        line.through[line.first_across()] = a;
+        line.through[line.second_across()] = b;
+        if (const auto found = about(scene, line, grid)) return found;
+      }
+    }
+  }
+  return std::nullopt;
+}
+
+}  // namespace tamp::tools
