@@ -6,7 +6,7 @@
 #include "tasks/labels.hpp"
 #include "tasks/phases/phases.hpp"
 #include "tasks/phases/places.hpp"
-#include "tasks/phases/walls.hpp"
+#include "tasks/phases/scatter.hpp"
 
 namespace tamp::tasks
 {
@@ -61,9 +61,7 @@ runtime::TaskDeclaration gather_body_force(const Method<D>& method)
           }
           method.interpolation(at.group).add_vectors(block_of<D>(at.layout, sums), batch, forces, sums.data());
         }
-        for_each_wall(method, at, sums.box(), [&](const Wall<D>& wall) {
-          wall.keeps_normal_push() ? wall.image.add_image(sums.data()) : wall.image.fold(sums.data());
-        });
+        fold_images(method, at, sums, false);
       });
 }
 

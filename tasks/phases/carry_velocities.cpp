@@ -50,7 +50,7 @@ runtime::TaskDeclaration carry(const Method<D>& method)
                                                      .carried_gradient = method.carried_gradient,
                                                      .carried = carried_by<D>(data)};
         method.interpolation(at.group).particles_to_grid(block_of<D>(at.layout, sums), sources, false, sums.data());
-        for_each_wall(method, at, sums.box(), [&](const Wall<D>& wall) { fold(wall, at, sums); });
+        fold(method, at, sums);
       });
 }
 

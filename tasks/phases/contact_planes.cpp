@@ -7,6 +7,7 @@
 
 #include "tasks/phases/phases.hpp"
 #include "tasks/phases/places.hpp"
+#include "tasks/phases/scatter.hpp"
 
 namespace tamp::tasks
 {
@@ -83,7 +84,7 @@ runtime::TaskDeclaration sum_at_planes(const Method<D>& method, std::string name
         if (!any_plane(planes)) return;
         add(method.interpolation(at.group), block_of<D>(at.layout, planes), places_at_start<D>(data), planes.data(),
             sums.data());
-        for_each_wall(method, at, sums.box(), [&](const Wall<D>& wall) { wall.image.fold(sums.data()); });
+        fold_images(method, at, sums, true);
       });
 }
 

@@ -46,7 +46,7 @@ runtime::TaskDeclaration gather(const Method<D>& method, const std::string& name
             .carried = carried_by<D>(data)};
         method.interpolation(at.group).particles_to_grid(block_of<D>(at.layout, sums), sources,
                                                          method.needs_surface_of(at.group), sums.data());
-        for_each_wall(method, at, sums.box(), [&](const Wall<D>& wall) { fold(wall, at, sums); });
+        fold(method, at, sums);
       });
 }
 

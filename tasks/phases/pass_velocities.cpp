@@ -7,6 +7,7 @@
 #include "tasks/labels.hpp"
 #include "tasks/phases/phases.hpp"
 #include "tasks/phases/places.hpp"
+#include "tasks/phases/scatter.hpp"
 #include "tasks/phases/walls.hpp"
 
 namespace tamp::tasks
@@ -82,9 +83,7 @@ runtime::TaskDeclaration return_term(const Method<D>& method, int pass)
           for (std::size_t p = 0; p < momentum.size(); ++p) momentum[p] *= mass[first + p];
           interpolation.add_vectors(block, batch, momentum, returned.data());
         }
-        for_each_wall(method, at, returned.box(), [&](const Wall<D>& wall) {
-          wall.keeps_normal_push() ? wall.image.add_image(returned.data()) : wall.image.fold(returned.data());
-        });
+        fold_images(method, at, returned, false);
       });
 }
 

@@ -18,16 +18,31 @@ std::span<const Matrix<D>> carried_by(const Data& data)
   return gradients.empty() ? data[particle::velocity_moment<D>] : gradients;
 }
 
-/// Adds to the grid the image of what is scattered behind a wall.
-template <int D>
-void fold(const Wall<D>& wall, const runtime::TaskContext& at, const runtime::GridView<components::NodeSums<D>>& sums)
+/// Adds to the grid the images of what is scattered behind the walls. Only then do walls take what does not cross them:
+/// the image behind a wall one cell away lies on this one. Rough walls keep what pushes them unless `also_on_rough`.
+template <int D, class Value>
+void fold_images(const Method<D>& method, const runtime::TaskContext& at, const runtime::GridView<Value>& values,
+                 bool also_on_rough)
 {
-  if (!wall.keeps_normal_push()) return wall.image.fold(sums.data());
-  wall.image.add_image(sums.data());
-  for_each_wall_node(wall, at.layout.grid(), sums.box(), [&](const runtime::Index& i) {
-    Vector<D> gradient = sums[i].surface_gradient();
-    gradient[wall.axis] = 0;
-    sums[i].set_surface_gradient(gradient);
+  for_each_wall(method, at, values.box(), [&](const Wall<D>& wall) { wall.image.add_image(values.data()); });
+  for_each_wall(method, at, values.box(), [&](const Wall<D>& wall) {
+    if (also_on_rough || !wall.keeps_normal_push()) wall.image.constrain(values.data());
+  });
+}
+
+/// The same of all sums, of which a rough wall keeps forces and momenta, but no surface.
+template <int D>
+void fold(const Method<D>& method, const runtime::TaskContext& at,
+          const runtime::GridView<components::NodeSums<D>>& sums)
+{
+  fold_images(method, at, sums, false);
+  for_each_wall(method, at, sums.box(), [&](const Wall<D>& wall) {
+    if (!wall.keeps_normal_push()) return;
+    for_each_wall_node(wall, at.layout.grid(), sums.box(), [&](const runtime::Index& i) {
+      Vector<D> gradient = sums[i].surface_gradient();
+      gradient[wall.axis] = 0;
+      sums[i].set_surface_gradient(gradient);
+    });
   });
 }
 
