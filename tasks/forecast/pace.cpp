@@ -23,9 +23,10 @@ std::optional<Scene> coarsened(const Scene& scene, int factor)
   coarse.n_patches = {1, 1, 1};
   coarse.grid.cell_size *= factor;
   for (std::size_t k = 0; k < static_cast<std::size_t>(scene.grid.dimension); ++k) {
-    if (scene.grid.n_cells[k] % factor != 0 || scene.grid.n_cells[k] / factor < least_patch_width(scene.interpolator))
-      return std::nullopt;
-    coarse.grid.n_cells[k] /= factor;
+    const int n_cells = scene.grid.n_cells[k] / factor;
+    if (scene.grid.n_cells[k] % factor != 0) return std::nullopt;
+    if (factor > 1 && n_cells < least_patch_width(scene.interpolator)) return std::nullopt;
+    coarse.grid.n_cells[k] = n_cells;
     for (SceneBody& body : coarse.bodies) body.n_particles /= static_cast<std::size_t>(factor);
   }
   return coarse;
