@@ -9,6 +9,7 @@
 #include "tools/commands/command_line/help_text.hpp"
 #include "tools/commands/commands.hpp"
 #include "tools/run/forecast.hpp"
+#include "tools/scene/advice.hpp"
 #include "tools/scene/compiled_moduli.hpp"
 #include "tools/scene/penetration.hpp"
 #include "tools/scene/place_text.hpp"
@@ -88,6 +89,7 @@ void check(const CheckArguments& options)
   add_copies(forecast);
   add_pace(scene, {}, forecast);
   print_err("  {}\n", description(forecast));
+  for (const std::string& line : advice(scene, forecast.pace)) print_err("  advice  {}\n", line);
 }
 
 }  // namespace
@@ -95,12 +97,13 @@ void check(const CheckArguments& options)
 CLI::App* add_check_command(CLI::App& app)
 {
   CLI::App* command =
-      app.add_subcommand("check", "Check a scene, print it with every default filled in, count particles");
+      app.add_subcommand("check", "Check a scene, print it with every default filled in, forecast and advise");
   const auto options = std::make_shared<CheckArguments>();
   command->add_option("SCENE", options->scene, "the scene's JSON file")->type_name("FILE")->required();
   add_assignments(*command, options->assignments, "scene");
   command->footer(
-      examples({{"tamp check inputs/punch/quick.json", "the scene resolved, its particles, memory and time"},
+      examples({{"tamp check inputs/punch/quick.json",
+                 "the scene resolved, its particles, memory, time, and what it could do without"},
                 {"tamp check inputs/punch/quick.json --set /grid/cell_size=0.0125", "the same on finer cells"}}));
   command->callback([options] { check(*options); });
   return command;

@@ -21,13 +21,6 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 /// What cells, and directions along an axis, are off by rounding.
 constexpr double rounding = 1e-9;
 
-/// The greatest x . direction of a body's points [m].
-double reach(const tasks::SceneBody& body, const Vector3d& direction)
-{
-  if (const auto* plane = std::get_if<components::Solid<2>>(&body.solid)) return plane->reach(direction.head<2>());
-  return std::get<components::Solid<3>>(body.solid).reach(direction);
-}
-
 /// Of the wall at which the grid ends in a direction, x . direction [m]; infinite where it is open, or no axis leads.
 double wall_in(const tasks::Scene& scene, const Vector3d& direction)
 {
@@ -114,6 +107,12 @@ double rounded_down(double x)
 }
 
 }  // namespace
+
+double reach(const tasks::SceneBody& body, const Vector3d& direction)
+{
+  if (const auto* plane = std::get_if<components::Solid<2>>(&body.solid)) return plane->reach(direction.head<2>());
+  return std::get<components::Solid<3>>(body.solid).reach(direction);
+}
 
 Vector3d way_of(const tasks::Scene& scene, const tasks::SceneBody& body)
 {

@@ -8,6 +8,9 @@
 namespace tamp::tools
 {
 
+/// The greatest x . direction of a body's points at the start [m].
+double reach(const tasks::SceneBody& body, const Eigen::Vector3d& direction);
+
 /// How far a body's velocity or its drive takes it by the end of the scene, if nothing stops it [m].
 Eigen::Vector3d way_of(const tasks::Scene& scene, const tasks::SceneBody& body);
 

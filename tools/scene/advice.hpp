@@ -1,0 +1,17 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "tasks/forecast/pace.hpp"
+#include "tasks/scene.hpp"
+
+namespace tamp::tools
+{
+
+/// What a scene has more of than it needs, or too little of: a line each, with a number. docs/savings.md says what each
+/// line means and where its numbers come from. `pace` is the forecast of the scene as it is.
+std::vector<std::string> advice(const tasks::Scene& scene, const std::optional<tasks::Pace>& pace);
+
+}  // namespace tamp::tools
