@@ -101,10 +101,11 @@ CLI::App* add_check_command(CLI::App& app)
   const auto options = std::make_shared<CheckArguments>();
   command->add_option("SCENE", options->scene, "the scene's JSON file")->type_name("FILE")->required();
   add_assignments(*command, options->assignments, "scene");
-  command->footer(
-      examples({{"tamp check inputs/punch/quick.json",
-                 "the scene resolved, its particles, memory, time, and what it could do without"},
-                {"tamp check inputs/punch/quick.json --set /grid/cell_size=0.0125", "the same on finer cells"}}));
+  command->footer(examples(
+      {{"tamp check inputs/punch/quick.json",
+        "the scene resolved, its particles, memory and time; in lines of advice what bounds the step and what a "
+        "rigid body would save, cells, the box that waves see, methods off the front (docs/savings.md)"},
+       {"tamp check inputs/punch/quick.json --set /grid/cell_size=0.0125", "the same on finer cells"}}));
   command->callback([options] { check(*options); });
   return command;
 }
