@@ -157,6 +157,7 @@ std::vector<Side> sides_of(const tasks::Scene& scene, const tasks::SceneBody& bo
   std::vector<Side> sides;
   sides.reserve(6);
   for (int axis = 0; axis < scene.grid.dimension; ++axis) {
+    if (scene.grid.periodic[static_cast<std::size_t>(axis)]) continue;
     for (const int towards : {-1, 1}) {
       Side side = side_of(scene, body, ground, axis, towards);
       if (side.room > 0) sides.push_back(std::move(side));
@@ -190,11 +191,11 @@ void advise_on_box(const tasks::Scene& scene, const tasks::SceneBody& body, cons
   const double T = scene.time.end, c = waves_in(scene, *penetration.into);
   std::string line = fmt::format("box: waves in {} ({:.0f} m/s) ", penetration.into->name, c);
   if (first.back < T) {
-    line += fmt::format("are at its side {} after {:.2g} ms and back at {} after {:.2g} ms, of {:.2g} ms", first.name,
-                        1e3 * first.there, body.name, 1e3 * first.back, 1e3 * T);
+    line += fmt::format("are at its side {} after {} ms and back at {} after {} ms, of {} ms", first.name,
+                        two_digits(1e3 * first.there), body.name, two_digits(1e3 * first.back), two_digits(1e3 * T));
   } else {
-    line +=
-        fmt::format("come {:.2g} m far in {:.2g} ms and are not back at {} from any side", c * T, 1e3 * T, body.name);
+    line += fmt::format("come {:.2g} m far in {} ms and are not back at {} from any side", c * T, two_digits(1e3 * T),
+                        body.name);
   }
   if (std::any_of(sides.begin(), sides.end(), [](const Side& s) { return s.room > 1.2 * s.needed; })) {
     line += "; a box of " + least_box(scene, sides) + " would do";
@@ -305,9 +306,9 @@ std::vector<std::string> advice(const tasks::Scene& scene, const std::optional<t
   advise_on_rule(scene, pace, lines);
   if (is_slab(scene)) {
     lines.push_back(
-        "slab: one cell between smooth walls is plane strain; in 2 dimensions the quick punch is as deep to 0.02 %, "
+        "slab: one cell between smooth walls is plane strain; in 2 dimensions the quick punch is as deep to 0.01 %, "
         "for "
-        "a sixth of the time");
+        "a fifth of the time");
   }
   return lines;
 }
