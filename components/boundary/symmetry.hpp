@@ -54,6 +54,15 @@ class SymmetryWall
     for_each_node(
         [&](std::size_t, std::size_t ghost, std::size_t inside) { field[ghost] = field[inside].mirrored(axis_); });
   }
+  /// Makes the inverse masses of nodes what they are in the whole: half as much on the wall, where the image adds as
+  /// much again to the mass, and beyond it those of the mirror nodes.
+  void complete_inverse_masses(double* inverse_mass) const
+  {
+    for_each_node([&](std::size_t wall, std::size_t ghost, std::size_t inside) {
+      inverse_mass[wall] *= 0.5;
+      inverse_mass[ghost] = inverse_mass[inside];
+    });
+  }
 
  private:
   /// Calls visit(wall node, ghost, mirror node), as places in the block, for every node of the wall.

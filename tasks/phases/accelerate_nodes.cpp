@@ -1,6 +1,7 @@
 #include "tasks/labels.hpp"
 #include "tasks/phases/kick.hpp"
 #include "tasks/phases/phases.hpp"
+#include "tasks/phases/walls.hpp"
 
 namespace tamp::tasks
 {
@@ -38,6 +39,7 @@ runtime::TaskList accelerate_nodes(const Method<D>& method, bool tells_masses)
                   const Vector<D> change = kicked(method, at, i, node);
                   motion[i].set(velocity + change, change);
                 });
+                if (tells_masses) complete_inverse_masses(method, at, inverse_mass);
               })};
 }
 

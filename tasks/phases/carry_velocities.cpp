@@ -88,6 +88,7 @@ runtime::TaskDeclaration take_carried(const Method<D>& method)
           inverse_mass[i] = mass > method.least_node_mass ? 1 / mass : 0;
           if (mass > 0) motion[i].set(sums[i].momentum() / mass, Vector<D>::Zero());
         });
+        complete_inverse_masses(method, at, inverse_mass);
         for_each_wall(method, at, motion.box(), [&](const Wall<D>& wall) { hold_carried(wall, at, motion); });
         for_each_wall(method, at, motion.box(), [&](const Wall<D>& wall) { wall.image.mirror(motion.data()); });
       });

@@ -41,6 +41,17 @@ void for_each_wall(const Method<D>& method, const runtime::TaskContext& at, cons
   }
 }
 
+/// Shows the bound on the step the masses of the whole beside mirrors, where a particle is as far from any edge as it
+/// is from the body's own. Walls that may be left stay edges.
+template <int D>
+void complete_inverse_masses(const Method<D>& method, const runtime::TaskContext& at,
+                             const runtime::GridView<double>& inverse_mass)
+{
+  for_each_wall(method, at, inverse_mass.box(), [&](const Wall<D>& wall) {
+    if (wall.face == Face::symmetry) wall.image.complete_inverse_masses(inverse_mass.data());
+  });
+}
+
 /// Calls `visit(node)` for the nodes of `box` on the wall.
 template <int D, class Visit>
 void for_each_wall_node(const Wall<D>& wall, const runtime::Grid& grid, runtime::IndexBox box, Visit&& visit)

@@ -131,7 +131,8 @@ TEST_CASE("a column under pressure bears it in every layer, and is shortened by 
   CHECK(stress_error < 0.01);
   CHECK(settlement_error < 0.01);
   const Eigen::Vector3d force = simulation->take_mean_forces().loads.at(0);
-  CHECK(force.y() == Approx(-pressure * 0.4).epsilon(0.005));
+  // The kicks of the time that it is a mean over may be half a step longer than that time.
+  CHECK(force.y() == Approx(-pressure * 0.4).epsilon(0.01));
   CHECK(std::abs(force.x()) < 1e-9 * pressure);
 }
 

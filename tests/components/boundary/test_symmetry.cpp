@@ -199,6 +199,19 @@ TEST_CASE("in space every node of the wall has its ghost and its mirror")
   }
 }
 
+TEST_CASE("where walls meet each node has the inverse mass that it has in the whole, in any order of the walls")
+{
+  const std::array<SymmetryWall<2>, 2> walls{SymmetryWall<2>({3, 3}, 0, 1, -1), SymmetryWall<2>({3, 3}, 1, 1, -1)};
+  const int first = GENERATE(0, 1);
+  // x fastest; ghosts at 0, the walls at 1.
+  std::array<double, 9> inverse_mass{9, 9, 9, 9, 4, 2, 9, 2, 1};
+
+  walls[static_cast<std::size_t>(first)].complete_inverse_masses(inverse_mass.data());
+  walls[static_cast<std::size_t>(1 - first)].complete_inverse_masses(inverse_mass.data());
+
+  CHECK(inverse_mass == std::array<double, 9>{1, 1, 1, 1, 1, 1, 1, 1, 1});
+}
+
 TEST_CASE("a wall without a node layer on each side is refused")
 {
   CHECK_THROWS_AS(SymmetryWall<2>({4, 3}, 0, 0, -1), BadValue);
