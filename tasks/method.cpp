@@ -60,10 +60,7 @@ Method<D>::Method(const Scene& given)
     if (body == scene.bodies.end()) {
       deformable_materials.push_back(m);
     } else {
-      rigid_bodies.push_back({.body = static_cast<int>(body - scene.bodies.begin()),
-                              .material = m,
-                              .drive = body->drive ? &*body->drive : nullptr,
-                              .touchable = touchable_faces(scene, *body)});
+      rigid_bodies.push_back(make_rigid_body(scene, static_cast<int>(body - scene.bodies.begin())));
     }
   }
   for (std::size_t k = 0; k < std::size_t{D}; ++k) {

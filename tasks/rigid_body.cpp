@@ -1,6 +1,7 @@
 #include "tasks/rigid_body.hpp"
 
 #include <string>
+#include <variant>
 
 #include "components/errors.hpp"
 #include "tasks/simulation_error.hpp"
@@ -64,10 +65,45 @@ components::RigidState driven(const components::MassProperties& body, const Body
   return state;
 }
 
-std::array<std::array<bool, 2>, 3> touchable_faces(const Scene& scene, const SceneBody& body)
+components::Held RigidBody::held() const
 {
-  std::array<std::array<bool, 2>, 3> touchable{};
-  if (!body.drive || body.drive->turns) return touchable;
+  components::Held held = still;
+  if (drive == nullptr) return held;
+  const components::Held& driven = drive->turns ? components::translation_held : components::all_held;
+  for (std::size_t i = 0; i < held.size(); ++i) held[i] |= driven[i];
+  return held;
+}
+
+namespace
+{
+
+template <int D>
+Sides mirrors_beneath(const Scene& scene, const SceneBody& body)
+{
+  const components::Box<D> box = std::get<components::Solid<D>>(body.solid).bounding_box();
+  const runtime::Grid& grid = scene.grid;
+  const double near = 0.5 * grid.cell_size / scene.particles_per_axis_of(body.material);
+  Sides beneath{};
+  for (int axis = 0; axis < D; ++axis) {
+    const auto k = static_cast<std::size_t>(axis);
+    const auto& faces = scene.faces[k];
+    beneath[k] = {faces[0] == Face::symmetry && box.lower[axis] < grid.coordinate(axis, 0) + near,
+                  faces[1] == Face::symmetry && box.upper[axis] > grid.coordinate(axis, grid.n_cells[k]) - near};
+  }
+  return beneath;
+}
+
+}  // namespace
+
+Sides mirrors_beneath(const Scene& scene, const SceneBody& body)
+{
+  return scene.grid.dimension == 2 ? mirrors_beneath<2>(scene, body) : mirrors_beneath<3>(scene, body);
+}
+
+Sides touchable_mirrors(const Scene& scene, const SceneBody& body)
+{
+  if (!body.drive || body.drive->turns) return mirrors_beneath(scene, body);
+  Sides touchable{};
   for (int axis = 0; axis < scene.grid.dimension; ++axis) {
     if (body.drive->motion.has_part_along(axis)) continue;
     const auto k = static_cast<std::size_t>(axis);
@@ -76,12 +112,63 @@ std::array<std::array<bool, 2>, 3> touchable_faces(const Scene& scene, const Sce
   return touchable;
 }
 
+components::Held still_on_planes(const std::array<bool, 3>& normal_to)
+{
+  components::Held still{};
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    if (!normal_to[axis]) continue;
+    still[axis] = true;
+    still[3 + (axis + 1) % 3] = still[3 + (axis + 2) % 3] = true;
+  }
+  return still;
+}
+
+RigidBody make_rigid_body(const Scene& scene, int body)
+{
+  const SceneBody& given = scene.bodies[static_cast<std::size_t>(body)];
+  RigidBody rigid{.body = body,
+                  .material = given.material,
+                  .drive = given.drive ? &*given.drive : nullptr,
+                  .touchable = touchable_mirrors(scene, given)};
+  if (given.drive && !given.drive->turns) return rigid;
+  const Sides& on = rigid.touchable;
+  rigid.still = still_on_planes({on[0][0] || on[0][1], on[1][0] || on[1][1], on[2][0] || on[2][1]});
+  return rigid;
+}
+
+components::MassProperties within_whole(const RigidBody& body, const runtime::Grid& grid,
+                                        const components::MassProperties& of_particles)
+{
+  components::MassProperties properties = of_particles;
+  for (int axis = 0; axis < 3; ++axis) {
+    const auto k = static_cast<std::size_t>(axis);
+    if (!body.still[k] || !(body.touchable[k][0] || body.touchable[k][1])) continue;
+    const double plane = grid.coordinate(axis, body.touchable[k][0] ? 0 : grid.n_cells[k]);
+    properties = components::half_of_whole(properties, axis, plane);
+  }
+  return properties;
+}
+
+components::RigidState at_rest_across_mirrors(const RigidBody& body, const components::RigidState& state)
+{
+  components::RigidState still = state;
+  for (int k = 0; k < 3; ++k) {
+    const auto axis = static_cast<std::size_t>(k);
+    if (body.still[axis]) still.momentum[k] = 0;
+    if (body.still[axis + 3]) still.angular_momentum[k] = 0;
+  }
+  return still;
+}
+
 components::RigidState moved(const components::MassProperties& body, const components::RigidState& free,
-                             const ContactImpulses::Impulse& impulse, components::Held held, double dt)
+                             const ContactImpulses::Impulse& impulse, const components::Held& held, double dt)
 {
   components::RigidState state = free;
-  if (held == components::Held::nothing) state.momentum += impulse.linear;
-  if (held != components::Held::all) state.angular_momentum += impulse.angular;
+  for (int k = 0; k < 3; ++k) {
+    const auto axis = static_cast<std::size_t>(k);
+    if (!held[axis]) state.momentum[k] += impulse.linear[k];
+    if (!held[axis + 3]) state.angular_momentum[k] += impulse.angular[k];
+  }
   try {
     return components::drift(body, state, dt);
   } catch (const components::BadValue& bad) {

@@ -22,14 +22,12 @@ struct RigidBody {
   components::MassProperties properties{};
   /// Null where it moves as the forces on it will have it.
   const BodyDrive* drive = nullptr;
-  /// Faces of the domain against which it may lie, as [axis][side]: it is driven along these mirrors, without turning.
-  std::array<std::array<bool, 2>, 3> touchable{};
+  /// Mirrors against which it may lie: see touchable_mirrors.
+  Sides touchable{};
+  /// What mirrors on which it starts leave no room for: it stays at rest.
+  components::Held still = components::nothing_held;
 
-  components::Held held() const
-  {
-    if (drive == nullptr) return components::Held::nothing;
-    return drive->turns ? components::Held::translation : components::Held::all;
-  }
+  components::Held held() const;
 };
 
 /// Where the rigid bodies are, by material, and how they move; materials that are none have nothing here.
@@ -80,14 +78,32 @@ components::RigidState accelerated(const components::MassProperties& body, const
 components::RigidState driven(const components::MassProperties& body, const BodyDrive& drive,
                               const components::RigidState& free, double time, double dt);
 
-/// Mirroring faces along which a body is driven without turning, as [axis][side].
-std::array<std::array<bool, 2>, 3> touchable_faces(const Scene& scene, const SceneBody& body);
+/// The mirrors that a body lies on at the start, to within half the spacing of its particles: planes of symmetry of the
+/// whole of which it is a part.
+Sides mirrors_beneath(const Scene& scene, const SceneBody& body);
+
+/// The mirrors against which a rigid body may lie: those along which it is driven without turning; for one that is not
+/// driven, or turns, those on which it starts.
+Sides touchable_mirrors(const Scene& scene, const SceneBody& body);
+
+/// The components of a motion that the whole of a body does not have, whose planes of symmetry are normal to these
+/// axes: along a plane's normal, and spins about other axes.
+components::Held still_on_planes(const std::array<bool, 3>& normal_to);
+
+/// The rigid body of a scene of which the scene's body number `body` tells, but for its mass properties.
+RigidBody make_rigid_body(const Scene& scene, int body);
+
+/// What the body's particles have together; where it lies on mirrors, as a part of the whole.
+components::MassProperties within_whole(const RigidBody& body, const runtime::Grid& grid,
+                                        const components::MassProperties& of_particles);
+
+/// The state without the momenta that mirrors leave no room for, which forces on the part alone, or rounding, give.
+components::RigidState at_rest_across_mirrors(const RigidBody& body, const components::RigidState& state);
 
 /// Do the nodes that a particle at `x` reaches lie within the grid, whose edges nothing is known to hold, but for the
 /// `touchable` ones? `reach` is how far it reaches in cells.
 template <int D>
-bool is_off_edges(const runtime::Grid& grid, double reach, const std::array<std::array<bool, 2>, 3>& touchable,
-                  const Vector<D>& x)
+bool is_off_edges(const runtime::Grid& grid, double reach, const Sides& touchable, const Vector<D>& x)
 {
   const double distance = reach * grid.cell_size;
   for (int k = 0; k < D; ++k) {
@@ -101,6 +117,6 @@ bool is_off_edges(const runtime::Grid& grid, double reach, const std::array<std:
 /// The body at the end of a step of length `dt` in which contact gave it `impulse`, as far as it is not held, and body
 /// forces the rest of the momenta of `free`. Throws SimulationError for one that spins too fast to be followed.
 components::RigidState moved(const components::MassProperties& body, const components::RigidState& free,
-                             const ContactImpulses::Impulse& impulse, components::Held held, double dt);
+                             const ContactImpulses::Impulse& impulse, const components::Held& held, double dt);
 
 }  // namespace tamp::tasks

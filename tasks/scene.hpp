@@ -35,6 +35,9 @@ namespace tamp::tasks
 
 using Triple = std::array<double, 3>;
 
+/// Something of each face of the domain, as [axis][side]; side 0 is the lower.
+using Sides = std::array<std::array<bool, 2>, 3>;
+
 /// The kinds of the grid's faces. `friction`, a wall that may be left, with Coulomb's friction, has a coefficient in
 /// place of a word.
 enum class Face { symmetry, open, friction, no_slip, periodic };
@@ -174,6 +177,10 @@ struct SceneBody {
   /// disk without one may have its layout alone.
   components::BodyFunctions functions{};
 
+  /// Faces of the grid at which its solid has been cut in halves: `solid` is the part within.
+  Sides cut{};
+
+  bool is_cut() const { return cut != Sides{}; }
   bool is_pressed() const { return pressure.has_value() || functions.pressure; }
 };
 

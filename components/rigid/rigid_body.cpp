@@ -34,6 +34,20 @@ MassProperties mass_properties(std::span<const double> mass, std::span<const Vec
   return body;
 }
 
+MassProperties half_of_whole(const MassProperties& half, int axis, double place)
+{
+  MassProperties body = half;
+  Matrix3 second = half.second_moment();
+  const double arm = half.centre[axis] - place, across = second(axis, axis) + half.mass * arm * arm;
+  second.row(axis).setZero();
+  second.col(axis).setZero();
+  second(axis, axis) = across;
+  body.centre[axis] = place;
+  body.inertia = second.trace() * Matrix3::Identity() - second;
+  body.inverse_inertia = body.inertia.inverse();
+  return body;
+}
+
 Matrix3 inertia_now(const MassProperties& body, const RigidState& state)
 {
   const Matrix3 turn = state.orientation.toRotationMatrix();

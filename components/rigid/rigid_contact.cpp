@@ -25,20 +25,42 @@ void RigidCoupling::add(const NodeContact& contact, const Vector3& arm)
   right_side += node_velocity.transpose() * (contact.coupling * contact.velocity);
 }
 
-RigidMotion RigidCoupling::solve(const MassProperties& body, const RigidState& free, Held held) const
+namespace
 {
-  if (held == Held::all) return motion_of(body, free);
+
+/// Puts in place of the equations of components that are held, that they are those of the free motion.
+void hold(const Held& held, const MassProperties& body, const RigidState& free, RigidCoupling::Matrix6& with_body,
+          RigidCoupling::Vector6& momenta)
+{
+  const Matrix3 inertia = inertia_now(body, free);
+  const Vector3 spin = angular_velocity(body, free);
+  for (int k = 0; k < 3; ++k) {
+    const auto translation = static_cast<std::size_t>(k), rotation = translation + 3;
+    if (held[translation]) {
+      with_body.row(k).setZero();
+      with_body(k, k) = body.mass;
+      momenta[k] = free.momentum[k];
+    }
+    if (held[rotation]) {
+      with_body.row(k + 3).setZero();
+      with_body(k + 3, k + 3) = inertia(k, k);
+      momenta[k + 3] = inertia(k, k) * spin[k];
+    }
+  }
+}
+
+}  // namespace
+
+RigidMotion RigidCoupling::solve(const MassProperties& body, const RigidState& free, const Held& held) const
+{
+  if (held == all_held) return motion_of(body, free);
   Matrix6 with_body = matrix;
   with_body.topLeftCorner<3, 3>() += body.mass * Matrix3::Identity();
   with_body.bottomRightCorner<3, 3>() += inertia_now(body, free);
   Vector6 momenta = right_side;
   momenta.head<3>() += free.momentum;
   momenta.tail<3>() += free.angular_momentum;
-  if (held == Held::translation) {
-    with_body.topRows<3>().setZero();
-    with_body.topLeftCorner<3, 3>() = body.mass * Matrix3::Identity();
-    momenta.head<3>() = free.momentum;
-  }
+  if (held != nothing_held) hold(held, body, free, with_body, momenta);
   // Scaled so that momenta and angular momenta pivot alike.
   const Vector6 scale = with_body.diagonal().cwiseSqrt().cwiseInverse();
   const Matrix6 scaled = scale.asDiagonal() * with_body * scale.asDiagonal();

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <tuple>
 
 #include "components/rigid/rigid_body.hpp"
@@ -27,8 +28,10 @@ struct NodeContact {
 NodeContact node_contact(double mass, const Vector3& normal, double friction, const Vector3& free,
                          const Vector3& velocity);
 
-/// Components of a body's motion that contact cannot change, as they are driven.
-enum class Held { nothing, translation, all };
+/// Which components of a body's motion contact cannot change, as they are driven or a plane of symmetry lies across
+/// them: the velocity of the centre along each axis, then the spin about each.
+using Held = std::array<bool, 6>;
+inline constexpr Held nothing_held{}, translation_held{true, true, true}, all_held{true, true, true, true, true, true};
 
 /// Sums of all nodes' contact, from which the motion of the body after it follows.
 struct RigidCoupling {
@@ -46,7 +49,8 @@ struct RigidCoupling {
 
   /// The motion of a body which has `free` momenta before contact: the one whose change of momentum is minus the sum of
   /// all J. Implicit in the body's own velocity, so that it holds however light the body is beside what it touches.
-  RigidMotion solve(const MassProperties& body, const RigidState& free, Held held = Held::nothing) const;
+  /// What is held keeps its part of the free motion.
+  RigidMotion solve(const MassProperties& body, const RigidState& free, const Held& held = nothing_held) const;
 };
 
 }  // namespace tamp::components

@@ -27,8 +27,9 @@ runtime::TaskList accelerate_rigid_bodies(const Method<D>& method)
                 const double kick = 0.5 * (at.step.previous_size + at.step.size);
                 for (const RigidBody& body : method.rigid_bodies) {
                   components::RigidState& state = free.of(body);
-                  state = accelerated(body.properties, before.of(body), in_space<D>(method.gravity), method.centrifuge,
-                                      at.step.time, kick);
+                  state = at_rest_across_mirrors(
+                      body, accelerated(body.properties, before.of(body), in_space<D>(method.gravity),
+                                        method.centrifuge, at.step.time, kick));
                   if (body.drive == nullptr) continue;
                   const Eigen::Vector3d undriven = state.momentum;
                   state = driven(body.properties, *body.drive, state, at.step.time, at.step.size);

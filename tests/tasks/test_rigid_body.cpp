@@ -451,7 +451,7 @@ TEST_CASE("a rigid body that spins too fast to be followed is a failure of the s
   ContactImpulses::Impulse impulse;
   impulse.angular = {0, 1e12, 0};
 
-  CHECK_THROWS_AS(moved(body, {}, impulse, components::Held::nothing, 0.1), SimulationError);
+  CHECK_THROWS_AS(moved(body, {}, impulse, components::nothing_held, 0.1), SimulationError);
 }
 
 }  // namespace test_rigid_body

@@ -8,6 +8,7 @@
 #include "tasks/rigid_body.hpp"
 #include "tasks/set_up/body_sites.hpp"
 #include "tools/scene/place_text.hpp"
+#include "tools/scene/symmetry.hpp"
 
 namespace tamp::tools
 {
@@ -71,15 +72,15 @@ bool share_a_node(const tasks::Scene& scene, const tasks::SceneBody& body, const
 template <int D>
 void check_rigid(const tasks::Scene& scene, const tasks::SceneBody& body, const JsonReader& bodies)
 {
-  const auto touchable = tasks::touchable_faces(scene, body);
+  const auto touchable = tasks::touchable_mirrors(scene, body);
   const auto is_off_edges = [&](const Vector<D>& x) {
     return tasks::is_off_edges<D>(scene.grid, scene.reach_of(body.material), touchable, x);
   };
   const auto places = tasks::sites_of<D>(scene, body);
   if (!std::all_of(places.begin(), places.end(), is_off_edges)) {
     bodies.add_problem(body.name, "rigid, and less than a cell from the edge of the grid",
-                       "expected all nodes that it reaches to lie within the grid, but for \"symmetry\" faces along "
-                       "which it is driven without turning");
+                       "expected all nodes that it reaches to lie within the grid, but for \"symmetry\" faces on "
+                       "which it lies or along which it is driven without turning");
   }
   for (const tasks::SceneBody& other : scene.bodies) {
     if (&other == &body) continue;
@@ -94,7 +95,84 @@ void check_rigid(const tasks::Scene& scene, const tasks::SceneBody& body, const 
   }
 }
 
+/// A body at a plane of symmetry, whose whole does what its image does, too.
+struct MirroredBody {
+  const tasks::Scene& scene;
+  const tasks::SceneBody& body;
+  std::size_t axis;
+  std::size_t side;
+  const JsonReader& root;
+
+  std::string plane() const { return fmt::format("{}{}", "xyz"[axis], "-+"[side]); }
+
+  void add_problem(const std::string& key, const std::string& found) const
+  {
+    root.document().add_problem(root.pointer("bodies") / body.name / key,
+                                fmt::format("{} the plane of symmetry {}, on which the body lies", found, plane()),
+                                "expected what the mirror image in that plane has, too");
+  }
+
+  void check_motion() const
+  {
+    const bool is_driven_across = body.drive && body.drive->motion.has_part_along(static_cast<int>(axis));
+    if (is_driven_across) add_problem("driven", "a motion across");
+    if (!body.drive && body.velocity[axis] != 0) add_problem("velocity", "a velocity across");
+    for (std::size_t k = 0; k < 3; ++k) {
+      if (k != axis && body.angular_velocity[k] != 0)
+        return add_problem("angular_velocity", "a spin that turns it out of");
+    }
+  }
+
+  void check_axis() const
+  {
+    if (!body.axis) return;
+    const double place = scene.grid.coordinate(static_cast<int>(axis), side == 0 ? 0 : scene.grid.n_cells[axis]);
+    const auto is_off = [&](const tasks::Triple& end) {
+      return std::abs(end[axis] - place) > 1e-9 * scene.grid.cell_size;
+    };
+    if (is_off(body.axis->nose)) add_problem("nose", "a place beside");
+    if (is_off(body.axis->tail)) add_problem("tail", "a place beside");
+  }
+};
+
+/// The planes of symmetry that a body is cut by, or held on.
+tasks::Sides planes_through(const tasks::Scene& scene, const tasks::SceneBody& body)
+{
+  if (!body.rigid || (body.drive && !body.drive->turns)) return body.cut;
+  return tasks::mirrors_beneath(scene, body);
+}
+
+/// The loads of a scene with a plane of symmetry, on which a body lies.
+void check_mirrored_loads(const tasks::Scene& scene, const tasks::SceneBody& body, std::size_t axis, std::size_t side,
+                          const JsonReader& root)
+{
+  if (loads_are_mirrored(scene, axis)) return;
+  const std::string of =
+      fmt::format(" the plane of symmetry {}{}, on which body \"{}\" lies", "xyz"[axis], "-+"[side], body.name);
+  if (scene.gravity[axis] != 0) return root.add_problem("gravity", "a part across" + of, "expected gravity along it");
+  root.add_problem("centrifuge", "an axis that is not the normal of" + of,
+                   "expected another frame, as the Coriolis force drives motion in the plane out of it");
+}
+
 }  // namespace
+
+void check_mirrored_bodies(const tasks::Scene& scene, const JsonReader& root)
+{
+  tasks::Sides seen{};
+  for (const tasks::SceneBody& body : scene.bodies) {
+    const tasks::Sides planes = planes_through(scene, body);
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      for (std::size_t side = 0; side < 2; ++side) {
+        if (!planes[axis][side]) continue;
+        const MirroredBody mirrored{scene, body, axis, side, root};
+        mirrored.check_motion();
+        mirrored.check_axis();
+        if (!seen[axis][side]) check_mirrored_loads(scene, body, axis, side, root);
+        seen[axis][side] = true;
+      }
+    }
+  }
+}
 
 void check_no_overlap(const tasks::Scene& scene, const JsonReader& bodies)
 {

@@ -10,6 +10,7 @@
 #include "tasks/method.hpp"
 #include "tasks/set_up/body_sites.hpp"
 #include "tasks/set_up/settled_sand.hpp"
+#include "tools/scene/cut_solid.hpp"
 #include "tools/scene/place_text.hpp"
 #include "tools/scene/read_pressure.hpp"
 #include "tools/scene/read_problem.hpp"
@@ -27,20 +28,6 @@ Vector<D> point(JsonReader& reader, const std::string& key)
 {
   const std::vector<double> numbers = reader.numbers(key);
   return Eigen::Map<const Vector<D>>(numbers.data());
-}
-
-/// Does the solid keep within the grid? Lengths that are equal but for rounding are equal.
-template <int D>
-bool within_grid(const components::Solid<D>& solid, const runtime::Grid& grid)
-{
-  const components::Box<D> box = solid.bounding_box();
-  const double slack = 1e-9 * grid.cell_size;
-  for (int axis = 0; axis < D; ++axis) {
-    const double lower = grid.coordinate(axis, 0);
-    const double upper = grid.coordinate(axis, grid.n_cells[static_cast<std::size_t>(axis)]);
-    if (box.lower[axis] < lower - slack || box.upper[axis] > upper + slack) return false;
-  }
-  return true;
 }
 
 /// The keys nose and tail, which go together.
@@ -233,16 +220,19 @@ std::optional<tasks::SceneBody> read(const std::string& name, JsonReader& reader
   const bool materials_are_good = scene.materials.size() == material_names.size();
   if (!solid || material.empty() || !grid_is_good || !materials_are_good || !problem_is_good) return std::nullopt;
 
-  if (!within_grid(*solid, scene.grid)) {
-    const components::Box<D> box = solid->bounding_box();
-    reader.add_problem("geometry", fmt::format("reaches from {} to {}", text<D>(box.lower), text<D>(box.upper)),
-                       "expected it to lie within the grid");
-    return std::nullopt;
-  }
   const auto at = std::find(material_names.begin(), material_names.end(), material) - material_names.begin();
   const int number = static_cast<int>(at);
-  if (!has_room_for(*solid, scene, number, reader.document())) return std::nullopt;
-  tasks::SceneBody body{name, number, *solid, {0, 0, 0}, 0};
+  const auto mirrors = mirrors_crossed<D>(*solid, scene, reader);
+  if (!mirrors || !has_room_for(*solid, scene, number, reader.document())) return std::nullopt;
+  const auto part = cut_at_mirrors<D>(*solid, *mirrors, scene, number, reader);
+  if (!part) return std::nullopt;
+  tasks::SceneBody body{name, number, *part, {0, 0, 0}, 0};
+  body.cut = *mirrors;
+  if (body.is_cut() && (problem || on_rings)) {
+    reader.add_problem(problem ? "problem" : "particles", "a body that a \"symmetry\" face cuts",
+                       "expected one that lies within the grid, or particles in the lattice");
+    return std::nullopt;
+  }
   if (problem) {
     auto functions = functions_of(*problem, reader, scene, scene.materials[static_cast<std::size_t>(number)]);
     if (!functions) return std::nullopt;

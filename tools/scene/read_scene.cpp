@@ -311,6 +311,7 @@ class SceneReader
     check_no_overlap(scene_, root_.object("bodies"));
     check_rigid_bodies(scene_, root_.object("bodies"));
     if (scene_.axisymmetric) check_axisymmetric_bodies(scene_, root_.object("bodies"));
+    check_mirrored_bodies(scene_, root_);
   }
 
   int material_number(const std::string& name) const

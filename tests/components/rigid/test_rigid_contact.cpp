@@ -71,6 +71,34 @@ TEST_CASE("friction at a rigid body is Coulomb's, and nothing holds what parts")
   CHECK((impulse - Vector3(0.5 * 6, 0, -6)).norm() < 1e-14);
 }
 
+TEST_CASE("half of the nodes of a symmetric contact solve for the motion of the whole in its plane")
+{
+  // The whole, symmetric about z = 0, and the half of it at z > 0, whose centre lies on the plane.
+  const MassProperties whole = cube(2), half = cube(1);
+  RigidState of_whole, of_half;
+  of_whole.momentum = {1, -4, 0};
+  of_whole.angular_momentum = {0, 0, 0.3};
+  of_half.momentum = 0.5 * of_whole.momentum;
+  of_half.angular_momentum = 0.5 * of_whole.angular_momentum;
+  const Held held{false, false, true, true, true, false};
+  RigidCoupling by_whole, by_half;
+  for (const double side : {-1.0, 1.0}) {
+    for (const double x : {-0.3, 0.1, 0.4}) {
+      const Vector3 arm(x, -0.5, 0.2 * side), normal = Vector3(0.1, -1, 0.3 * side).normalized();
+      const NodeContact contact = node_contact(0.7, normal, 0.3, motion_of(whole, of_whole).at(arm), {0, 0.5, 0});
+      by_whole.add(contact, arm);
+      if (side > 0) by_half.add(contact, arm);
+    }
+  }
+
+  const RigidMotion expected = by_whole.solve(whole, of_whole), found = by_half.solve(half, of_half, held);
+
+  CHECK((found.velocity - expected.velocity).norm() < 1e-14);
+  CHECK((found.spin - expected.spin).norm() < 1e-14);
+  CHECK(found.velocity.z() == 0);
+  CHECK(found.spin.head<2>() == Eigen::Vector2d::Zero());
+}
+
 TEST_CASE("without contact a rigid body keeps its motion")
 {
   const MassProperties body = cube(3);

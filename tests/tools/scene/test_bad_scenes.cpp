@@ -363,6 +363,8 @@ TEST_CASE("the normal of a contact is a material's or a word, which no material 
 TEST_CASE("bodies that hold nothing, leave the grid or overlap are refused")
 {
   const std::string geometry = "scene.json#/bodies/block/geometry: ";
+  const std::string within_or_cut =
+      "; expected it to lie within the grid, or to be cut in halves by a \"symmetry\" face";
   const std::string overlap = "/bodies/second: overlaps body \"block\", at ";
   const std::string second = "/bodies/second={'material':'steel','geometry':{'type':'box','lower':";
   const std::string fine =
@@ -375,7 +377,15 @@ TEST_CASE("bodies that hold nothing, leave the grid or overlap are refused")
           "*#/bodies/a.b: a name with other characters; expected letters, digits, - and _ only*"},
          {"/bodies/block/material=stel", "/bodies/block/material: \"stel\"; expected steel, did you mean \"steel\"?"},
          {"/bodies/block/geometry/upper=[1,2.5]",
-          geometry + "reaches from [0, 0] to [1, 2.5]; expected it to lie within the grid"},
+          geometry +
+              "reaches beyond y+, the plane y = 2 m, and is not symmetric about it: the image of its place "
+              "[0.25, 0.25] is not in it" +
+              within_or_cut},
+         {"/bodies/block/geometry/upper=[1,2.5] /boundaries/y+=open",
+          geometry + "reaches from [0, 0] to [1, 2.5]" + within_or_cut},
+         {"/bodies/block/geometry/upper=[1,4]", ""},
+         {"/bodies/block/geometry/upper=[1,4] /boundaries/y+={'friction':0.1}",
+          geometry + "reaches from [0, 0] to [1, 4]" + within_or_cut},
          {"/bodies/block/geometry/upper=[-1,1]", geometry + "box from*lower < upper*"},
          {"/bodies/block/geometry/upper=[0.1,0.1]",
           geometry + "holds no particle; expected a shape that holds a site of the particle lattice, whose spacing is "
@@ -465,18 +475,20 @@ TEST_CASE("rigid bodies whose contact nothing could tell are refused")
   check(problems_with,
         {{"/bodies/block/rigid=1", "/bodies/block/rigid: 1; expected true or false"},
          {"/bodies/block/angular_velocity=[1,2,3]", "/bodies/block/angular_velocity: [1,2,3]; expected 1 numbers"}});
-  check(problems_with, "/grid/upper=[9,9] /bodies/block" + body + "'lower':[2,2],'upper':[3,3]}}",
-        {{"", ""},
-         {"/particles_per_cell=[1,1]",
-          "/bodies/block/rigid: a rigid body of one particle; expected two or more, so that it has an orientation"},
-         {other + "'lower':[6,6],'upper':[7,7]}}",
-          "*#/bodies/block: rigid, but of one material with body \"other\"; expected a material of its own*"},
-         {"/bodies/block/geometry/lower=[0,2]",
-          "/bodies/block: rigid, and less than a cell from the edge of the grid; expected all nodes that it reaches to "
-          "lie within the grid, but for \"symmetry\" faces along which it is driven without turning"},
-         {other + "'lower':[3,2],'upper':[4,3]}}" + iron,
-          "*so near to the rigid body \"block\" that they meet; expected one of them to be deformable*"},
-         {other + "'lower':[4,2],'upper':[5,3]}}" + iron, ""}});
+  check(
+      problems_with, "/grid/upper=[9,9] /bodies/block" + body + "'lower':[2,2],'upper':[3,3]}}",
+      {{"", ""},
+       {"/particles_per_cell=[1,1]",
+        "/bodies/block/rigid: a rigid body of one particle; expected two or more, so that it has an orientation"},
+       {other + "'lower':[6,6],'upper':[7,7]}}",
+        "*#/bodies/block: rigid, but of one material with body \"other\"; expected a material of its own*"},
+       {"/bodies/block/geometry/lower=[0,2]", ""},
+       {"/bodies/block/geometry/lower=[0,2] /boundaries/x-=open",
+        "*#/bodies/block: rigid, and less than a cell from the edge of the grid; expected all nodes that it reaches to "
+        "lie within the grid, but for \"symmetry\" faces on which it lies or along which it is driven without turning"},
+       {other + "'lower':[3,2],'upper':[4,3]}}" + iron,
+        "*so near to the rigid body \"block\" that they meet; expected one of them to be deformable*"},
+       {other + "'lower':[4,2],'upper':[5,3]}}" + iron, ""}});
 }
 
 TEST_CASE("a driven body is rigid, is driven in one way, and starts as it is driven")
@@ -516,8 +528,37 @@ TEST_CASE("a driven body may lie against a mirror along which it goes without tu
         "/bodies/block/geometry/upper=[1,3] /boundaries/x-=symmetry",
         {{how + "{'velocity':[0,-1]}", ""},
          {how + "{'velocity':[1,-1]}", is_near},
-         {how + "{'velocity':[0,-1],'rotation':'free'}", is_near},
+         {how + "{'velocity':[0,-1],'rotation':'free'}", ""},
+         {how + "{'velocity':[1,-1],'rotation':'free'}", "*#/bodies/block/driven: a motion across the plane*"},
          {how + "{'velocity':[0,-1]} /boundaries/x-=open", is_near}});
+}
+
+TEST_CASE("half of a scene that is not symmetric is refused where it is not")
+{
+  const std::string on_plane =
+      " the plane of symmetry x-, on which the body lies; expected what the mirror image in "
+      "that plane has, too";
+  const std::string at_plane = " the plane of symmetry x-, on which body \"block\" lies; expected gravity along it";
+  const std::string block = "/bodies/block/";
+
+  check(problems_with, "/grid/upper=[9,9] /bodies/block/geometry/lower=[-1,2] /bodies/block/geometry/upper=[1,3]",
+        {{"", ""},
+         {"/bodies/block/rigid=true", ""},
+         {"/bodies/block/velocity=[0,-1]", ""},
+         {"/bodies/block/velocity=[1,-1]", block + "velocity: a velocity across" + on_plane},
+         {"/bodies/block/angular_velocity=[2]", block + "angular_velocity: a spin that turns it out of" + on_plane},
+         {"/bodies/block/nose=[0,2] /bodies/block/tail=[0,3]", ""},
+         {"/bodies/block/nose=[0.5,2] /bodies/block/tail=[0,3]", block + "nose: a place beside" + on_plane},
+         {"/gravity=[1,0]", "/gravity: a part across" + at_plane},
+         {"/bodies/block/geometry/upper=[1.5,3]",
+          "scene.json#" + block +
+              "geometry: reaches beyond x-*is not symmetric about it*cut in halves by a \"symmetry\" face"}});
+  check(problems_with,
+        "/grid/upper=[9,9] /bodies/block/rigid=true /bodies/block/geometry/lower=[0,2] "
+        "/bodies/block/geometry/upper=[1,3]",
+        {{"", ""},
+         {"/bodies/block/velocity=[-1,0]", block + "velocity: a velocity across" + on_plane},
+         {"/boundaries/x-=open", "*#/bodies/block: rigid, and less than a cell from the edge*"}});
 }
 
 TEST_CASE("fields to be written are named once each, and of the scene's materials")
