@@ -17,6 +17,7 @@
 #include "tools/scene/print_json.hpp"
 #include "tools/scene/read_scene.hpp"
 #include "tools/scene/round_scene.hpp"
+#include "tools/scene/symmetry.hpp"
 #include "tools/system/console.hpp"
 
 namespace tamp::tools
@@ -90,6 +91,7 @@ void check(const CheckArguments& options)
   add_pace(scene, {}, forecast);
   print_err("  {}\n", description(forecast));
   for (const std::string& line : advice(scene, forecast.pace)) print_err("  advice  {}\n", line);
+  if (const auto to_halve = advice_to_halve(scene)) print_err("  advice  {}\n", *to_halve);
 }
 
 }  // namespace

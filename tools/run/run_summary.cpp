@@ -9,6 +9,7 @@
 
 #include "tools/run/monitors.hpp"
 #include "tools/scene/penetration.hpp"
+#include "tools/scene/symmetry.hpp"
 #include "tools/system/version.hpp"
 
 namespace tamp::tools
@@ -124,6 +125,22 @@ Json to_json(const Forecast& forecast)
   return json;
 }
 
+/// How many times the scene is in the whole that it is a part of, by its planes of symmetry.
+Json part_of_whole(const tasks::Scene& scene)
+{
+  const tasks::Sides faces = planes_of_symmetry(scene);
+  int factor = 1;
+  Json planes = Json::array();
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    for (std::size_t side = 0; side < 2; ++side) {
+      if (!faces[axis][side]) continue;
+      factor *= 2;
+      planes.push_back(fmt::format("{}{}", "xyz"[axis], "-+"[side]));
+    }
+  }
+  return {{"factor", factor}, {"planes", planes}};
+}
+
 Json output(const RunOutcome& outcome)
 {
   const OutputTime& time = outcome.output;
@@ -225,6 +242,7 @@ Json run_summary(tasks::Simulation& simulation, const RunHistory& history, const
           {"inputs", to_json(outcome.inputs)},
           {"left_out", outcome.left_out},
           {"state_digest", simulation.digest()},
+          {"part_of_whole", part_of_whole(simulation.scene())},
           {"bodies", bodies(simulation, history)},
           {"materials", materials(simulation, history)},
           {"greatest", greatest(history)},

@@ -1,0 +1,75 @@
+#include "tools/scene/symmetry.hpp"
+
+#include <catch2/catch.hpp>
+
+#include "tests/tools/scene/small_scene.hpp"
+
+namespace test_symmetry_of_scenes
+{
+
+using namespace tamp;
+using namespace tamp::test;
+
+namespace
+{
+
+tasks::Scene scene_with(const std::vector<std::string>& assignments)
+{
+  const TemporaryFolder folder;
+  return tools::read_scene(folder.write("scene.json", small_scene), assignments).scene;
+}
+
+tasks::Scene shipped(const std::string& file, const std::vector<std::string>& assignments = {})
+{
+  return tools::read_scene(TAMP_SOURCE_DIR "/inputs/" + file, assignments).scene;
+}
+
+/// The small scene's block in the middle of its grid, of 4 cells along each axis.
+std::vector<std::string> centred(const std::string& change)
+{
+  return {"/grid/cell_size=0.5", "/bodies/block/geometry/lower=[0.5,0.5]", "/bodies/block/geometry/upper=[1.5,1.5]",
+          change};
+}
+
+using Axes = std::vector<std::size_t>;
+
+}  // namespace
+
+TEST_CASE("a scene is symmetric about the middle of its grid where all in it is")
+{
+  CHECK(tools::symmetric_axes(scene_with(centred("/title=block"))) == Axes{0, 1});
+  CHECK(tools::symmetric_axes(scene_with(centred("/bodies/block/velocity=[0,-1]"))) == Axes{0});
+  CHECK(tools::symmetric_axes(scene_with(centred("/bodies/block/angular_velocity=[1]"))).empty());
+  CHECK(tools::symmetric_axes(scene_with(centred("/gravity=[0,-10]"))) == Axes{0});
+  CHECK(tools::symmetric_axes(scene_with(centred("/boundaries/y+=open"))) == Axes{0});
+  CHECK(tools::symmetric_axes(scene_with(centred("/boundaries/x-={\"friction\":0.1}"))) == Axes{1});
+  CHECK(tools::symmetric_axes(scene_with({})).empty());
+  CHECK(tools::symmetric_axes(shipped("uxo/quick.json")).empty());
+  CHECK(tools::symmetric_axes(shipped("uxo/quick.json", {"/centrifuge=null"})) == Axes{1});
+}
+
+TEST_CASE("the advice to halve a scene is a scene that is not symmetric any more")
+{
+  const auto advice = tools::advice_to_halve(shipped("punch/quick.json"));
+
+  REQUIRE(advice);
+  CHECK(advice->find("symmetric about x = 0.5: half of the scene") == 0);
+  CHECK(advice->find("/grid/lower=[0.5,0] /grid/patches=[1,2]") != std::string::npos);
+  CHECK_FALSE(tools::advice_to_halve(shipped("punch/quick.json", {"/grid/lower=[0.5,0]", "/grid/patches=[1,2]"})));
+}
+
+TEST_CASE("planes of symmetry are those that cut a body or along which one moves, and no walls of a box")
+{
+  const tasks::Sides none{}, x{{{true, false}, {}, {}}}, y{{{}, {true, false}, {}}},
+      xy{{{true, false}, {true, false}, {}}};
+
+  CHECK(tools::planes_of_symmetry(shipped("punch/quick.json")) == none);
+  CHECK(tools::planes_of_symmetry(shipped("punch/half.json")) == x);
+  CHECK(tools::planes_of_symmetry(shipped("uxo/half.json")) == y);
+  CHECK(tools::planes_of_symmetry(shipped("cone/quick.json")) == xy);
+  CHECK(tools::planes_of_symmetry(scene_with({"/bodies/block/velocity=[0,-1]"})) == x);
+  CHECK(tools::planes_of_symmetry(
+            scene_with({"/bodies/block/geometry/upper=[2,1]", "/bodies/block/velocity=[0,-1]"})) == none);
+}
+
+}  // namespace test_symmetry_of_scenes
