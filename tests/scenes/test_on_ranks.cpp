@@ -15,8 +15,8 @@ TEST_CASE("every shipped scene has the same digest on any ranks and threads", "[
     const char* file;
     int n_steps;
   };
-  const Shipped shipped =
-      GENERATE(Shipped{"quick.json", 60}, Shipped{"table.json", 12}, Shipped{"svr.json", 12}, Shipped{"mlp.json", 12});
+  const Shipped shipped = GENERATE(Shipped{"quick.json", 60}, Shipped{"half.json", 60}, Shipped{"table.json", 12},
+                                   Shipped{"svr.json", 12}, Shipped{"mlp.json", 12});
   const auto checked = tools::read_scene(std::filesystem::path(TAMP_SOURCE_DIR) / "inputs/punch" / shipped.file, {});
   const auto digest = [&](int n_threads, const runtime::Communicator& communicator) {
     const auto simulation = tasks::Simulation::make(
