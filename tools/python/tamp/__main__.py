@@ -30,7 +30,7 @@ COMMANDS = {
     "stress-tolerance": "methods.stress_tolerance",
     "digests": "checks.digests", "failures": "checks.failures", "forecasts": "checks.forecasts",
     "kill-and-restart": "checks.kill_and_restart", "many-patches": "checks.many_patches",
-    "mutations": "checks.mutations", "same-bits": "checks.same_bits",
+    "mutations": "checks.mutations", "same-bits": "checks.same_bits", "savings": "checks.savings",
     "scaling": "checks.scaling", "schema": "checks.schema",
 }
 

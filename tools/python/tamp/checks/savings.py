@@ -1,0 +1,97 @@
+"""Shows what a cheaper scene saves, and that it says the same: pairs of scenes, side by side.
+
+Each pair is run on one thread, in turns, and the least of the times counts; nothing else should run meanwhile. A row
+has the steps and the core-seconds of both, how much cheaper the second is, and by how much what is compared differs. It
+prints the tables of docs/savings.md.
+"""
+
+import argparse
+import pathlib
+import tempfile
+from typing import NamedTuple
+
+from tamp import options as words
+from tamp import program, results
+from tamp.markdown import print_head, print_row
+
+
+class Run(NamedTuple):
+    scene: str  # below inputs
+    settings: dict = {}
+
+
+class Certificate(NamedTuple):
+    """A scene and one that is to say the same for less; `body` is whose `quantity` of the summary is compared."""
+
+    name: str
+    whole: Run
+    part: Run
+    body: str
+    quantity: str = "depth_m"
+
+
+MILLISECOND = {"/time/end": 1e-3}
+RIGID = {"/bodies/punch/rigid": True}
+HALF_OF_PUNCH = {"/grid/lower": [0.5, 0], "/grid/patches": [1, 2]}
+WITHOUT_TURNING = {"/centrifuge": None, "/gravity": [0, 0, -196.2], "/time/end": 4e-4}
+PROJECTILE = "/bodies/projectile"
+STRAIGHT_DOWN = {**WITHOUT_TURNING, f"{PROJECTILE}/geometry/rotation/angle": 270,
+                 f"{PROJECTILE}/geometry/translation": [0.075, 0.05, 0.1085],
+                 f"{PROJECTILE}/nose": [0.075, 0.05, 0.1085], f"{PROJECTILE}/tail": [0.075, 0.05, 0.1495],
+                 f"{PROJECTILE}/velocity": [0, 0, -283]}
+
+CERTIFICATES = {
+    "half": [
+        Certificate("punch, deformable: half", Run("punch/quick.json", MILLISECOND),
+                    Run("punch/quick.json", {**MILLISECOND, **HALF_OF_PUNCH}), "punch"),
+        Certificate("punch, rigid: half", Run("punch/quick.json", {**MILLISECOND, **RIGID}),
+                    Run("punch/half.json", MILLISECOND), "punch"),
+        Certificate("punch, deformable: half and rigid", Run("punch/quick.json", MILLISECOND),
+                    Run("punch/half.json", MILLISECOND), "punch"),
+        Certificate("projectile at 45 degrees: half", Run("uxo/quick.json", WITHOUT_TURNING),
+                    Run("uxo/half.json", {"/time/end": 4e-4}), "projectile"),
+        Certificate("projectile straight down: half", Run("uxo/quick.json", STRAIGHT_DOWN),
+                    Run("uxo/quick.json", {**STRAIGHT_DOWN, "/grid/lower": [0, 0.05, 0]}), "projectile"),
+        Certificate("projectile straight down: quarter", Run("uxo/quick.json", STRAIGHT_DOWN),
+                    Run("uxo/quick.json", {**STRAIGHT_DOWN, "/grid/lower": [0.075, 0.05, 0]}), "projectile"),
+    ],
+}
+
+
+def measure(tamp, run, folder):
+    """(user seconds, summary)"""
+    seconds, _ = program.timed_run(tamp, program.INPUTS / run.scene, folder, settings=run.settings)
+    return seconds, results.summary(folder)
+
+
+def row_of(tamp, certificate, n_times):
+    with tempfile.TemporaryDirectory() as place:
+        pairs = [[measure(tamp, run, pathlib.Path(place, "run")) for run in (certificate.whole, certificate.part)]
+                 for _ in range(n_times)]
+    seconds = [min(pair[i][0] for pair in pairs) for i in range(2)]
+    summaries = [pairs[0][i][1] for i in range(2)]
+    values = [summary["bodies"][certificate.body][certificate.quantity] for summary in summaries]
+    return [certificate.name, " / ".join(f"{summary['steps']:,}" for summary in summaries),
+            " / ".join(f"{s:.2f}" for s in seconds), f"{seconds[0] / seconds[1]:.2f}",
+            " / ".join(f"{value:.6g}" for value in values), f"{abs(values[1] / values[0] - 1):.1e}"]
+
+
+def table_name(text):
+    if text not in CERTIFICATES:
+        raise argparse.ArgumentTypeError(f"{text}; expected one of {', '.join(CERTIFICATES)}")
+    return text
+
+
+def add_arguments(parser):
+    parser.add_argument("chosen", nargs="*", type=table_name, metavar="TABLE",
+                        help=f"which tables, by default all: {', '.join(CERTIFICATES)}")
+    parser.add_argument("--times", type=words.count, default=3, metavar="N", help="how often each pair is run (3)")
+    program.add_option(parser)
+
+
+def main(options):
+    for table in options.chosen or CERTIFICATES:
+        print_head(["scene: its part", "steps", "core-seconds", "times cheaper", "compared", "difference"])
+        for certificate in CERTIFICATES[table]:
+            print_row(row_of(options.tamp, certificate, options.times))
+        print()
