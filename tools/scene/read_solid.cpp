@@ -6,6 +6,7 @@
 #include <functional>
 #include <numbers>
 #include <sstream>
+#include <utility>
 
 #include "components/errors.hpp"
 #include "components/geometry/ball.hpp"
@@ -15,6 +16,7 @@
 #include "components/geometry/polygon.hpp"
 #include "components/geometry/revolved.hpp"
 #include "components/geometry/rotations.hpp"
+#include "components/geometry/section.hpp"
 #include "components/geometry/set_operations.hpp"
 #include "components/geometry/transformed.hpp"
 #include "tools/scene/input_file.hpp"
@@ -213,6 +215,16 @@ Make<D> read_ring(JsonReader& reader)
   };
 }
 
+/// The plane of a solid that is read as those of scenes in space are.
+Make<2> read_section(JsonReader& reader)
+{
+  Document& document = reader.document();
+  const int of_scene = std::exchange(document.dimension, 3);
+  const auto solid = read_solid<3>(reader, "of");
+  document.dimension = of_scene;
+  return [solid] { return Solid<2>(components::Section{*solid}); };
+}
+
 template <int D>
 std::vector<Kind<D>> kinds()
 {
@@ -220,7 +232,7 @@ std::vector<Kind<D>> kinds()
       {"box", read_box<D>, ""}, {"ball", read_ball<D>, ""}, {"rotated_box", read_rotated_box<D>, ""}};
   const auto add = [&](std::vector<Kind<D>> more) { all.insert(all.end(), more.begin(), more.end()); };
   if constexpr (D == 2) {
-    add({{"polygon", read_polygon, "corners"}});
+    add({{"polygon", read_polygon, "corners"}, {"section", read_section, ""}});
   } else {
     add({{"cylinder", read_cylinder, ""},
          {"cone", read_cone, ""},

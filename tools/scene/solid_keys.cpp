@@ -48,6 +48,12 @@ const ObjectKeys& solid_keys()
             {place_key("centre"), place_key("sides", "m", above_zero), {"angle", Number{}, "degrees", compulsory, ""}},
             "a box turned about its centre from x towards y"},
            {"polygon", {corners}, "within straight edges that do not cross or touch", 2},
+           {"section",
+            {{"of", Object{solid_keys}, "", compulsory, "a solid of three dimensions"}},
+            "what a solid of three dimensions, whose places have three coordinates, holds of the plane z = 0; of a "
+            "body "
+            "of revolution about x = z = 0 what an axisymmetric scene turns",
+            2},
            {"cylinder",
             {place_key("first_end"), place_key("second_end"), length_key("radius", above_zero)},
             "a right circular cylinder",

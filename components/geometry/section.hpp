@@ -1,0 +1,23 @@
+#pragma once
+
+#include "components/geometry/sampled_volume.hpp"
+#include "components/geometry/solid.hpp"
+
+namespace tamp::components
+{
+
+/// What a solid of space holds of the plane z = 0.
+struct Section {
+  Solid<3> solid;
+
+  bool contains(const Vector<2>& x) const { return solid.contains({x[0], x[1], 0}); }
+  double reach(const Vector<2>& direction) const { return solid.reach({direction[0], direction[1], 0}); }
+  /// Its area.
+  Volume volume() const
+  {
+    return sampled_volume<2>(Solid<2>(*this).bounding_box(), [this](const Vector<2>& x) { return contains(x); });
+  }
+  std::size_t n_shapes() const { return solid.n_shapes(); }
+};
+
+}  // namespace tamp::components
