@@ -133,6 +133,9 @@ RigidBody make_rigid_body(const Scene& scene, int body)
   if (given.drive && !given.drive->turns) return rigid;
   const Sides& on = rigid.touchable;
   rigid.still = still_on_planes({on[0][0] || on[0][1], on[1][0] || on[1][1], on[2][0] || on[2][1]});
+  if (scene.axisymmetric) {
+    for (const std::size_t across : {0U, 2U, 3U, 4U, 5U}) rigid.still[across] = true;
+  }
   return rigid;
 }
 

@@ -24,7 +24,7 @@ struct RigidBody {
   const BodyDrive* drive = nullptr;
   /// Mirrors against which it may lie: see touchable_mirrors.
   Sides touchable{};
-  /// What mirrors on which it starts leave no room for: it stays at rest.
+  /// What mirrors on which it starts, or the axis of an axisymmetric scene, leave no room for: it stays at rest.
   components::Held still = components::nothing_held;
 
   components::Held held() const;

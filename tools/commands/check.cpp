@@ -12,7 +12,6 @@
 #include "tools/scene/advice.hpp"
 #include "tools/scene/compiled_moduli.hpp"
 #include "tools/scene/penetration.hpp"
-#include "tools/scene/place_text.hpp"
 #include "tools/scene/plausibility.hpp"
 #include "tools/scene/print_json.hpp"
 #include "tools/scene/read_scene.hpp"
@@ -53,15 +52,6 @@ void print_cells(const tasks::Scene& scene, const tasks::SceneBody& body)
             penetration->into->name);
 }
 
-/// What the scene would take as an axisymmetric one, if that may stand for it.
-void print_roundness(const tasks::Scene& scene)
-{
-  const auto found = round_scene(scene);
-  if (!found) return;
-  print_err("  round about the line along {} through {}: axisymmetric, it would have {} particles in place of {}\n",
-            "xyz"[found->axis], text<3>(found->through), found -> n_particles, scene.n_particles());
-}
-
 void check(const CheckArguments& options)
 {
   const CheckedScene checked = read_scene(options.scene, options.assignments);
@@ -79,7 +69,6 @@ void check(const CheckArguments& options)
     print_volumes(scene, body);
     print_cells(scene, body);
   }
-  print_roundness(scene);
   for (const std::string& line : compiled_moduli(checked)) print_err("  {}\n", line);
   print_notes(checked.notes);
   for (const std::string& line : plausibility_warnings(checked)) print_err("tamp: warning: {}\n", line);
@@ -91,6 +80,7 @@ void check(const CheckArguments& options)
   add_pace(scene, {}, forecast);
   print_err("  {}\n", description(forecast));
   for (const std::string& line : advice(scene, forecast.pace)) print_err("  advice  {}\n", line);
+  if (const auto to_turn = advice_to_turn(scene)) print_err("  advice  {}\n", *to_turn);
   if (const auto to_halve = advice_to_halve(scene)) print_err("  advice  {}\n", *to_halve);
 }
 

@@ -161,7 +161,7 @@ void check_mirrored_bodies(const tasks::Scene& scene, const JsonReader& root)
   tasks::Sides seen{};
   for (const tasks::SceneBody& body : scene.bodies) {
     const tasks::Sides planes = planes_through(scene, body);
-    for (std::size_t axis = 0; axis < 3; ++axis) {
+    for (std::size_t axis = first_axis_with_planes(scene); axis < 3; ++axis) {
       for (std::size_t side = 0; side < 2; ++side) {
         if (!planes[axis][side]) continue;
         const MirroredBody mirrored{scene, body, axis, side, root};

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <optional>
+#include <string>
 
 #include "tasks/scene.hpp"
 
@@ -20,5 +21,8 @@ struct RoundScene {
 /// Empty where bodies are not round about one line, or anything acts or moves across it. A body that fills the grid
 /// across the line counts as round: its corners are far away. Found by a sample of points.
 std::optional<RoundScene> round_scene(const tasks::Scene& scene);
+
+/// What the axisymmetric scene would take, if there is one.
+std::optional<std::string> advice_to_turn(const tasks::Scene& scene);
 
 }  // namespace tamp::tools

@@ -75,12 +75,17 @@ bool loads_are_mirrored(const tasks::Scene& scene, std::size_t axis)
   return is_along(scene.centrifuge->angular_velocity(0)) && is_along(scene.centrifuge->angular_velocity(1));
 }
 
+std::size_t first_axis_with_planes(const tasks::Scene& scene)
+{
+  return scene.axisymmetric ? 1 : 0;
+}
+
 tasks::Sides planes_of_symmetry(const tasks::Scene& scene)
 {
   tasks::Sides planes{};
   for (const tasks::SceneBody& body : scene.bodies) {
     const tasks::Sides beneath = tasks::mirrors_beneath(scene, body);
-    for (std::size_t axis = 0; axis < 3; ++axis) {
+    for (std::size_t axis = first_axis_with_planes(scene); axis < 3; ++axis) {
       const bool slides = moves(body) && !moves_across(body, axis) && loads_are_mirrored(scene, axis) &&
                           beneath[axis][0] != beneath[axis][1];
       for (std::size_t side = 0; side < 2; ++side) {
@@ -96,7 +101,7 @@ std::vector<std::size_t> symmetric_axes(const tasks::Scene& scene)
   std::vector<std::size_t> axes;
   const auto n_axes = static_cast<std::size_t>(scene.grid.dimension);
   axes.reserve(n_axes);
-  for (std::size_t axis = 0; axis < n_axes; ++axis) {
+  for (std::size_t axis = first_axis_with_planes(scene); axis < n_axes; ++axis) {
     if (n_axes == 2 ? is_symmetric<2>(scene, axis) : is_symmetric<3>(scene, axis)) axes.push_back(axis);
   }
   return axes;

@@ -13,6 +13,9 @@ namespace tamp::tools
 /// leave a plane that does not turn about its own normal.
 bool loads_are_mirrored(const tasks::Scene& scene, std::size_t axis);
 
+/// The first axis whose faces may be planes of symmetry: r = 0 of an axisymmetric scene is a line.
+std::size_t first_axis_with_planes(const tasks::Scene& scene);
+
 /// The faces of the grid that are planes of symmetry of a larger whole, of which the scene is a part: that cut a body,
 /// or along which a body moves that lies on them. Other "symmetry" faces are smooth walls. Where a body lies on both
 /// faces of an axis, they are the walls that it moves between.
