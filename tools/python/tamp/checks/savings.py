@@ -21,13 +21,14 @@ class Run(NamedTuple):
 
 
 class Certificate(NamedTuple):
-    """A scene and one that is to say the same for less; `body` is whose `quantity` of the summary is compared."""
+    """A scene and one that is to say the same for less; what is compared is the depth of `body`, or, where that is
+    driven, the work that drives it, of the whole."""
 
     name: str
     whole: Run
     part: Run
     body: str
-    quantity: str = "depth_m"
+    driven: bool = False
 
 
 MILLISECOND = {"/time/end": 1e-3}
@@ -39,6 +40,26 @@ STRAIGHT_DOWN = {**WITHOUT_TURNING, f"{PROJECTILE}/geometry/rotation/angle": 270
                  f"{PROJECTILE}/geometry/translation": [0.075, 0.05, 0.1085],
                  f"{PROJECTILE}/nose": [0.075, 0.05, 0.1085], f"{PROJECTILE}/tail": [0.075, 0.05, 0.1495],
                  f"{PROJECTILE}/velocity": [0, 0, -283]}
+
+WITHOUT_FINS = {f"{PROJECTILE}/geometry/of": {
+    "type": "revolved", "start": [0, 0, 0], "axis": [1, 0, 0], "tip_radius": 0.001,
+    "profile": [[0, 0], [0.01845, 0.0058], [0.0246, 0.00205], [0.041, 0.00205]]}}
+CONE = "/bodies/cone/geometry/of/1/of"
+FINE = {"/grid/cell_size": 0.0025}
+FAST_CONE = {"/grid/upper": [0.06, 0.06, 0.18], "/grid/patches": [1, 1, 1], "/time/end": 0.004,
+             "/output/fields_interval": 1, "/contact/0/normal": "regression",
+             "/bodies/sand/geometry/upper": [0.06, 0.06, 0.09], "/bodies/cone/driven/velocities": [[0, 0, 0, -10]],
+             "/bodies/cone/geometry/of/0/upper": [0.06, 0.06, 0.18],
+             f"{CONE}/0/first_end": [0, 0, 0.09], f"{CONE}/0/second_end": [0, 0, 0.116],
+             f"{CONE}/1/first_end": [0, 0, 0.116], f"{CONE}/1/second_end": [0, 0, 0.14]}
+FAST_CONE_IN_PLANE = {"/grid/upper": [0.06, 0.18], "/grid/patches": [1, 1], "/time/end": 0.004,
+                      "/output/fields_interval": 1, "/contact/0/normal": "regression",
+                      "/bodies/sand/geometry/upper": [0.06, 0.09], "/bodies/cone/driven/velocities": [[0, 0, -10]],
+                      "/bodies/cone/geometry/corners": [[0, 0.09], [0.015, 0.116], [0.015, 0.14], [0, 0.14]]}
+FLAT_ROD = {"/time/end": 4e-5, "/bodies/rod/geometry/of/1": {
+    "type": "cylinder", "first_end": [0, 0, 0.024], "second_end": [0, 0, 0.048], "radius": 0.006}}
+FLAT_ROD_IN_PLANE = {"/time/end": 4e-5, "/bodies/rod/geometry/of": {
+    "type": "cylinder", "first_end": [0, 0.024, 0], "second_end": [0, 0.048, 0], "radius": 0.006}}
 
 CERTIFICATES = {
     "half": [
@@ -55,6 +76,32 @@ CERTIFICATES = {
         Certificate("projectile straight down: quarter", Run("uxo/quick.json", STRAIGHT_DOWN),
                     Run("uxo/quick.json", {**STRAIGHT_DOWN, "/grid/lower": [0.075, 0.05, 0]}), "projectile"),
     ],
+    "axisymmetric": [
+        Certificate("cone, 3 cells to its radius: quarter, axisymmetric", Run("cone/quick.json", FAST_CONE),
+                    Run("cone/axisymmetric.json", FAST_CONE_IN_PLANE), "cone", driven=True),
+        Certificate("cone, 6 cells: quarter, axisymmetric", Run("cone/quick.json", {**FAST_CONE, **FINE}),
+                    Run("cone/axisymmetric.json", {**FAST_CONE_IN_PLANE, **FINE}), "cone", driven=True),
+        Certificate("rod with an ogive, 3 cells: quarter, axisymmetric", Run("studies/scenes/rod.json"),
+                    Run("savings/rod.json"), "rod", driven=True),
+        Certificate("rod with a flat end, 3 cells: quarter, axisymmetric", Run("studies/scenes/rod.json", FLAT_ROD),
+                    Run("savings/rod.json", FLAT_ROD_IN_PLANE), "rod", driven=True),
+        Certificate("ball, free, 6 cells: quarter, axisymmetric", Run("savings/ball_in_space.json"),
+                    Run("savings/ball.json"), "ball"),
+        Certificate("projectile without fins, free, 1.2 cells: quarter, axisymmetric",
+                    Run("uxo/quick.json", {**STRAIGHT_DOWN, **WITHOUT_FINS, "/grid/lower": [0.075, 0.05, 0]}),
+                    Run("savings/projectile_straight_down.json"), "projectile"),
+    ],
+    "slab": [
+        Certificate("punch: slab, plane strain", Run("punch/slab.json", MILLISECOND), Run("punch/quick.json", MILLISECOND),
+                    "punch"),
+    ],
+    "rigid": [
+        Certificate("punch on 2.5 cm: deformable, rigid", Run("punch/quick.json", MILLISECOND),
+                    Run("punch/quick.json", {**MILLISECOND, **RIGID}), "punch"),
+        Certificate("projectile on 5 mm to 0.1 ms: deformable, rigid",
+                    Run("uxo/quick.json", {"/bodies/projectile/rigid": False, "/time/end": 1e-4}),
+                    Run("uxo/quick.json", {"/time/end": 1e-4}), "projectile"),
+    ],
 }
 
 
@@ -64,13 +111,19 @@ def measure(tamp, run, folder):
     return seconds, results.summary(folder)
 
 
+def compared(certificate, summary):
+    if certificate.driven:
+        return summary["part_of_whole"]["factor"] * summary["energies_J"]["external"]
+    return summary["bodies"][certificate.body]["depth_m"]
+
+
 def row_of(tamp, certificate, n_times):
     with tempfile.TemporaryDirectory() as place:
         pairs = [[measure(tamp, run, pathlib.Path(place, "run")) for run in (certificate.whole, certificate.part)]
                  for _ in range(n_times)]
     seconds = [min(pair[i][0] for pair in pairs) for i in range(2)]
     summaries = [pairs[0][i][1] for i in range(2)]
-    values = [summary["bodies"][certificate.body][certificate.quantity] for summary in summaries]
+    values = [compared(certificate, summary) for summary in summaries]
     return [certificate.name, " / ".join(f"{summary['steps']:,}" for summary in summaries),
             " / ".join(f"{s:.2f}" for s in seconds), f"{seconds[0] / seconds[1]:.2f}",
             " / ".join(f"{value:.6g}" for value in values), f"{abs(values[1] / values[0] - 1):.1e}"]
