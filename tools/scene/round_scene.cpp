@@ -84,14 +84,18 @@ bool fills_across(const Solid& solid, const Line& line, const components::Box<3>
   return n_off < most_off * n_samples;
 }
 
-/// Whether the solid is the same at all angles about the line that lie within the grid.
+/// How far a box reaches from the line along an axis across it.
+double reach_of(const components::Box<3>& box, const Line& line, int k)
+{
+  return std::max(std::abs(box.lower[k] - line.through[k]), std::abs(box.upper[k] - line.through[k]));
+}
+
+/// Whether the solid is the same at all angles about the line that lie within the grid, which holds a quarter of it.
 bool is_round(const Solid& solid, const Line& line, const components::Box<3>& grid)
 {
   const components::Box<3> box = solid.bounding_box();
-  double reach = 0;
-  for (const int k : {line.first_across(), line.second_across()}) {
-    reach = std::max({reach, std::abs(box.lower[k] - line.through[k]), std::abs(box.upper[k] - line.through[k])});
-  }
+  const double reach = reach_of(box, line, line.first_across());
+  if (std::abs(reach - reach_of(box, line, line.second_across())) > most_off * reach) return false;
   int n_seen = 0, n_off = 0;
   for (int i = 0; i < n_samples; ++i) {
     const double height = box.lower[line.axis] + spread(i, 0) * (box.upper[line.axis] - box.lower[line.axis]);

@@ -152,6 +152,12 @@ TEST_CASE("half a scene goes on from where it was, on other ranks too, with the 
   check_parted_run(TAMP_SOURCE_DIR "/inputs/punch/half.json", 2);
 }
 
+TEST_CASE("an axisymmetric scene goes on from where it was, on other ranks too, with the bits of a straight run",
+          "[mpiexec]")
+{
+  check_parted_run(TAMP_SOURCE_DIR "/inputs/savings/projectile_straight_down.json", 2);
+}
+
 TEST_CASE("soil on walls goes on, on other ranks too, with the bits of a straight run", "[mpiexec]")
 {
   const std::string transfer = GENERATE("tflip", "apic --set /stress_timing=musl", "tpic --set /stress_timing=usf",

@@ -74,6 +74,19 @@ TEST_CASE("cones, ogives, bodies of revolution and extruded polygons are read")
   CHECK(plane_solid(R"({"type":"polygon","corners":[[0,0],[2,0],[0,2]]})").volume().value == Approx(2));
 }
 
+TEST_CASE("a section is what a solid of space holds of the plane")
+{
+  const auto square = plane_solid(
+      R"({"type":"section","of":{"type":"cylinder","first_end":[1,0.25,0],"second_end":[1,1.25,0],"radius":0.5}})");
+  CHECK(square.contains({1.45, 0.5}));
+  CHECK_FALSE(square.contains({1.55, 0.5}));
+  CHECK_FALSE(square.contains({1, 0.2}));
+  CHECK(square.volume().value == Approx(1).epsilon(1e-3));
+  const auto disk = plane_solid(R"({"type":"section","of":{"type":"ball","centre":[1,1,0.3],"radius":0.5}})");
+  CHECK(disk.contains({1.39, 1}));
+  CHECK_FALSE(disk.contains({1.41, 1}));
+}
+
 TEST_CASE("sets of solids nest")
 {
   const auto drilled = solid(R"({"type":"difference","of":[

@@ -3,6 +3,7 @@
 #include <catch2/catch.hpp>
 
 #include "tests/tools/scene/small_scene.hpp"
+#include "tools/scene/round_scene.hpp"
 
 namespace test_symmetry_of_scenes
 {
@@ -46,6 +47,20 @@ TEST_CASE("a scene is symmetric about the middle of its grid where all in it is"
   CHECK(tools::symmetric_axes(scene_with({})).empty());
   CHECK(tools::symmetric_axes(shipped("uxo/quick.json")).empty());
   CHECK(tools::symmetric_axes(shipped("uxo/quick.json", {"/centrifuge=null"})) == Axes{1});
+}
+
+TEST_CASE("a scene in space is round where all in it is round about one line, or fills the grid across it")
+{
+  const auto cone = tools::round_scene(shipped("cone/quick.json"));
+  REQUIRE(cone);
+  CHECK(cone->axis == 2);
+  CHECK(cone->through == Eigen::Vector3d(0, 0, 0));
+  CHECK(cone->n_particles == shipped("cone/axisymmetric.json").n_particles());
+  CHECK(tools::round_scene(shipped("savings/ball_in_space.json")));
+  CHECK_FALSE(tools::round_scene(shipped("cone/quick.json", {"/gravity=[1,0,-9.81]"})));
+  CHECK_FALSE(tools::round_scene(shipped("uxo/quick.json", {"/centrifuge=null"})));
+  CHECK_FALSE(tools::round_scene(shipped("punch/slab.json")));
+  CHECK_FALSE(tools::round_scene(shipped("cone/axisymmetric.json")));
 }
 
 TEST_CASE("the advice to halve a scene is a scene that is not symmetric any more")

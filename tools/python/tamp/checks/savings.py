@@ -46,6 +46,11 @@ WITHOUT_FINS = {f"{PROJECTILE}/geometry/of": {
     "profile": [[0, 0], [0.01845, 0.0058], [0.0246, 0.00205], [0.041, 0.00205]]}}
 CONE = "/bodies/cone/geometry/of/1/of"
 FINE = {"/grid/cell_size": 0.0025}
+OF_REPORT = {**MILLISECOND, "/grid/cell_size": 0.01, "/grid/upper": [1.0, 0.8, 0.01], "/grid/patches": [1, 1, 1],
+             "/interpolator": "gimp", "/time/rule": "published", "/time/multiplier": 0.05,
+             "/artificial_viscosity": {"linear": 0.2, "quadratic": 2.0}, "/contact/0/normal": "flatter",
+             "/bodies/punch/geometry/upper": [0.65, 0.7, 0.01], "/bodies/sand/geometry/upper": [1.0, 0.5, 0.01]}
+ON_2_CM = {**MILLISECOND, "/grid/cell_size": 0.02, "/grid/patches": [1, 1]}
 FAST_CONE = {"/grid/upper": [0.06, 0.06, 0.18], "/grid/patches": [1, 1, 1], "/time/end": 0.004,
              "/output/fields_interval": 1, "/contact/0/normal": "regression",
              "/bodies/sand/geometry/upper": [0.06, 0.06, 0.09], "/bodies/cone/driven/velocities": [[0, 0, 0, -10]],
@@ -83,6 +88,9 @@ CERTIFICATES = {
                     Run("cone/axisymmetric.json", {**FAST_CONE_IN_PLANE, **FINE}), "cone", driven=True),
         Certificate("rod with an ogive, 3 cells: quarter, axisymmetric", Run("studies/scenes/rod.json"),
                     Run("savings/rod.json"), "rod", driven=True),
+        Certificate("rod with an ogive, 6 cells: quarter, axisymmetric",
+                    Run("studies/scenes/rod.json", {"/grid/cell_size": 0.001}),
+                    Run("savings/rod.json", {"/grid/cell_size": 0.001}), "rod", driven=True),
         Certificate("rod with a flat end, 3 cells: quarter, axisymmetric", Run("studies/scenes/rod.json", FLAT_ROD),
                     Run("savings/rod.json", FLAT_ROD_IN_PLANE), "rod", driven=True),
         Certificate("ball, free, 6 cells: quarter, axisymmetric", Run("savings/ball_in_space.json"),
@@ -92,8 +100,14 @@ CERTIFICATES = {
                     Run("savings/projectile_straight_down.json"), "projectile"),
     ],
     "slab": [
-        Certificate("punch: slab, plane strain", Run("punch/slab.json", MILLISECOND), Run("punch/quick.json", MILLISECOND),
-                    "punch"),
+        Certificate("punch: slab, plane strain", Run("punch/slab.json", MILLISECOND),
+                    Run("punch/quick.json", MILLISECOND), "punch"),
+    ],
+    "report": [
+        Certificate("punch: the report's slab on 1 cm, half on 2 cm", Run("punch/slab.json", OF_REPORT),
+                    Run("punch/quick.json", {**ON_2_CM, "/grid/lower": [0.5, 0]}), "punch"),
+        Certificate("projectile to 0.1 ms: the report's, half and rigid, both on 5 mm",
+                    Run("uxo/table.json", {"/time/end": 1e-4}), Run("uxo/half.json", {"/time/end": 1e-4}), "projectile"),
     ],
     "rigid": [
         Certificate("punch on 2.5 cm: deformable, rigid", Run("punch/quick.json", MILLISECOND),
