@@ -139,14 +139,16 @@ RigidBody make_rigid_body(const Scene& scene, int body)
   return rigid;
 }
 
-components::MassProperties within_whole(const RigidBody& body, const runtime::Grid& grid,
+components::MassProperties within_whole(const RigidBody& body, const Scene& scene,
                                         const components::MassProperties& of_particles)
 {
   components::MassProperties properties = of_particles;
-  for (int axis = 0; axis < 3; ++axis) {
+  // Rings are about the axis already.
+  for (int axis = scene.axisymmetric ? 1 : 0; axis < 3; ++axis) {
     const auto k = static_cast<std::size_t>(axis);
-    if (!body.still[k] || !(body.touchable[k][0] || body.touchable[k][1])) continue;
-    const double plane = grid.coordinate(axis, body.touchable[k][0] ? 0 : grid.n_cells[k]);
+    // On both sides it lies between walls.
+    if (!body.still[k] || body.touchable[k][0] == body.touchable[k][1]) continue;
+    const double plane = scene.grid.coordinate(axis, body.touchable[k][0] ? 0 : scene.grid.n_cells[k]);
     properties = components::half_of_whole(properties, axis, plane);
   }
   return properties;

@@ -93,8 +93,8 @@ components::Held still_on_planes(const std::array<bool, 3>& normal_to);
 /// The rigid body of a scene of which the scene's body number `body` tells, but for its mass properties.
 RigidBody make_rigid_body(const Scene& scene, int body);
 
-/// What the body's particles have together; where it lies on mirrors, as a part of the whole.
-components::MassProperties within_whole(const RigidBody& body, const runtime::Grid& grid,
+/// What the body's particles have together; where it lies on a mirror, as a part of the whole.
+components::MassProperties within_whole(const RigidBody& body, const Scene& scene,
                                         const components::MassProperties& of_particles);
 
 /// The state without the momenta that mirrors leave no room for, which forces on the part alone, or rounding, give.

@@ -70,7 +70,7 @@ class SimulationOf : public Simulation
     RigidStates& states = warehouse().global_state(rigid_states);
     for (RigidBody& body : method_.rigid_bodies) {
       const SceneBody& given = scene_.bodies[static_cast<std::size_t>(body.body)];
-      body.properties = within_whole(body, scene_.grid, particles.mass_properties(body.body));
+      body.properties = within_whole(body, scene_, particles.mass_properties(body.body));
       states.of(body) =
           at_rest_across_mirrors(body, initial_state(body.properties, in_space<D>(vector_of<D>(given.velocity)),
                                                      Eigen::Vector3d(given.angular_velocity.data())));

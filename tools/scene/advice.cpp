@@ -5,6 +5,7 @@
 #include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
+#include <utility>
 #include <variant>
 
 #include "tasks/set_up/initial_moduli.hpp"
@@ -41,8 +42,10 @@ std::string two_digits(double x)
 /// Such as "about 1100 steps for 3200, 0.4 of the time".
 std::string compared(const tasks::Pace& other, const tasks::Pace& own)
 {
-  return fmt::format("about {} steps for {}, {:.2g} of the time", two_digits(other.n_steps), two_digits(own.n_steps),
-                     other.core_seconds / own.core_seconds);
+  constexpr double noise = 0.9;
+  const double part = other.core_seconds / own.core_seconds;
+  return fmt::format("about {} steps for {}, {}", two_digits(other.n_steps), two_digits(own.n_steps),
+                     part < noise ? fmt::format("{:.2g} of the time", part) : "in no less time");
 }
 
 /// A rigid body has a material to itself, and nothing that needs its stress.
@@ -107,15 +110,22 @@ void advise_on_rule(const tasks::Scene& scene, const std::optional<tasks::Pace>&
                               scene.time.multiplier, compared(*viscous, *pace)));
 }
 
-/// The force on coarse cells is too large by about 420 % over the square of their number (the table in choosing.md).
+bool is_compacted_sand(const tasks::Scene& scene, const tasks::SceneBody& ground)
+{
+  return std::holds_alternative<components::TabularCap>(material_of(scene, ground).model);
+}
+
+/// The force on coarse cells is too large by about 420 % over the square of their number in sand that is compacted (the
+/// table in choosing.md).
 void advise_on_cells(const tasks::Scene& scene, const tasks::SceneBody& body, const Penetration& penetration,
                      Lines& lines)
 {
   const double cells = penetration.cells();
-  std::string line = fmt::format(
-      "cells: {} has {:.1f} to its half width, of {:.0f} that it needs; the force on it is "
-      "some {} % too large",
-      body.name, cells, least_cells_per_half_width, two_digits(420 / (cells * cells)));
+  std::string line = fmt::format("cells: {} has {:.1f} to its half width, of {:.0f} that it needs", body.name, cells,
+                                 least_cells_per_half_width);
+  if (is_compacted_sand(scene, *penetration.into)) {
+    line += fmt::format("; the force on it is some {} % too large", two_digits(420 / (cells * cells)));
+  }
   if (penetration.is_coarse()) {
     const double finer = scene.grid.cell_size / penetration.fine_cell_size();
     line += fmt::format("; cells of {:.2g} m cost {} times as much", penetration.fine_cell_size(),
@@ -152,13 +162,23 @@ Side side_of(const tasks::Scene& scene, const tasks::SceneBody& body, const task
           room / c, 2 * room / (c + speed)};
 }
 
+/// Whether the scene is one cell thick along an axis, between smooth walls.
+bool is_thin(const tasks::Scene& scene, int axis)
+{
+  const auto k = static_cast<std::size_t>(axis);
+  return scene.grid.n_cells[k] == 1 && scene.faces[k][0] == tasks::Face::symmetry &&
+         scene.faces[k][1] == tasks::Face::symmetry;
+}
+
 std::vector<Side> sides_of(const tasks::Scene& scene, const tasks::SceneBody& body, const tasks::SceneBody& ground)
 {
   std::vector<Side> sides;
   sides.reserve(6);
   for (int axis = 0; axis < scene.grid.dimension; ++axis) {
-    if (scene.grid.periodic[static_cast<std::size_t>(axis)]) continue;
+    if (scene.grid.periodic[static_cast<std::size_t>(axis)] || is_thin(scene, axis)) continue;
     for (const int towards : {-1, 1}) {
+      const Eigen::Vector3d direction = towards * Eigen::Vector3d::Unit(axis);
+      if (reach(body, direction) >= reach(ground, direction)) continue;
       Side side = side_of(scene, body, ground, axis, towards);
       if (side.room > 0) sides.push_back(std::move(side));
     }
@@ -267,12 +287,7 @@ void advise_on_pressed_method(const tasks::Scene& scene, Lines& lines)
 /// Whether it is one cell thick between smooth walls, and so in plane strain.
 bool is_slab(const tasks::Scene& scene)
 {
-  if (scene.grid.dimension != 3) return false;
-  const auto is_thin = [&](std::size_t k) {
-    const auto& faces = scene.faces[k];
-    return scene.grid.n_cells[k] == 1 && faces[0] == tasks::Face::symmetry && faces[1] == tasks::Face::symmetry;
-  };
-  return is_thin(0) || is_thin(1) || is_thin(2);
+  return scene.grid.dimension == 3 && (is_thin(scene, 0) || is_thin(scene, 1) || is_thin(scene, 2));
 }
 
 /// The front that is meant is that of cost against error in choosing.md and verification.md.
@@ -285,9 +300,14 @@ void advise_on_method(const tasks::Scene& scene, const tasks::SceneBody& body, L
   const auto penetration = penetration_of(scene, body);
   constexpr double fast = 20, thick = 4;
   if (!penetration || way_of(scene, body).norm() < fast * scene.time.end) return;
-  if (!std::holds_alternative<components::TabularCap>(material_of(scene, *penetration->into).model)) return;
+  if (!is_compacted_sand(scene, *penetration->into)) return;
   const bool is_thick = (scene.grid.dimension == 2 || is_slab(scene)) && penetration->cells() >= thick;
-  is_thick ? advise_on_plane_method(scene, lines) : advise_on_thin_method(scene, lines);
+  const bool may_turn = !scene.axisymmetric && !(body.drive && !body.drive->turns);
+  if (is_thick && !scene.axisymmetric) {
+    advise_on_plane_method(scene, lines);
+  } else if (may_turn) {
+    advise_on_thin_method(scene, lines);
+  }
 }
 
 }  // namespace
@@ -295,9 +315,11 @@ void advise_on_method(const tasks::Scene& scene, const tasks::SceneBody& body, L
 std::vector<std::string> advice(const tasks::Scene& scene, const std::optional<tasks::Pace>& pace)
 {
   Lines lines;
+  bool is_first = true;
   for (const tasks::SceneBody& body : scene.bodies) {
     if (const auto penetration = penetration_of(scene, body)) {
-      advise_on_step(scene, body, *penetration, pace, lines);
+      // Each body would take trial runs of its own.
+      if (std::exchange(is_first, false)) advise_on_step(scene, body, *penetration, pace, lines);
       advise_on_cells(scene, body, *penetration, lines);
       advise_on_box(scene, body, *penetration, lines);
     }

@@ -8,7 +8,7 @@ namespace tamp::tools
 namespace
 {
 
-void check_grid(JsonReader grid, const tasks::Scene& scene)
+void check_grid(const JsonReader& grid, const tasks::Scene& scene)
 {
   const double lower = scene.grid.lower[0];
   if (lower >= 0) return;
@@ -16,7 +16,7 @@ void check_grid(JsonReader grid, const tasks::Scene& scene)
                    "expected x from 0 on, as it is the distance from the axis");
 }
 
-void check_faces(JsonReader boundaries, const tasks::Scene& scene, bool reaches_axis)
+void check_faces(const JsonReader& boundaries, const tasks::Scene& scene, bool reaches_axis)
 {
   using tasks::Face;
   const auto [lower, upper] = scene.faces[0];

@@ -81,16 +81,28 @@ void check_settled(const tasks::Scene& scene, const tasks::SceneBody& body, cons
   }
 }
 
-/// Whether there is memory for the particles of a solid, before they are laid out and counted.
+/// The part of a solid that mirrors which cut it in halves leave.
+double part_within(const tasks::Sides& mirrors)
+{
+  double part = 1;
+  for (const auto& sides : mirrors) {
+    for (const bool cuts : sides) part *= cuts ? 0.5 : 1;
+  }
+  return part;
+}
+
+/// Whether there is memory for the particles of this part of a solid, before they are laid out and counted.
 template <int D>
-bool has_room_for(const components::Solid<D>& solid, const tasks::Scene& scene, int material, Document& document)
+bool has_room_for(const components::Solid<D>& solid, double part, const tasks::Scene& scene, int material,
+                  Document& document)
 {
   // A particle takes two to four times as much in the run, of which the forecast tells; this is what surely is too
   // much.
   constexpr double least_bytes_of_particle = 400;
   const FreeMemory room = free_memory();
   const components::Box<D> box = solid.bounding_box();
-  const double bytes_of_volume = least_bytes_of_particle / tasks::lattice_of<D>(scene, material).particle_volume();
+  const double bytes_of_volume =
+      part * least_bytes_of_particle / tasks::lattice_of<D>(scene, material).particle_volume();
   // Usually the box around it will do; the volume of a set of solids takes time to find.
   if (bytes_of_volume * (box.upper - box.lower).prod() <= room.bytes) return true;
   const double needed = bytes_of_volume * solid.volume().value, n = needed / least_bytes_of_particle;
@@ -223,7 +235,7 @@ std::optional<tasks::SceneBody> read(const std::string& name, JsonReader& reader
   const auto at = std::find(material_names.begin(), material_names.end(), material) - material_names.begin();
   const int number = static_cast<int>(at);
   const auto mirrors = mirrors_crossed<D>(*solid, scene, reader);
-  if (!mirrors || !has_room_for(*solid, scene, number, reader.document())) return std::nullopt;
+  if (!mirrors || !has_room_for(*solid, part_within(*mirrors), scene, number, reader.document())) return std::nullopt;
   const auto part = cut_at_mirrors<D>(*solid, *mirrors, scene, number, reader);
   if (!part) return std::nullopt;
   tasks::SceneBody body{name, number, *part, {0, 0, 0}, 0};

@@ -15,7 +15,7 @@ namespace tamp::tools
 namespace
 {
 
-using Solid = components::Solid<3>;
+using Region = components::Solid<3>;
 
 /// A line along an axis of the grid, and the two axes across it.
 struct Line {
@@ -51,34 +51,37 @@ bool is_within(const components::Box<3>& box, const Vector<3>& x)
   return (x - box.lower).minCoeff() >= 0 && (box.upper - x).minCoeff() >= 0;
 }
 
-/// Numbers of [0, 1) that fill it evenly: the additive recurrence of the golden ratio of two dimensions and more.
-double spread(int i, int axis)
+/// Numbers of [0, 1) in up to five dimensions that fill them evenly: the additive recurrence by the powers of the root
+/// of t^6 = t + 1.
+double spread(int i, int dimension)
 {
-  constexpr std::array<double, 4> strides{0.8191725133961645, 0.6710436067037893, 0.5497004779019703,
-                                          0.4503249869105786};
-  const double place = 0.5 + i * strides[static_cast<std::size_t>(axis)];
+  constexpr std::array<double, 5> strides{0.8812714616335696, 0.7766393890897682, 0.6844301295853426,
+                                          0.6031687406857282, 0.5315553977157913};
+  const double place = 0.5 + i * strides[static_cast<std::size_t>(dimension)];
   return place - std::floor(place);
 }
 
 /// Of a particle in the plane, over that of one in space (docs/savings.md).
 constexpr double plane_particle_cost = 0.5;
 
-constexpr int n_samples = 4000;
+constexpr int n_samples = 16'000;
 /// Points that may be off where surfaces have facets or are cut by rounding.
 constexpr double most_off = 0.01;
 
 /// Whether the solid goes on across the line as far as the grid does.
-bool fills_across(const Solid& solid, const Line& line, const components::Box<3>& grid)
+bool fills_across(const Region& solid, const Line& line, const components::Box<3>& grid)
 {
   const components::Box<3> box = solid.bounding_box();
+  const Vector<3> edges = grid.upper - grid.lower;
+  const int a = line.first_across(), b = line.second_across();
   int n_off = 0;
   for (int i = 0; i < n_samples; ++i) {
     Vector<3> x, y;
-    for (int k = 0; k < 3; ++k) {
-      x[k] = grid.lower[k] + spread(i, k) * (grid.upper[k] - grid.lower[k]);
-      y[k] = grid.lower[k] + spread(i + n_samples, k) * (grid.upper[k] - grid.lower[k]);
-    }
-    x[line.axis] = y[line.axis] = box.lower[line.axis] + spread(i, 3) * (box.upper[line.axis] - box.lower[line.axis]);
+    x[a] = grid.lower[a] + spread(i, 0) * edges[a];
+    x[b] = grid.lower[b] + spread(i, 1) * edges[b];
+    y[a] = grid.lower[a] + spread(i, 2) * edges[a];
+    y[b] = grid.lower[b] + spread(i, 3) * edges[b];
+    x[line.axis] = y[line.axis] = box.lower[line.axis] + spread(i, 4) * (box.upper[line.axis] - box.lower[line.axis]);
     if (solid.contains(x) != solid.contains(y)) ++n_off;
   }
   return n_off < most_off * n_samples;
@@ -91,15 +94,16 @@ double reach_of(const components::Box<3>& box, const Line& line, int k)
 }
 
 /// Whether the solid is the same at all angles about the line that lie within the grid, which holds a quarter of it.
-bool is_round(const Solid& solid, const Line& line, const components::Box<3>& grid)
+bool is_round(const Region& solid, const Line& line, const components::Box<3>& grid)
 {
   const components::Box<3> box = solid.bounding_box();
   const double reach = reach_of(box, line, line.first_across());
   if (std::abs(reach - reach_of(box, line, line.second_across())) > most_off * reach) return false;
+  const double to_corner = std::numbers::sqrt2 * reach;
   int n_seen = 0, n_off = 0;
   for (int i = 0; i < n_samples; ++i) {
     const double height = box.lower[line.axis] + spread(i, 0) * (box.upper[line.axis] - box.lower[line.axis]);
-    const double radius = spread(i, 1) * reach;
+    const double radius = spread(i, 1) * to_corner;
     const Vector<3> x = line.at(height, radius, 2 * std::numbers::pi * spread(i, 2));
     const Vector<3> y = line.at(height, radius, 2 * std::numbers::pi * spread(i, 3));
     if (!is_within(grid, x) || !is_within(grid, y)) continue;
@@ -139,9 +143,11 @@ bool is_even_across(const tasks::Scene& scene, int axis)
 std::vector<double> places_across(const tasks::Scene& scene, int axis, const components::Box<3>& grid)
 {
   const auto& faces = scene.faces[static_cast<std::size_t>(axis)];
-  std::vector<double> places{0.5 * (grid.lower[axis] + grid.upper[axis])};
+  std::vector<double> places;
+  places.reserve(3);
   if (faces[0] == tasks::Face::symmetry) places.push_back(grid.lower[axis]);
   if (faces[1] == tasks::Face::symmetry) places.push_back(grid.upper[axis]);
+  places.push_back(0.5 * (grid.lower[axis] + grid.upper[axis]));
   return places;
 }
 
@@ -149,7 +155,7 @@ std::vector<double> places_across(const tasks::Scene& scene, int axis, const com
 std::size_t n_rings(const tasks::Scene& scene, const tasks::SceneBody& body, const Line& line,
                     const components::Box<3>& grid)
 {
-  const auto& solid = std::get<Solid>(body.solid);
+  const auto& solid = std::get<Region>(body.solid);
   const components::Box<3> box = solid.bounding_box();
   const double spacing = scene.grid.cell_size / scene.particles_per_axis_of(body.material);
   const int k = line.first_across();
@@ -170,7 +176,7 @@ std::optional<RoundScene> about(const tasks::Scene& scene, const Line& line, con
   RoundScene found{line.axis, line.through, 0};
   bool any_round = false;
   for (const tasks::SceneBody& body : scene.bodies) {
-    const auto& solid = std::get<Solid>(body.solid);
+    const auto& solid = std::get<Region>(body.solid);
     if (!fills_across(solid, line, grid)) {
       if (!is_round(solid, line, grid)) return std::nullopt;
       any_round = true;

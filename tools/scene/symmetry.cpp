@@ -39,6 +39,7 @@ bool is_symmetric(const tasks::Scene& scene, const tasks::SceneBody& body, std::
 {
   const auto& functions = body.functions;
   if (functions.velocity || functions.layout || functions.displacement || functions.body_force) return false;
+  if (functions.deformation_gradient) return false;
   if (body.is_pressed() || moves_across(body, axis) || !turns_only_about(body, axis)) return false;
   const double slack = 1e-9 * scene.grid.cell_size;
   const auto is_off = [&](const tasks::Triple& end) { return std::abs(end[axis] - plane) > slack; };
@@ -56,7 +57,10 @@ bool is_symmetric(const tasks::Scene& scene, std::size_t axis)
 {
   const auto& faces = scene.faces[axis];
   const auto& friction = scene.wall_friction[axis];
-  if (scene.grid.periodic[axis] || scene.grid.n_cells[axis] % 2 != 0) return false;
+  // A narrow grid is a column, whose sides are walls.
+  constexpr int narrow = 4;
+  const int n_cells = scene.grid.n_cells[axis];
+  if (scene.grid.periodic[axis] || n_cells % 2 != 0 || n_cells < narrow) return false;
   if (faces[0] != faces[1] || friction[0] != friction[1] || !loads_are_mirrored(scene, axis)) return false;
   const double plane = scene.grid.coordinate(static_cast<int>(axis), scene.grid.n_cells[axis] / 2);
   return std::all_of(scene.bodies.begin(), scene.bodies.end(),

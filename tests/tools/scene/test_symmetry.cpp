@@ -60,6 +60,8 @@ TEST_CASE("a scene in space is round where all in it is round about one line, or
   CHECK_FALSE(tools::round_scene(shipped("cone/quick.json", {"/gravity=[1,0,-9.81]"})));
   CHECK_FALSE(tools::round_scene(shipped("uxo/quick.json", {"/centrifuge=null"})));
   CHECK_FALSE(tools::round_scene(shipped("punch/slab.json")));
+  // A square block.
+  CHECK_FALSE(tools::round_scene(shipped("peers/block_3d.json")));
   CHECK_FALSE(tools::round_scene(shipped("cone/axisymmetric.json")));
 }
 
