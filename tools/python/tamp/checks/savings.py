@@ -107,7 +107,8 @@ CERTIFICATES = {
         Certificate("punch: the report's slab on 1 cm, half on 2 cm", Run("punch/slab.json", OF_REPORT),
                     Run("punch/quick.json", {**ON_2_CM, "/grid/lower": [0.5, 0]}), "punch"),
         Certificate("projectile to 0.1 ms: the report's, half and rigid, both on 5 mm",
-                    Run("uxo/table.json", {"/time/end": 1e-4}), Run("uxo/half.json", {"/time/end": 1e-4}), "projectile"),
+                    Run("uxo/table.json", {"/time/end": 1e-4}), Run("uxo/half.json", {"/time/end": 1e-4}),
+                    "projectile"),
     ],
     "rigid": [
         Certificate("punch on 2.5 cm: deformable, rigid", Run("punch/quick.json", MILLISECOND),
