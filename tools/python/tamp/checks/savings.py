@@ -50,7 +50,14 @@ OF_REPORT = {**MILLISECOND, "/grid/cell_size": 0.01, "/grid/upper": [1.0, 0.8, 0
              "/interpolator": "gimp", "/time/rule": "published", "/time/multiplier": 0.05,
              "/artificial_viscosity": {"linear": 0.2, "quadratic": 2.0}, "/contact/0/normal": "flatter",
              "/bodies/punch/geometry/upper": [0.65, 0.7, 0.01], "/bodies/sand/geometry/upper": [1.0, 0.5, 0.01]}
-ON_2_CM = {**MILLISECOND, "/grid/cell_size": 0.02, "/grid/patches": [1, 1]}
+TO_100_US = {"/time/end": 1e-4}
+FINER = {**MILLISECOND, "/grid/cell_size": 0.0125, "/grid/patches": [1, 1]}
+HALF_OF_FINER = {**FINER, "/grid/lower": [0.5, 0]}
+# Within 0.1 ms waves are not back at the projectile from the sides of this box, as `tamp check` says.
+AS_FAR_AS_WAVES = {**TO_100_US, "/transfer": "tflip",
+                   "/grid/lower": [0, 0.05, 0.02], "/grid/upper": [0.085, 0.09, 0.16],
+                   "/grid/patches": [1, 1, 1], "/bodies/sand/geometry/lower": [0, 0.05, 0.02],
+                   "/bodies/sand/geometry/upper": [0.085, 0.09, 0.107]}
 FAST_CONE = {"/grid/upper": [0.06, 0.06, 0.18], "/grid/patches": [1, 1, 1], "/time/end": 0.004,
              "/output/fields_interval": 1, "/contact/0/normal": "regression",
              "/bodies/sand/geometry/upper": [0.06, 0.06, 0.09], "/bodies/cone/driven/velocities": [[0, 0, 0, -10]],
@@ -74,6 +81,10 @@ CERTIFICATES = {
                     Run("punch/half.json", MILLISECOND), "punch"),
         Certificate("punch, deformable: half and rigid", Run("punch/quick.json", MILLISECOND),
                     Run("punch/half.json", MILLISECOND), "punch"),
+        Certificate("punch on 1.25 cm, deformable: half", Run("punch/quick.json", FINER),
+                    Run("punch/quick.json", HALF_OF_FINER), "punch"),
+        Certificate("punch on 1.25 cm, deformable: half and rigid", Run("punch/quick.json", FINER),
+                    Run("punch/quick.json", {**HALF_OF_FINER, **RIGID}), "punch"),
         Certificate("projectile at 45 degrees: half", Run("uxo/quick.json", WITHOUT_TURNING),
                     Run("uxo/half.json", {"/time/end": 4e-4}), "projectile"),
         Certificate("projectile straight down: half", Run("uxo/quick.json", STRAIGHT_DOWN),
@@ -104,11 +115,12 @@ CERTIFICATES = {
                     Run("punch/quick.json", MILLISECOND), "punch"),
     ],
     "report": [
-        Certificate("punch: the report's slab on 1 cm, half on 2 cm", Run("punch/slab.json", OF_REPORT),
-                    Run("punch/quick.json", {**ON_2_CM, "/grid/lower": [0.5, 0]}), "punch"),
+        Certificate("punch: the report's slab on 1 cm, half on 2.5 cm with `tflip`", Run("punch/slab.json", OF_REPORT),
+                    Run("punch/quick.json", {**MILLISECOND, **HALF_OF_PUNCH, "/transfer": "tflip"}), "punch"),
         Certificate("projectile to 0.1 ms: the report's, half and rigid, both on 5 mm",
-                    Run("uxo/table.json", {"/time/end": 1e-4}), Run("uxo/half.json", {"/time/end": 1e-4}),
-                    "projectile"),
+                    Run("uxo/table.json", TO_100_US), Run("uxo/half.json", TO_100_US), "projectile"),
+        Certificate("the same, half with `tflip` in a box as far as waves come",
+                    Run("uxo/table.json", TO_100_US), Run("uxo/half.json", AS_FAR_AS_WAVES), "projectile"),
     ],
     "rigid": [
         Certificate("punch on 2.5 cm: deformable, rigid", Run("punch/quick.json", MILLISECOND),
