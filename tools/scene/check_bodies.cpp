@@ -105,10 +105,19 @@ struct MirroredBody {
 
   std::string plane() const { return fmt::format("{}{}", "xyz"[axis], "-+"[side]); }
 
+  double place() const
+  {
+    return scene.grid.coordinate(static_cast<int>(axis), side == 0 ? 0 : scene.grid.n_cells[axis]);
+  }
+
   void add_problem(const std::string& key, const std::string& found) const
   {
-    root.document().add_problem(root.pointer("bodies") / body.name / key,
-                                fmt::format("{} the plane of symmetry {}, on which the body lies", found, plane()),
+    add_problem(root.pointer("bodies") / body.name / key, found);
+  }
+
+  void add_problem(const JsonPointer& at, const std::string& found) const
+  {
+    root.document().add_problem(at, fmt::format("{} the plane of symmetry {}, on which the body lies", found, plane()),
                                 "expected what the mirror image in that plane has, too");
   }
 
@@ -126,12 +135,25 @@ struct MirroredBody {
   void check_axis() const
   {
     if (!body.axis) return;
-    const double place = scene.grid.coordinate(static_cast<int>(axis), side == 0 ? 0 : scene.grid.n_cells[axis]);
     const auto is_off = [&](const tasks::Triple& end) {
-      return std::abs(end[axis] - place) > 1e-9 * scene.grid.cell_size;
+      return std::abs(end[axis] - place()) > 1e-9 * scene.grid.cell_size;
     };
     if (is_off(body.axis->nose)) add_problem("nose", "a place beside");
     if (is_off(body.axis->tail)) add_problem("tail", "a place beside");
+  }
+
+  /// A box that ends at the plane has an image beyond it.
+  template <int D>
+  void check_pressure() const
+  {
+    if (!body.pressure) return;
+    const int k = static_cast<int>(axis);
+    const components::Box<D> part = std::get<components::Solid<D>>(body.solid).bounding_box();
+    const double reach = side == 0 ? part.upper[k] - place() : place() - part.lower[k];
+    const components::PressedBox<3>& box = body.pressure->box;
+    const bool crosses = box.lower[k] < place() && box.upper[k] > place();
+    if (!crosses || is_mirrored(box, axis, place(), reach)) return;
+    add_problem(root.pointer("bodies") / body.name / "pressure" / "within", "a box that is not symmetric about");
   }
 };
 
@@ -168,6 +190,7 @@ void check_mirrored_bodies(const tasks::Scene& scene, const JsonReader& root)
         mirrored.check_motion();
         // Between two walls it may be anywhere.
         if (!planes[axis][1 - side]) mirrored.check_axis();
+        scene.grid.dimension == 2 ? mirrored.check_pressure<2>() : mirrored.check_pressure<3>();
         if (!seen[axis][side]) check_mirrored_loads(scene, body, axis, side, root);
         seen[axis][side] = true;
       }

@@ -27,9 +27,8 @@ tasks::Sides faces_crossed(const components::Box<D>& box, const runtime::Grid& g
   tasks::Sides crossed{};
   for (int axis = 0; axis < D; ++axis) {
     const auto k = static_cast<std::size_t>(axis);
-    crossed[k] = {
-        box.lower[axis]<grid.coordinate(axis, 0) - slack, box.upper[axis]> grid.coordinate(axis, grid.n_cells[k]) +
-        slack};
+    crossed[k][0] = box.lower[axis] < grid.coordinate(axis, 0) - slack;
+    crossed[k][1] = box.upper[axis] > grid.coordinate(axis, grid.n_cells[k]) + slack;
   }
   return crossed;
 }

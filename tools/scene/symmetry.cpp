@@ -39,8 +39,8 @@ bool is_symmetric(const tasks::Scene& scene, const tasks::SceneBody& body, std::
 {
   const auto& functions = body.functions;
   if (functions.velocity || functions.layout || functions.displacement || functions.body_force) return false;
-  if (functions.deformation_gradient) return false;
-  if (body.is_pressed() || moves_across(body, axis) || !turns_only_about(body, axis)) return false;
+  if (functions.deformation_gradient || functions.pressure) return false;
+  if (moves_across(body, axis) || !turns_only_about(body, axis)) return false;
   const double slack = 1e-9 * scene.grid.cell_size;
   const auto is_off = [&](const tasks::Triple& end) { return std::abs(end[axis] - plane) > slack; };
   if (body.axis && (is_off(body.axis->nose) || is_off(body.axis->tail))) return false;
@@ -48,6 +48,7 @@ bool is_symmetric(const tasks::Scene& scene, const tasks::SceneBody& body, std::
   const components::Box<D> box = solid.bounding_box();
   const int k = static_cast<int>(axis);
   if (std::abs(box.lower[k] + box.upper[k] - 2 * plane) > scene.grid.cell_size) return false;
+  if (body.pressure && !is_mirrored(body.pressure->box, axis, plane, box.upper[k] - plane)) return false;
   return !first_without_image<D>(solid, tasks::lattice_of<D>(scene, body.material), k, plane);
 }
 
@@ -77,6 +78,13 @@ bool loads_are_mirrored(const tasks::Scene& scene, std::size_t axis)
     return std::abs(v[static_cast<int>(axis)]) >= (1 - 1e-12) * v.norm();
   };
   return is_along(scene.centrifuge->angular_velocity(0)) && is_along(scene.centrifuge->angular_velocity(1));
+}
+
+bool is_mirrored(const components::PressedBox<3>& pressed, std::size_t axis, double place, double reach)
+{
+  const int k = static_cast<int>(axis);
+  const double before = std::min(place - pressed.lower[k], reach), beyond = std::min(pressed.upper[k] - place, reach);
+  return std::abs(before - beyond) <= 1e-9 * reach;
 }
 
 std::size_t first_axis_with_planes(const tasks::Scene& scene)

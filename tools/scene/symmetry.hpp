@@ -13,6 +13,10 @@ namespace tamp::tools
 /// leave a plane that does not turn about its own normal.
 bool loads_are_mirrored(const tasks::Scene& scene, std::size_t axis);
 
+/// Whether a pressure on a body that reaches as far [m] to both sides of the plane normal to an axis at `place` [m] is
+/// as its image in that plane.
+bool is_mirrored(const components::PressedBox<3>& pressed, std::size_t axis, double place, double reach);
+
 /// The first axis whose faces may be planes of symmetry: r = 0 of an axisymmetric scene is a line.
 std::size_t first_axis_with_planes(const tasks::Scene& scene);
 

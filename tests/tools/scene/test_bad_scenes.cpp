@@ -549,6 +549,12 @@ TEST_CASE("half of a scene that is not symmetric is refused where it is not")
          {"/bodies/block/angular_velocity=[2]", block + "angular_velocity: a spin that turns it out of" + on_plane},
          {"/bodies/block/nose=[0,2] /bodies/block/tail=[0,3]", ""},
          {"/bodies/block/nose=[0.5,2] /bodies/block/tail=[0,3]", block + "nose: a place beside" + on_plane},
+         {"/bodies/block/pressure={'value':1}", ""},
+         {"/bodies/block/pressure={'value':1,'within':{'lower':[-5,2.9],'upper':[5,3]}}", ""},
+         {"/bodies/block/pressure={'value':1,'within':{'lower':[0,2.9],'upper':[0.5,3]}}", ""},
+         {"/bodies/block/pressure={'value':1,'within':{'lower':[-0.5,2.9],'upper':[0.5,3]}}", ""},
+         {"/bodies/block/pressure={'value':1,'within':{'lower':[-0.5,2.9],'upper':[5,3]}}",
+          block + "pressure/within: a box that is not symmetric about" + on_plane},
          {"/gravity=[1,0]", "/gravity: a part across" + at_plane},
          {"/bodies/block/geometry/upper=[1.5,3]",
           "scene.json#" + block +

@@ -32,6 +32,11 @@ std::vector<std::string> centred(const std::string& change)
           change};
 }
 
+std::string pressed_from_to(const std::string& lower, const std::string& upper)
+{
+  return "/bodies/block/pressure={\"value\":1,\"within\":{\"lower\":" + lower + ",\"upper\":" + upper + "}}";
+}
+
 using Axes = std::vector<std::size_t>;
 
 }  // namespace
@@ -44,6 +49,10 @@ TEST_CASE("a scene is symmetric about the middle of its grid where all in it is"
   CHECK(tools::symmetric_axes(scene_with(centred("/gravity=[0,-10]"))) == Axes{0});
   CHECK(tools::symmetric_axes(scene_with(centred("/boundaries/y+=open"))) == Axes{0});
   CHECK(tools::symmetric_axes(scene_with(centred("/boundaries/x-={\"friction\":0.1}"))) == Axes{1});
+  CHECK(tools::symmetric_axes(scene_with(centred("/bodies/block/pressure={\"value\":1}"))) == Axes{0, 1});
+  CHECK(tools::symmetric_axes(scene_with(centred(pressed_from_to("[0.8,0]", "[1.2,2]")))) == Axes{0, 1});
+  CHECK(tools::symmetric_axes(scene_with(centred(pressed_from_to("[0.8,1.4]", "[1.2,2]")))) == Axes{0});
+  CHECK(tools::symmetric_axes(scene_with(centred(pressed_from_to("[0.8,0]", "[2,2]")))) == Axes{1});
   CHECK(tools::symmetric_axes(scene_with({})).empty());
   CHECK(tools::symmetric_axes(shipped("uxo/quick.json")).empty());
   CHECK(tools::symmetric_axes(shipped("uxo/quick.json", {"/centrifuge=null"})) == Axes{1});
