@@ -50,7 +50,7 @@ OF_REPORT = {**MILLISECOND, "/grid/cell_size": 0.01, "/grid/upper": [1.0, 0.8, 0
              "/interpolator": "gimp", "/time/rule": "published", "/time/multiplier": 0.05,
              "/artificial_viscosity": {"linear": 0.2, "quadratic": 2.0}, "/contact/0/normal": "flatter",
              "/bodies/punch/geometry/upper": [0.65, 0.7, 0.01], "/bodies/sand/geometry/upper": [1.0, 0.5, 0.01]}
-TO_100_US = {"/time/end": 1e-4}
+TO_100_US, TO_850_US = {"/time/end": 1e-4}, {"/time/end": 8.5e-4}
 FINER = {**MILLISECOND, "/grid/cell_size": 0.0125, "/grid/patches": [1, 1]}
 HALF_OF_FINER = {**FINER, "/grid/lower": [0.5, 0]}
 # Within 0.1 ms waves are not back at the projectile from the sides of this box, as `tamp check` says.
@@ -121,6 +121,13 @@ CERTIFICATES = {
                     Run("uxo/table.json", TO_100_US), Run("uxo/half.json", TO_100_US), "projectile"),
         Certificate("the same, half with `tflip` in a box as far as waves come",
                     Run("uxo/table.json", TO_100_US), Run("uxo/half.json", AS_FAR_AS_WAVES), "projectile"),
+    ],
+    "late": [
+        Certificate("projectile to 0.85 ms: the report's, half and rigid with `tflip`", Run("uxo/table.json", TO_850_US),
+                    Run("uxo/half.json", {**TO_850_US, "/transfer": "tflip"}), "projectile"),
+        Certificate("the same, with the report's viscosity", Run("uxo/table.json", TO_850_US),
+                    Run("uxo/half.json", {**TO_850_US, "/transfer": "tflip",
+                                          "/artificial_viscosity": {"linear": 0.2, "quadratic": 2.0}}), "projectile"),
     ],
     "rigid": [
         Certificate("punch on 2.5 cm: deformable, rigid", Run("punch/quick.json", MILLISECOND),
