@@ -123,8 +123,9 @@ CERTIFICATES = {
                     Run("uxo/table.json", TO_100_US), Run("uxo/half.json", AS_FAR_AS_WAVES), "projectile"),
     ],
     "late": [
-        Certificate("projectile to 0.85 ms: the report's, half and rigid with `tflip`", Run("uxo/table.json", TO_850_US),
-                    Run("uxo/half.json", {**TO_850_US, "/transfer": "tflip"}), "projectile"),
+        Certificate("projectile to 0.85 ms: the report's, half and rigid with `tflip`",
+                    Run("uxo/table.json", TO_850_US), Run("uxo/half.json", {**TO_850_US, "/transfer": "tflip"}),
+                    "projectile"),
         Certificate("the same, with the report's viscosity", Run("uxo/table.json", TO_850_US),
                     Run("uxo/half.json", {**TO_850_US, "/transfer": "tflip",
                                           "/artificial_viscosity": {"linear": 0.2, "quadratic": 2.0}}), "projectile"),
