@@ -251,8 +251,10 @@ std::string method_of(const tasks::Scene& scene)
 /// Sand that is compacted fast, in the plane, by a body that is many cells thick.
 void advise_on_plane_method(const tasks::Scene& scene, Lines& lines)
 {
-  const bool on_front = scene.interpolator == tasks::Interpolator("cubic_spline") && has_enough_viscosity(scene) &&
-                        (scene.transfer == tasks::Transfer("flip") || scene.transfer == tasks::Transfer("apic"));
+  const bool transfers_well = scene.transfer == tasks::Transfer("flip") || scene.transfer == tasks::Transfer("tflip") ||
+                              scene.transfer == tasks::Transfer("apic");
+  const bool on_front =
+      scene.interpolator == tasks::Interpolator("cubic_spline") && has_enough_viscosity(scene) && transfers_well;
   if (on_front) return;
   lines.push_back(
       fmt::format("method: {} is off the front of cost and error: the force on a piston at 200 m/s is {} "

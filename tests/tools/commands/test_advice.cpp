@@ -64,6 +64,9 @@ TEST_CASE("the slab and the report's settings are told what costs less")
                       "the force on a piston at 200 m/s is 3 to 8 % off;") &&
           Catch::Contains("advice  rule: \"published\" times 0.05 takes short steps; \"viscous\" times 1 would "
                           "take about "));
+  CHECK_THAT(check_of("punch/quick.json", "--set /transfer=tflip"), !Catch::Contains("method:"));
+  CHECK_THAT(check_of("punch/quick.json", "--set /transfer=pic"),
+             Catch::Contains("advice  method: \"cubic_spline\", \"pic\", viscosity 1 / 4 is off the front"));
 }
 
 TEST_CASE("the check of the projectile says that it is thin, that it sets the step if deformable, and what turns it")
