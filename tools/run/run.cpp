@@ -3,9 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <chrono>
-#include <csignal>
 #include <vector>
 
 #include "runtime/data/byte_stream.hpp"
@@ -27,6 +25,7 @@
 #include "tools/run/run_output.hpp"
 #include "tools/run/run_summary.hpp"
 #include "tools/run/run_trace.hpp"
+#include "tools/run/stop_reasons.hpp"
 #include "tools/scene/compiled_moduli.hpp"
 #include "tools/scene/plausibility.hpp"
 #include "tools/scene/print_json.hpp"
@@ -60,31 +59,6 @@ double bytes_in(const std::filesystem::path& folder)
     if (!unreadable) bytes += static_cast<double>(size);
   }
   return bytes;
-}
-
-/// Requests that one rank may make of all with a step, as bits.
-constexpr unsigned write_checkpoint = 1;
-constexpr unsigned end_as_output_has_failed = 1U << 1;
-
-/// Why a run stops early, and with the exit code of which signal.
-struct StopReason {
-  unsigned request;
-  int signal;
-  const char* words;
-};
-constexpr StopReason wall_limit_reached{1U << 2, SIGTERM, "stopped at its wall limit"};
-constexpr std::array stop_reasons{wall_limit_reached, StopReason{1U << 3, SIGTERM, "stopped by SIGTERM"},
-                                  StopReason{1U << 4, SIGINT, "stopped by SIGINT"},
-                                  StopReason{1U << 5, SIGHUP, "stopped by SIGHUP, as its terminal was lost"},
-                                  StopReason{1U << 6, SIGXCPU, "stopped by SIGXCPU, at its limit of processor time"}};
-
-/// One of these was asked for; null if none.
-const StopReason* stop_reason(unsigned requests)
-{
-  for (const StopReason& reason : stop_reasons) {
-    if ((requests & reason.request) != 0) return &reason;
-  }
-  return nullptr;
 }
 
 std::shared_ptr<runtime::Executor> executor_of(const RunOptions& options)
@@ -330,7 +304,7 @@ class Runner
     }
     if (!is_first()) return;
     if (output_.has_failed()) simulation_->engine().ask(end_as_output_has_failed);
-    if (checkpoint_clock_.wall_time_over()) simulation_->engine().ask(write_checkpoint);
+    if (checkpoint_clock_.wall_time_over()) simulation_->engine().ask(checkpoint_wanted);
     if (seconds_since(start_) > options_.wall_limit) simulation_->engine().ask(wall_limit_reached.request);
   }
 
