@@ -66,6 +66,9 @@ inline const runtime::ParticleLabel<SymmetricTensor<D>, "strain increment"> stra
 /// cells do.
 template <int D>
 inline const runtime::ParticleLabel<Matrix<D>, "step gradient"> step_gradient;
+/// dt v_r / r of the particle's ring in this step. Only in axisymmetric scenes whose particles deform as their cells
+/// do.
+inline const runtime::ParticleLabel<double, "step hoop"> step_hoop;
 /// Stress of a particle for the forces at nodes [Pa]: its mean is that of its cell. Only where particles deform as
 /// their cells do.
 template <int D>
@@ -76,7 +79,8 @@ inline const runtime::ParticleLabel<SymmetricTensor<D>, "shared stress"> shared_
 namespace cell
 {
 
-/// Only where particles deform as their cells do: det f - 1, and components::mean_stress [Pa].
+/// Only where particles deform as their cells do: det f - 1, of rings with the hoop's stretch, and
+/// components::mean_stress [Pa].
 inline const runtime::CellLabel<components::CellMean, "volume change of cells"> volume_change;
 inline const runtime::CellLabel<components::CellMean, "mean stress of cells"> mean_stress;
 /// Compression positive [Pa]; for samples of the state.

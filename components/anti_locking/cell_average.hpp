@@ -20,19 +20,20 @@ struct CellMean {
 };
 
 /// The stress that does work on changes of a particle's volume [Pa], tension positive: the mean of the normal stresses
-/// along the axes of the grid, less the viscous pressure.
-template <int D>
-double mean_stress(const SymmetricTensor<D>& stress, double viscous_pressure)
+/// along the axes that share a change, less the viscous pressure. Those are two in plane strain, three in space and of
+/// rings.
+template <int n_axes, class Stress>
+double mean_stress(const Stress& stress, double viscous_pressure)
 {
-  return stress.template head<D>().mean() - viscous_pressure;
+  return stress.template head<n_axes>().mean() - viscous_pressure;
 }
 
 /// The stress with another mean.
-template <int D>
-SymmetricTensor<D> with_mean_stress(SymmetricTensor<D> stress, double viscous_pressure, double mean)
+template <int n_axes, class Stress>
+Stress with_mean_stress(Stress stress, double viscous_pressure, double mean)
 {
-  const double change = mean - mean_stress<D>(stress, viscous_pressure);
-  stress.template head<D>().array() += change;
+  const double change = mean - mean_stress<n_axes>(stress, viscous_pressure);
+  stress.template head<n_axes>().array() += change;
   return stress;
 }
 

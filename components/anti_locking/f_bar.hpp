@@ -13,20 +13,31 @@
 namespace tamp::components
 {
 
-/// sum v_i (x) grad N_i [1/s] at the centre of the cell that holds `x`, N the linear functions of its nodes; row:
-/// component of velocity. `nodes` and `inverse_mass`, 0 where there is none, are those of the first node of the block.
-/// Empty where a corner of the cell has no mass, and so no velocity.
+/// At the centre of a cell, by the linear functions N of its nodes.
 template <int D>
-std::optional<Matrix<D>> gradient_at_centre(const GridBlock<D>& block, const NodeMotion<D>* nodes,
-                                            const double* inverse_mass, const Vector<D>& x)
+struct MotionAtCentre {
+  Vector<D> place;     ///< m
+  Vector<D> velocity;  ///< sum v_i N_i [m/s]
+  Matrix<D> gradient;  ///< sum v_i (x) grad N_i [1/s]; row: component of velocity
+};
+
+/// Of the cell that holds `x`. `nodes` and `inverse_mass`, 0 where there is none, are those of the first node of the
+/// block. Empty where a corner of the cell has no mass, and so no velocity.
+template <int D>
+std::optional<MotionAtCentre<D>> motion_at_centre(const GridBlock<D>& block, const NodeMotion<D>* nodes,
+                                                  const double* inverse_mass, const Vector<D>& x)
 {
   constexpr int n_corners = 1 << D;
   const Vector<D> place = block.in_cells(x);
+  Vector<D> centre;
   std::ptrdiff_t first = 0;
   for (std::size_t k = 0; k < D; ++k) {
-    const auto cell = static_cast<int>(std::floor(place[static_cast<int>(k)]));
-    first += std::clamp(cell, 0, block.n_nodes[k] - 2) * block.strides[k];
+    const int axis = static_cast<int>(k);
+    const int cell = std::clamp(static_cast<int>(std::floor(place[axis])), 0, block.n_nodes[k] - 2);
+    first += cell * block.strides[k];
+    centre[axis] = block.origin[axis] + (cell + 0.5) * block.cell_size;
   }
+  Vector<D> velocities = Vector<D>::Zero();
   Matrix<D> sum = Matrix<D>::Zero();
   for (int corner = 0; corner < n_corners; ++corner) {
     Vector<D> side;
@@ -37,20 +48,26 @@ std::optional<Matrix<D>> gradient_at_centre(const GridBlock<D>& block, const Nod
       if (is_upper) node += block.strides[static_cast<std::size_t>(k)];
     }
     if (inverse_mass[node] == 0) return std::nullopt;
+    velocities += nodes[node].velocity();
     sum += nodes[node].velocity() * side.transpose();
   }
-  return Matrix<D>(sum * (2.0 / (n_corners * block.cell_size)));
+  return MotionAtCentre<D>{centre, velocities / n_corners, sum * (2.0 / (n_corners * block.cell_size))};
 }
 
 /// As E. A. de Souza Neto et al. (Int. J. Solids Struct. 33, 1996) for finite elements and W. M. Coombs et al. (Comput.
 /// Methods Appl. Mech. Eng. 333, 2018) for material points: every particle of a cell takes the change of volume at its
-/// centre. `g`, dt times the gradients at the particles, is set to dt times those there, where there are any.
+/// centre. `g`, dt times the gradients at the particles, is set to dt times those there, where there are any; and so is
+/// `hoop` of rings to dt v_r / r there, which is empty of other particles.
 template <int D>
 void centre_gradients(const GridBlock<D>& block, const NodeMotion<D>* nodes, const double* inverse_mass,
-                      std::span<const Vector<D>> position, double dt, std::span<Matrix<D>> g)
+                      std::span<const Vector<D>> position, double dt, std::span<Matrix<D>> g,
+                      std::span<double> hoop = {})
 {
   for (std::size_t p = 0; p < position.size(); ++p) {
-    if (const auto at_centre = gradient_at_centre<D>(block, nodes, inverse_mass, position[p])) g[p] = dt * *at_centre;
+    const auto at_centre = motion_at_centre<D>(block, nodes, inverse_mass, position[p]);
+    if (!at_centre) continue;
+    g[p] = dt * at_centre->gradient;
+    if (!hoop.empty()) hoop[p] = dt * at_centre->velocity[0] / at_centre->place[0];
   }
 }
 

@@ -17,4 +17,11 @@ void volume_changes(DeformationUpdate update, std::span<const Matrix<D>> g, std:
 template <int D>
 void set_volume_changes(DeformationUpdate update, std::span<Matrix<D>> g, std::span<const double> change);
 
+/// The same of particles that are rings, whose hoops a step stretches by `hoop`, dt v_r / r: a ring changes its volume
+/// as a particle in space whose gradient has the hoop's across the plane, and all three of its stretches are scaled.
+void ring_volume_changes(DeformationUpdate update, std::span<const Matrix<2>> g, std::span<const double> hoop,
+                         std::span<double> change);
+void set_ring_volume_changes(DeformationUpdate update, std::span<Matrix<2>> g, std::span<double> hoop,
+                             std::span<const double> change);
+
 }  // namespace tamp::components

@@ -7,6 +7,29 @@ namespace tamp::tasks
 
 using runtime::TaskContext;
 
+namespace
+{
+
+/// Deforms a batch by the gradients that were kept of it, with the changes of volume of its cells.
+template <int D, class Data>
+void deform_batch(const Method<D>& method, const TaskContext& at, const Data& data, std::size_t first, std::size_t size)
+{
+  const auto cells = data[cell::volume_change];
+  const auto position = data[particle::position<D>.previous()];
+  StepGradientBuffer<D> buffer;
+  const StepGradients<D> gradients = buffer.first(size, method.axisymmetric);
+  std::ranges::copy(data[particle::step_gradient<D>].subspan(first, size), gradients.g.begin());
+  if (method.axisymmetric) {
+    std::ranges::copy(data[particle::step_hoop].subspan(first, size), gradients.hoop.begin());
+  }
+  std::array<double, motion_batch> change;
+  for (std::size_t i = 0; i < size; ++i) change[i] = cells[cell_of<D>(at, position[first + i])].mean();
+  set_volume_changes<D>(method, gradients, std::span(change).first(size));
+  deform<D>(method, data, first, gradients);
+}
+
+}  // namespace
+
 /// By now each cell knows the mean change of volume of its particles, which all of them take.
 template <int D>
 runtime::TaskList deform_as_cells(const Method<D>& method)
@@ -15,27 +38,16 @@ runtime::TaskList deform_as_cells(const Method<D>& method)
   return {runtime::task("deform as cells")
               .over_patches_and_groups(method.deformable_materials)
               .sparse()
-              .reads(cell::volume_change, particle::step_gradient<D>, particle::id.previous(),
-                     particle::position<D>.previous(), particle::deformation_gradient<D>.previous(),
-                     particle::volume.previous(), particle::stress<D>.previous())
+              .reads(cell::volume_change, particle::step_gradient<D>, particle::step_hoop.when(method.axisymmetric),
+                     particle::id.previous(), particle::position<D>.previous(),
+                     particle::deformation_gradient<D>.previous(), particle::volume.previous(),
+                     particle::stress<D>.previous(), particle::hoop_stretch.previous().when(method.axisymmetric))
               .computes(particle::deformation_gradient<D>, particle::volume, particle::stress<D>,
-                        particle::strain_increment<D>)
+                        particle::strain_increment<D>, particle::hoop_stretch.when(method.axisymmetric))
               .body([&method](const TaskContext& at, auto data) {
-                const auto cells = data[cell::volume_change];
-                const auto position = data[particle::position<D>.previous()];
-                const auto own = data[particle::step_gradient<D>];
-                std::array<Matrix<D>, motion_batch> gradients;
-                std::array<double, motion_batch> changes;
-                for (std::size_t first = 0; first < own.size(); first += motion_batch) {
-                  const std::size_t size = std::min(motion_batch, own.size() - first);
-                  const auto g = std::span(gradients).first(size);
-                  const auto change = std::span(changes).first(size);
-                  std::copy_n(own.begin() + static_cast<std::ptrdiff_t>(first), size, g.begin());
-                  for (std::size_t i = 0; i < size; ++i) {
-                    change[i] = cells[cell_of<D>(at, position[first + i])].mean();
-                  }
-                  components::set_volume_changes<D>(method.deformation_update, g, change);
-                  deform<D>(method, data, first, g);
+                const std::size_t n = data[particle::step_gradient<D>].size();
+                for (std::size_t first = 0; first < n; first += motion_batch) {
+                  deform_batch<D>(method, at, data, first, std::min(motion_batch, n - first));
                 }
               })};
 }

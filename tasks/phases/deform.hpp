@@ -18,6 +18,24 @@
 namespace tamp::tasks
 {
 
+/// What the motion of a step, at its middle, does to a batch of particles over their shape at its start (eqs 54-58).
+template <int D>
+struct StepGradients {
+  std::span<Matrix<D>> g;  ///< dt times the gradient of the velocity; row: component of velocity
+  std::span<double> hoop;  ///< dt v_r / r in axisymmetric scenes; else empty
+};
+
+template <int D>
+struct StepGradientBuffer {
+  std::array<Matrix<D>, motion_batch> g;
+  std::array<double, motion_batch> hoop;
+
+  StepGradients<D> first(std::size_t size, bool axisymmetric)
+  {
+    return {std::span(g).first(size), std::span(hoop).first(axisymmetric ? size : 0)};
+  }
+};
+
 /// A particle that cannot follow keeps its shape, and has no strain: the next phase sees that, and the step is refused.
 template <int D, class Data>
 void leave_undeformed(const Data& data, std::size_t p)
@@ -28,7 +46,7 @@ void leave_undeformed(const Data& data, std::size_t p)
   data[particle::strain_increment<D>][p].setConstant(std::numeric_limits<double>::quiet_NaN());
 }
 
-/// Stretches the hoops of a batch that has been deformed in the plane, by `g` = dt v_r / r.
+/// Stretches the hoops of a batch that has followed its gradients in the plane, by `g` = dt v_r / r.
 template <class Data>
 void stretch_hoops(const Method<2>& method, const Data& data, std::size_t first, std::span<const double> g)
 {
@@ -49,10 +67,9 @@ void stretch_hoops(const Method<2>& method, const Data& data, std::size_t first,
   }
 }
 
-/// Deforms particles by the gradient of the velocity at the middle of the step, over the shape at its start (eqs
-/// 54-58), as `g` times dt; the old stress turns with them, and what the material answers is added by the next phase.
+/// Deforms a batch by `g`; the old stress turns with it.
 template <int D, class Data>
-void deform(const Method<D>& method, const Data& data, std::size_t first, std::span<const Matrix<D>> g)
+void follow_gradients(const Method<D>& method, const Data& data, std::size_t first, std::span<const Matrix<D>> g)
 {
   while (!g.empty()) {
     const auto of_batch = [&](const auto& field) { return field.subspan(first, g.size()); };
@@ -72,21 +89,74 @@ void deform(const Method<D>& method, const Data& data, std::size_t first, std::s
   }
 }
 
+/// Deforms a batch of particles; what the material answers is added by the next phase.
+template <int D, class Data>
+void deform(const Method<D>& method, const Data& data, std::size_t first, const StepGradients<D>& gradients)
+{
+  follow_gradients<D>(method, data, first, gradients.g);
+  if constexpr (D == 2) {
+    if (method.axisymmetric) stretch_hoops(method, data, first, gradients.hoop);
+  }
+}
+
+/// The changes of volume of particles, or of rings.
+template <int D>
+void volume_changes(const Method<D>& method, const StepGradients<D>& of, std::span<double> change)
+{
+  if constexpr (D == 2) {
+    if (method.axisymmetric) return components::ring_volume_changes(method.deformation_update, of.g, of.hoop, change);
+  }
+  components::volume_changes<D>(method.deformation_update, of.g, change);
+}
+
+template <int D>
+void set_volume_changes(const Method<D>& method, const StepGradients<D>& of, std::span<const double> change)
+{
+  if constexpr (D == 2) {
+    if (method.axisymmetric) {
+      return components::set_ring_volume_changes(method.deformation_update, of.g, of.hoop, change);
+    }
+  }
+  components::set_volume_changes<D>(method.deformation_update, of.g, change);
+}
+
 /// Keeps the gradients of a batch until those of the whole patch are known, and adds its changes of volume to its
 /// cells.
 template <int D, class Data>
 void keep(const Method<D>& method, const runtime::TaskContext& at, const Data& data, std::size_t first,
-          std::span<const Matrix<D>> g)
+          const StepGradients<D>& gradients)
 {
+  const std::size_t size = gradients.g.size();
   const auto position = data[particle::position<D>.previous()];
   const auto volume = data[particle::volume.previous()];
   const auto cells = data[cell::volume_change];
   std::array<double, motion_batch> change;
-  components::volume_changes<D>(method.deformation_update, g, std::span(change).first(g.size()));
-  for (std::size_t i = 0; i < g.size(); ++i) {
-    data[particle::step_gradient<D>][first + i] = g[i];
+  volume_changes<D>(method, gradients, std::span(change).first(size));
+  std::ranges::copy(gradients.g, data[particle::step_gradient<D>].subspan(first).begin());
+  if (method.axisymmetric) std::ranges::copy(gradients.hoop, data[particle::step_hoop].subspan(first).begin());
+  for (std::size_t i = 0; i < size; ++i) {
     cells[cell_of<D>(at, position[first + i])].add(volume[first + i], change[i]);
   }
+}
+
+/// Gives a batch the changes of volume at the centres of its cells, by the velocities of `nodes`.
+template <int D, class Data>
+void take_centre_changes(const Method<D>& method, double dt, const Data& data, const components::GridBlock<D>& block,
+                         const components::NodeMotion<D>* nodes, const double* inverse_mass, std::size_t first,
+                         const StepGradients<D>& gradients)
+{
+  const std::size_t size = gradients.g.size();
+  StepGradientBuffer<D> buffer;
+  const StepGradients<D> centres = buffer.first(size, method.axisymmetric);
+  std::array<double, motion_batch> change;
+  const auto changes = std::span(change).first(size);
+  std::ranges::copy(gradients.g, centres.g.begin());
+  std::ranges::copy(gradients.hoop, centres.hoop.begin());
+  components::centre_gradients<D>(block, nodes, inverse_mass,
+                                  data[particle::position<D>.previous()].subspan(first, size), dt, centres.g,
+                                  centres.hoop);
+  volume_changes<D>(method, centres, changes);
+  set_volume_changes<D>(method, gradients, changes);
 }
 
 /// Deforms a batch of particles by the gradients of its motion, which it got from `nodes`; or keeps them, where
@@ -97,32 +167,21 @@ void take_gradients(const Method<D>& method, const runtime::TaskContext& at, con
                     const double* inverse_mass, std::size_t first,
                     std::span<const components::ParticleMotion<D>> motion)
 {
-  std::array<Matrix<D>, motion_batch> buffer;
-  const auto g = std::span(buffer).first(motion.size());
-  for (std::size_t i = 0; i < g.size(); ++i) g[i] = at.step.size * motion[i].velocity_gradient;
+  const double dt = at.step.size;
+  const auto position = data[particle::position<D>.previous()];
+  StepGradientBuffer<D> buffer;
+  const StepGradients<D> gradients = buffer.first(motion.size(), method.axisymmetric);
+  for (std::size_t i = 0; i < motion.size(); ++i) gradients.g[i] = dt * motion[i].velocity_gradient;
+  for (std::size_t i = 0; i < gradients.hoop.size(); ++i) {
+    gradients.hoop[i] = dt * motion[i].velocity[0] / position[first + i][0];
+  }
   if (method.anti_locking == components::AntiLocking::f_bar) {
-    std::array<Matrix<D>, motion_batch> at_centre;
-    std::array<double, motion_batch> change;
-    const auto centres = std::span(at_centre).first(g.size());
-    std::ranges::copy(g, centres.begin());
-    const auto changes = std::span(change).first(g.size());
-    components::centre_gradients<D>(block, nodes, inverse_mass,
-                                    data[particle::position<D>.previous()].subspan(first, g.size()), at.step.size,
-                                    centres);
-    components::volume_changes<D>(method.deformation_update, centres, changes);
-    components::set_volume_changes<D>(method.deformation_update, g, changes);
+    take_centre_changes<D>(method, dt, data, block, nodes, inverse_mass, first, gradients);
   }
   if (method.deforms_as_cells()) {
-    keep<D>(method, at, data, first, g);
+    keep<D>(method, at, data, first, gradients);
   } else {
-    deform<D>(method, data, first, g);
-  }
-  if constexpr (D == 2) {
-    if (!method.axisymmetric) return;
-    const auto position = data[particle::position<D>.previous()];
-    std::array<double, motion_batch> hoop;
-    for (std::size_t i = 0; i < g.size(); ++i) hoop[i] = at.step.size * motion[i].velocity[0] / position[first + i][0];
-    stretch_hoops(method, data, first, std::span(hoop).first(g.size()));
+    deform<D>(method, data, first, gradients);
   }
 }
 
@@ -156,11 +215,11 @@ auto deforming(const Method<D>& method, Task task, bool deforms)
   return std::move(task)
       .reads(particle::id.previous().when(deforms), particle::volume.previous().when(deforms),
              particle::stress<D>.previous().when(deforms),
-             particle::hoop_stretch.previous().when(deforms && method.axisymmetric))
+             particle::hoop_stretch.previous().when(finishes && method.axisymmetric))
       .computes(particle::own_stiffness.when(deforms), particle::step_gradient<D>.when(keeps),
-                cell::volume_change.when(keeps), particle::deformation_gradient<D>.when(finishes),
-                particle::volume.when(finishes), particle::stress<D>.when(finishes),
-                particle::strain_increment<D>.when(finishes),
+                particle::step_hoop.when(keeps && method.axisymmetric), cell::volume_change.when(keeps),
+                particle::deformation_gradient<D>.when(finishes), particle::volume.when(finishes),
+                particle::stress<D>.when(finishes), particle::strain_increment<D>.when(finishes),
                 particle::hoop_stretch.when(finishes && method.axisymmetric));
 }
 

@@ -17,8 +17,9 @@ runtime::StepEnd end_of_stress(const Method<D>& method)
   return method.stress_timing == StressTiming::usf ? runtime::StepEnd::end : runtime::StepEnd::start;
 }
 
-/// Weighted by the volumes that changes of volume are weighted by, so that the work of both is the same.
-template <int D>
+/// Weighted by the volumes that changes of volume are weighted by, so that the work of both is the same. The stresses
+/// are those along the axes that share a change.
+template <int D, int n_axes>
 runtime::TaskDeclaration average(const Method<D>& method)
 {
   const runtime::StepEnd end = end_of_stress(method);
@@ -36,13 +37,13 @@ runtime::TaskDeclaration average(const Method<D>& method)
         const auto cells = data[cell::mean_stress];
         for_each(cells.box(), [&](const runtime::Index& i) { cells[i] = {}; });
         for (std::size_t p = 0; p < stress.size(); ++p) {
-          const double own = components::mean_stress<D>(stress[p], viscous_pressure[p]);
+          const double own = components::mean_stress<n_axes>(stress[p], viscous_pressure[p]);
           cells[cell_of<D>(at, position[p])].add(volume[p], own);
         }
       });
 }
 
-template <int D>
+template <int D, int n_axes>
 runtime::TaskDeclaration share(const Method<D>& method)
 {
   const runtime::StepEnd end = end_of_stress(method);
@@ -60,7 +61,7 @@ runtime::TaskDeclaration share(const Method<D>& method)
         const auto shared = data[particle::shared_stress<D>];
         for (std::size_t p = 0; p < stress.size(); ++p) {
           const double mean = cells[cell_of<D>(at, position[p])].mean();
-          shared[p] = components::with_mean_stress<D>(stress[p], viscous_pressure[p], mean);
+          shared[p] = components::with_mean_stress<n_axes>(stress[p], viscous_pressure[p], mean);
         }
       });
 }
@@ -71,7 +72,8 @@ template <int D>
 runtime::TaskList share_stress(const Method<D>& method)
 {
   if (!method.deforms_as_cells()) return {};
-  return {average(method), share(method)};
+  if (method.axisymmetric) return {average<D, 3>(method), share<D, 3>(method)};
+  return {average<D, D>(method), share<D, D>(method)};
 }
 
 template runtime::TaskList share_stress(const Method<2>&);

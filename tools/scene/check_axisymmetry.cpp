@@ -70,9 +70,6 @@ void check_axisymmetry(const JsonReader& scene_reader, const tasks::Scene& scene
     reader.add_problem("gravity", fmt::format("{} m/s^2 across the axis of an axisymmetric scene", scene.gravity[0]),
                        "expected gravity along y alone");
   }
-  if (scene.anti_locking != tasks::AntiLocking::none) {
-    reader.add_problem("anti_locking", "shared changes of volume in an axisymmetric scene", "expected \"none\"");
-  }
 }
 
 void check_axisymmetric_bodies(const tasks::Scene& scene, const JsonReader& bodies)

@@ -91,6 +91,35 @@ TEMPLATE_TEST_CASE_SIG("a change of volume is the same however the step turns it
   }
 }
 
+TEST_CASE("a ring that is given another change of volume has it, and is stretched alike in all three directions")
+{
+  const DeformationUpdate update =
+      GENERATE(DeformationUpdate("exact"), DeformationUpdate("first_order"), DeformationUpdate("exponential"));
+  const auto stretch = [update](double hoop) {
+    return with_update(update, [hoop]<class Update>(const Update&) { return Update::stretch(hoop); });
+  };
+  const std::vector<Matrix<2>> g = random_steps<2>(37, 0.1);
+  std::vector<double> hoop(g.size()), wanted(g.size()), own(g.size()), given(g.size());
+  for (std::size_t p = 0; p < g.size(); ++p) {
+    hoop[p] = 0.1 * std::cos(static_cast<double>(p));
+    wanted[p] = 0.2 * std::sin(1.0 + static_cast<double>(p));
+  }
+
+  std::vector<Matrix<2>> changed = g;
+  std::vector<double> changed_hoop = hoop;
+  ring_volume_changes(update, g, hoop, own);
+  set_ring_volume_changes(update, changed, changed_hoop, wanted);
+  ring_volume_changes(update, changed, changed_hoop, given);
+
+  for (std::size_t p = 0; p < g.size(); ++p) {
+    const Matrix<2> f = map_of<2>(update, g[p]), f_bar = map_of<2>(update, changed[p]);
+    REQUIRE(1 + own[p] == Approx(f.determinant() * stretch(hoop[p])).epsilon(1e-14));
+    REQUIRE(f_bar.determinant() * stretch(changed_hoop[p]) == Approx(1 + wanted[p]).epsilon(1e-14));
+    REQUIRE(given[p] == Approx(wanted[p]).margin(1e-15));
+    REQUIRE((f_bar / stretch(changed_hoop[p]) - f / stretch(hoop[p])).norm() < 1e-14);
+  }
+}
+
 TEST_CASE("a particle that is turned inside out stays so whatever its cell does")
 {
   std::vector<Matrix<2>> g(1, Matrix<2>::Zero());
@@ -141,6 +170,31 @@ TEMPLATE_TEST_CASE_SIG("the mean stress that a cell shares does the work of the 
   CHECK(by_nodes == Approx(by_particles).epsilon(1e-12));
 }
 
+TEST_CASE("the mean stress that rings share does the work of their own on the shared change, along the hoop too")
+{
+  // Normal stresses along r, z and the hoop; g_r, g_z and the hoop's g of two rings.
+  const std::array<double, 2> volume{2, 1}, viscous_pressure{30, 0};
+  const std::array<SymmetricTensor<2>, 2> stress{SymmetricTensor<2>(-400, 100, 70, 20),
+                                                 SymmetricTensor<2>(50, -250, -90, 10)};
+  const std::array<Vector<3>, 2> g{Vector<3>(1e-9, -2e-9, 4e-9), Vector<3>(-3e-9, 1e-9, -2e-9)};
+  CellMean change, mean;
+  for (std::size_t p = 0; p < 2; ++p) {
+    change.add(volume[p], g[p].sum());
+    mean.add(volume[p], mean_stress<3>(stress[p], viscous_pressure[p]));
+  }
+
+  double by_nodes = 0, by_particles = 0;
+  for (std::size_t p = 0; p < 2; ++p) {
+    const SymmetricTensor<2> shared = with_mean_stress<3>(stress[p], viscous_pressure[p], mean.mean());
+    const Vector<3> viscous = Vector<3>::Constant(viscous_pressure[p]);
+    const Vector<3> taken = g[p] + Vector<3>::Constant((change.mean() - g[p].sum()) / 3);
+    by_nodes += volume[p] * (shared.head<3>() - viscous).dot(g[p]);
+    by_particles += volume[p] * (stress[p].head<3>() - viscous).dot(taken);
+    CHECK(shared[3] == stress[p][3]);
+  }
+  CHECK(by_nodes == Approx(by_particles).epsilon(1e-12));
+}
+
 TEMPLATE_TEST_CASE_SIG("the gradient at a cell's centre is that of a linear velocity and of no alternating one", "",
                        ((int D), D), 2, 3)
 {
@@ -178,6 +232,30 @@ TEMPLATE_TEST_CASE_SIG("the gradient at a cell's centre is that of a linear velo
 
   CHECK((g[0] - 0.1 * gradient).norm() < 1e-15);
   CHECK(g[1] == Matrix<D>::Identity());
+}
+
+TEST_CASE("at a cell's centre the hoop of a ring is stretched as rings there are, on the axis too")
+{
+  // v_r = 0.3 r - 0.2 r z: v_r / r at the centre of a cell is 0.3 - 0.2 z there.
+  GridBlock<2> block;
+  block.origin.setZero();
+  block.cell_size = 0.25;
+  block.n_nodes = {4, 4};
+  block.strides = {1, 4};
+  std::vector<NodeMotion<2>> nodes(16);
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    const Vector<2> x = block.cell_size * block.cells_to(static_cast<std::ptrdiff_t>(i));
+    nodes[i].set(Vector<2>(0.3 * x[0] - 0.2 * x[0] * x[1], 0), Vector<2>::Zero());
+  }
+  const std::vector<double> inverse_mass(nodes.size(), 1);
+  const std::vector<Vector<2>> places{Vector<2>(0.01, 0.2), Vector<2>(0.6, 0.3)};
+  std::vector<Matrix<2>> g(places.size(), Matrix<2>::Zero());
+  std::vector<double> hoop(places.size(), 0);
+
+  centre_gradients<2>(block, nodes.data(), inverse_mass.data(), places, 0.1, g, hoop);
+
+  CHECK(hoop[0] == Approx(0.1 * (0.3 - 0.2 * 0.125)).epsilon(1e-14));
+  CHECK(hoop[1] == Approx(0.1 * (0.3 - 0.2 * 0.375)).epsilon(1e-14));
 }
 
 }  // namespace test_volume_changes
