@@ -50,6 +50,7 @@ OF_REPORT = {**MILLISECOND, "/grid/cell_size": 0.01, "/grid/upper": [1.0, 0.8, 0
              "/interpolator": "gimp", "/time/rule": "published", "/time/multiplier": 0.05,
              "/artificial_viscosity": {"linear": 0.2, "quadratic": 2.0}, "/contact/0/normal": "flatter",
              "/bodies/punch/geometry/upper": [0.65, 0.7, 0.01], "/bodies/sand/geometry/upper": [1.0, 0.5, 0.01]}
+ON_1_MM = {"/grid/cell_size": 0.001}
 TO_100_US, TO_850_US = {"/time/end": 1e-4}, {"/time/end": 8.5e-4}
 FINER = {**MILLISECOND, "/grid/cell_size": 0.0125, "/grid/patches": [1, 1]}
 HALF_OF_FINER = {**FINER, "/grid/lower": [0.5, 0]}
@@ -134,8 +135,15 @@ CERTIFICATES = {
         Certificate("punch on 2.5 cm: deformable, rigid", Run("punch/quick.json", MILLISECOND),
                     Run("punch/quick.json", {**MILLISECOND, **RIGID}), "punch"),
         Certificate("projectile on 5 mm to 0.1 ms: deformable, rigid",
-                    Run("uxo/quick.json", {"/bodies/projectile/rigid": False, "/time/end": 1e-4}),
-                    Run("uxo/quick.json", {"/time/end": 1e-4}), "projectile"),
+                    Run("uxo/quick.json", {"/bodies/projectile/rigid": False, **TO_100_US}),
+                    Run("uxo/quick.json", TO_100_US), "projectile"),
+        Certificate("ball on 1 mm, axisymmetric: deformable, rigid",
+                    Run("savings/ball.json", {"/bodies/ball/rigid": False, **ON_1_MM}),
+                    Run("savings/ball.json", ON_1_MM), "ball"),
+        Certificate("projectile straight down on 1 mm, axisymmetric, to 0.1 ms: deformable, rigid",
+                    Run("savings/projectile_straight_down.json",
+                        {"/bodies/projectile/rigid": False, **TO_100_US, **ON_1_MM}),
+                    Run("savings/projectile_straight_down.json", {**TO_100_US, **ON_1_MM}), "projectile"),
     ],
 }
 
