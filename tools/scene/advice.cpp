@@ -8,9 +8,11 @@
 #include <utility>
 #include <variant>
 
-#include "tasks/set_up/initial_moduli.hpp"
+#include "tools/scene/digits.hpp"
 #include "tools/scene/penetration.hpp"
 #include "tools/scene/rigidity.hpp"
+#include "tools/scene/symmetry.hpp"
+#include "tools/scene/wave_box.hpp"
 
 namespace tamp::tools
 {
@@ -23,20 +25,6 @@ using Lines = std::vector<std::string>;
 const tasks::SceneMaterial& material_of(const tasks::Scene& scene, const tasks::SceneBody& body)
 {
   return scene.materials[static_cast<std::size_t>(body.material)];
-}
-
-/// Of compression waves in its unstrained material [m/s].
-double waves_in(const tasks::Scene& scene, const tasks::SceneBody& body)
-{
-  return tasks::initial_wave_speed(material_of(scene, body));
-}
-
-/// In two digits, without a power of ten: 3100, 47, 0.25.
-std::string two_digits(double x)
-{
-  if (!(x >= 100)) return fmt::format("{:.2g}", x);
-  const double digit = std::pow(10, std::floor(std::log10(x)) - 1);
-  return fmt::format("{:.0f}", digit * std::round(x / digit));
 }
 
 /// Such as "about 1100 steps for 3200, 0.4 of the time".
@@ -134,95 +122,6 @@ void advise_on_cells(const tasks::Scene& scene, const tasks::SceneBody& body, co
   lines.push_back(line);
 }
 
-/// From a body to the sides of the ground, one way along an axis.
-struct Side {
-  std::string name;
-  /// From the body to the ground's end [m]; 0 or less where the body reaches beyond it.
-  double room;
-  /// What the ground's end need be away, so that no wave from there is at the body in time [m].
-  double needed;
-  /// When a wave is there, and when it is back [s].
-  double there, back;
-};
-
-/// Where along a direction waves start: at the nose, if the body has one, or else all along it [m].
-double start_of_waves(const tasks::SceneBody& body, const Eigen::Vector3d& direction)
-{
-  return body.axis ? Eigen::Vector3d(body.axis->nose.data()).dot(direction) : reach(body, direction);
-}
-
-Side side_of(const tasks::Scene& scene, const tasks::SceneBody& body, const tasks::SceneBody& ground, int axis,
-             int towards)
-{
-  const Eigen::Vector3d direction = towards * Eigen::Vector3d::Unit(axis);
-  const double T = scene.time.end, c = waves_in(scene, ground);
-  const double speed = std::max(0.0, way_of(scene, body).dot(direction) / T);
-  const double room = reach(ground, direction) - start_of_waves(body, direction);
-  return {std::string(1, "xyz"[axis]) + (towards > 0 ? '+' : '-'), room, std::max(speed, 0.5 * (c + speed)) * T,
-          room / c, 2 * room / (c + speed)};
-}
-
-/// Whether the scene is one cell thick along an axis, between smooth walls.
-bool is_thin(const tasks::Scene& scene, int axis)
-{
-  const auto k = static_cast<std::size_t>(axis);
-  return scene.grid.n_cells[k] == 1 && scene.faces[k][0] == tasks::Face::symmetry &&
-         scene.faces[k][1] == tasks::Face::symmetry;
-}
-
-std::vector<Side> sides_of(const tasks::Scene& scene, const tasks::SceneBody& body, const tasks::SceneBody& ground)
-{
-  std::vector<Side> sides;
-  sides.reserve(6);
-  for (int axis = 0; axis < scene.grid.dimension; ++axis) {
-    if (scene.grid.periodic[static_cast<std::size_t>(axis)] || is_thin(scene, axis)) continue;
-    for (const int towards : {-1, 1}) {
-      const Eigen::Vector3d direction = towards * Eigen::Vector3d::Unit(axis);
-      if (reach(body, direction) >= reach(ground, direction)) continue;
-      Side side = side_of(scene, body, ground, axis, towards);
-      if (side.room > 0) sides.push_back(std::move(side));
-    }
-  }
-  return sides;
-}
-
-/// The grid without what waves come back from too late, along each axis [m].
-std::string least_box(const tasks::Scene& scene, const std::vector<Side>& sides)
-{
-  std::string text;
-  for (int axis = 0; axis < scene.grid.dimension; ++axis) {
-    double edge = scene.grid.n_cells[static_cast<std::size_t>(axis)] * scene.grid.cell_size;
-    for (const Side& side : sides) {
-      if (side.name[0] == "xyz"[axis]) edge -= std::max(0.0, side.room - side.needed);
-    }
-    text += fmt::format("{}{:.2g}", axis == 0 ? "" : " x ", edge);
-  }
-  return text + " m";
-}
-
-/// How much of the ground waves see in the time.
-void advise_on_box(const tasks::Scene& scene, const tasks::SceneBody& body, const Penetration& penetration,
-                   Lines& lines)
-{
-  const std::vector<Side> sides = sides_of(scene, body, *penetration.into);
-  if (sides.empty()) return;
-  const auto sooner = [](const Side& a, const Side& b) { return a.back < b.back; };
-  const Side& first = *std::min_element(sides.begin(), sides.end(), sooner);
-  const double T = scene.time.end, c = waves_in(scene, *penetration.into);
-  std::string line = fmt::format("box: waves in {} ({:.0f} m/s) ", penetration.into->name, c);
-  if (first.back < T) {
-    line += fmt::format("are at its side {} after {} ms and back at {} after {} ms, of {} ms", first.name,
-                        two_digits(1e3 * first.there), body.name, two_digits(1e3 * first.back), two_digits(1e3 * T));
-  } else {
-    line += fmt::format("come {:.2g} m far in {} ms and are not back at {} from any side", c * T, two_digits(1e3 * T),
-                        body.name);
-  }
-  if (std::any_of(sides.begin(), sides.end(), [](const Side& s) { return s.room > 1.2 * s.needed; })) {
-    line += "; a box of " + least_box(scene, sides) + " would do";
-  }
-  lines.push_back(line);
-}
-
 /// A linear coefficient from which pressure behind a front does not swing.
 bool has_enough_viscosity(const tasks::Scene& scene)
 {
@@ -289,7 +188,8 @@ void advise_on_pressed_method(const tasks::Scene& scene, Lines& lines)
 /// Whether it is one cell thick between smooth walls, and so in plane strain.
 bool is_slab(const tasks::Scene& scene)
 {
-  return scene.grid.dimension == 3 && (is_thin(scene, 0) || is_thin(scene, 1) || is_thin(scene, 2));
+  return scene.grid.dimension == 3 &&
+         (is_one_cell_thick(scene, 0) || is_one_cell_thick(scene, 1) || is_one_cell_thick(scene, 2));
 }
 
 /// The front that is meant is that of cost against error in choosing.md and verification.md.
@@ -323,7 +223,8 @@ std::vector<std::string> advice(const tasks::Scene& scene, const std::optional<t
       // Each body would take trial runs of its own.
       if (std::exchange(is_first, false)) advise_on_step(scene, body, *penetration, pace, lines);
       advise_on_cells(scene, body, *penetration, lines);
-      advise_on_box(scene, body, *penetration, lines);
+      const std::string on_box = advice_on_box(scene, body, *penetration->into);
+      if (!on_box.empty()) lines.push_back(on_box);
     }
     advise_on_method(scene, body, lines);
   }

@@ -120,6 +120,11 @@ Vector3d way_of(const tasks::Scene& scene, const tasks::SceneBody& body)
   return scene.time.end * Vector3d(body.velocity.data());
 }
 
+double waves_in(const tasks::Scene& scene, const tasks::SceneBody& body)
+{
+  return tasks::initial_wave_speed(scene.materials[static_cast<std::size_t>(body.material)]);
+}
+
 bool Penetration::is_coarse() const
 {
   return cells() < least_cells_per_half_width * (1 - rounding);

@@ -14,6 +14,9 @@ double reach(const tasks::SceneBody& body, const Eigen::Vector3d& direction);
 /// How far a body's velocity or its drive takes it by the end of the scene, if nothing stops it [m].
 Eigen::Vector3d way_of(const tasks::Scene& scene, const tasks::SceneBody& body);
 
+/// The speed of compression waves in a body's unstrained material [m/s].
+double waves_in(const tasks::Scene& scene, const tasks::SceneBody& body);
+
 /// With fewer cells to a half width the force on it is a tenth or more too large, see docs/choosing.md.
 inline constexpr double least_cells_per_half_width = 6;
 

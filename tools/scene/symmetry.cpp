@@ -87,6 +87,13 @@ bool is_mirrored(const components::PressedBox<3>& pressed, std::size_t axis, dou
   return std::abs(before - beyond) <= 1e-9 * reach;
 }
 
+bool is_one_cell_thick(const tasks::Scene& scene, int axis)
+{
+  const auto k = static_cast<std::size_t>(axis);
+  return scene.grid.n_cells[k] == 1 && scene.faces[k][0] == tasks::Face::symmetry &&
+         scene.faces[k][1] == tasks::Face::symmetry;
+}
+
 std::size_t first_axis_with_planes(const tasks::Scene& scene)
 {
   return scene.axisymmetric ? 1 : 0;

@@ -17,6 +17,9 @@ bool loads_are_mirrored(const tasks::Scene& scene, std::size_t axis);
 /// as its image in that plane.
 bool is_mirrored(const components::PressedBox<3>& pressed, std::size_t axis, double place, double reach);
 
+/// Whether the scene is one cell thick along an axis, between smooth walls: a slab in plane strain.
+bool is_one_cell_thick(const tasks::Scene& scene, int axis);
+
 /// The first axis whose faces may be planes of symmetry: r = 0 of an axisymmetric scene is a line.
 std::size_t first_axis_with_planes(const tasks::Scene& scene);
 

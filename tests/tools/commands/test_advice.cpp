@@ -42,7 +42,9 @@ TEST_CASE("for a short time a smaller box and a rigid punch would do")
 
   CHECK_THAT(said, Catch::Contains("its depth is within 1 % of a deformable one's, some 0.72 % off"));
   CHECK_THAT(said, Catch::Contains("box: waves in sand (909 m/s) come 0.091 m far in 0.1 ms and are not back at punch "
-                                   "from any side; a box of 0.39 x 0.36 m would do\n"));
+                                   "from any side; 0.36 of the cells would do, with /grid/lower=[0.2,0.325] "
+                                   "/grid/upper=[0.8,0.8] /grid/patches=[2,1] /bodies/sand/geometry/lower=[0.2,0.325] "
+                                   "/bodies/sand/geometry/upper=[0.8,0.5]\n"));
 }
 
 TEST_CASE("a punch of real steel bounds the step, and one of rubber is too soft to be rigid")

@@ -54,7 +54,7 @@ ON_1_MM = {"/grid/cell_size": 0.001}
 TO_100_US, TO_850_US = {"/time/end": 1e-4}, {"/time/end": 8.5e-4}
 FINER = {**MILLISECOND, "/grid/cell_size": 0.0125, "/grid/patches": [1, 1]}
 HALF_OF_FINER = {**FINER, "/grid/lower": [0.5, 0]}
-# Within 0.1 ms waves are not back at the projectile from the sides of this box, as `tamp check` says.
+# A little less than what `tamp check` advises; waves are back from its sides at 0.1 ms.
 AS_FAR_AS_WAVES = {**TO_100_US, "/transfer": "tflip",
                    "/grid/lower": [0, 0.05, 0.02], "/grid/upper": [0.085, 0.09, 0.16],
                    "/grid/patches": [1, 1, 1], "/bodies/sand/geometry/lower": [0, 0.05, 0.02],
