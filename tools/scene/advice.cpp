@@ -109,7 +109,7 @@ void advise_on_cells(const tasks::Scene& scene, const tasks::SceneBody& body, co
                      Lines& lines)
 {
   const double cells = penetration.cells();
-  std::string line = fmt::format("cells: {} has {:.1f} to its half width, of {:.0f} that it needs", body.name, cells,
+  std::string line = fmt::format("cells: {} has {:.1f} to its half width, and needs {:.0f}", body.name, cells,
                                  least_cells_per_half_width);
   if (is_compacted_sand(scene, *penetration.into)) {
     line += fmt::format("; the force on it is some {} % too large", two_digits(420 / (cells * cells)));

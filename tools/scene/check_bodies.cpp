@@ -142,7 +142,8 @@ struct MirroredBody {
     if (is_off(body.axis->tail)) add_problem("tail", "a place beside");
   }
 
-  /// A box that ends at the plane has an image beyond it.
+  /// A box that ends at the plane stands for itself and its image. One apart from the plane would press the whole on
+  /// one side alone.
   template <int D>
   void check_pressure() const
   {
@@ -151,9 +152,11 @@ struct MirroredBody {
     const components::Box<D> part = std::get<components::Solid<D>>(body.solid).bounding_box();
     const double reach = side == 0 ? part.upper[k] - place() : place() - part.lower[k];
     const components::PressedBox<3>& box = body.pressure->box;
-    const bool crosses = box.lower[k] < place() && box.upper[k] > place();
-    if (!crosses || is_mirrored(box, axis, place(), reach)) return;
-    add_problem(root.pointer("bodies") / body.name / "pressure" / "within", "a box that is not symmetric about");
+    const double end = side == 0 ? box.lower[k] : box.upper[k];
+    const bool ends_at_plane = std::abs(end - place()) <= 1e-9 * scene.grid.cell_size;
+    if (ends_at_plane || is_mirrored(box, axis, place(), reach)) return;
+    add_problem(root.pointer("bodies") / body.name / "pressure" / "within",
+                "a box that is not symmetric about, and does not end at,");
   }
 };
 

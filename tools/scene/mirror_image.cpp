@@ -28,15 +28,14 @@ components::CellRange<D> cells_around(const components::Solid<D>& solid, const c
   return cells;
 }
 
-/// The same of a box, which may be far larger than the grid: the middle of the side that reaches too far.
+/// A box that is its own image but for rounding: such as ground that is far larger than the grid, whose sites are many.
 template <int D>
-std::optional<Vector<D>> end_without_image(const components::Box<D>& box, double spacing, int axis, double place)
+bool is_mirrored_box(const components::Solid<D>& solid, int axis, double place)
 {
-  const double excess = box.lower[axis] + box.upper[axis] - 2 * place;
-  if (std::abs(excess) < 0.5 * spacing) return std::nullopt;
-  Vector<D> end = 0.5 * (box.lower + box.upper);
-  end[axis] = excess > 0 ? box.upper[axis] : box.lower[axis];
-  return end;
+  const auto* box = solid.template get_if<components::Box<D>>();
+  if (box == nullptr) return false;
+  const double before = place - box->lower[axis], beyond = box->upper[axis] - place;
+  return std::abs(before - beyond) <= 1e-9 * (before + beyond);
 }
 
 }  // namespace
@@ -45,9 +44,7 @@ template <int D>
 std::optional<Vector<D>> first_without_image(const components::Solid<D>& solid,
                                              const components::ParticleLattice<D>& lattice, int axis, double place)
 {
-  if (const auto* box = solid.template get_if<components::Box<D>>()) {
-    return end_without_image<D>(*box, lattice.cell_size / lattice.n_per_axis, axis, place);
-  }
+  if (is_mirrored_box<D>(solid, axis, place)) return std::nullopt;
   constexpr double on_surface = 1e-3;
   std::optional<Vector<D>> first;
   double n_without = 0;

@@ -25,7 +25,7 @@ TEST_CASE("bodies that hold nothing, leave the grid or overlap are refused")
        {"/bodies/block/geometry/upper=[1,2.5]",
         geometry +
             "reaches beyond y+, the plane y = 2 m, and is not symmetric about it: the image of its place "
-            "[0.5, 0] is not in it" +
+            "[0.25, 0.25] is not in it" +
             within_or_cut},
        {"/bodies/block/geometry/upper=[1,2.5] /boundaries/y+=open",
         geometry + "reaches from [0, 0] to [1, 2.5]" + within_or_cut},

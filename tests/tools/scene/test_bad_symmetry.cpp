@@ -27,7 +27,10 @@ TEST_CASE("half of a scene that is not symmetric is refused where it is not")
        {"/bodies/block/pressure={'value':1,'within':{'lower':[0,2.9],'upper':[0.5,3]}}", ""},
        {"/bodies/block/pressure={'value':1,'within':{'lower':[-0.5,2.9],'upper':[0.5,3]}}", ""},
        {"/bodies/block/pressure={'value':1,'within':{'lower':[-0.5,2.9],'upper':[5,3]}}",
-        block + "pressure/within: a box that is not symmetric about" + on_plane},
+        block + "pressure/within: a box that is not symmetric about, and does not end at," + on_plane},
+       {"/bodies/block/pressure={'value':1,'within':{'lower':[0.25,2.9],'upper':[0.5,3]}}",
+        block + "pressure/within: a box that is not symmetric about, and does not end at," + on_plane},
+       {"/bodies/block/pressure={'value':1,'within':{'lower':[-1e-17,2.9],'upper':[0.5,3]}}", ""},
        {"/gravity=[1,0]", "/gravity: a part across" + at_plane},
        {"/bodies/block/geometry/upper=[1.5,3]",
         "scene.json#" + block +

@@ -53,6 +53,9 @@ TEST_CASE("a scene is symmetric about the middle of its grid where all in it is"
   CHECK(tools::symmetric_axes(scene_with(centred(pressed_from_to("[0.8,0]", "[1.2,2]")))) == Axes{0, 1});
   CHECK(tools::symmetric_axes(scene_with(centred(pressed_from_to("[0.8,1.4]", "[1.2,2]")))) == Axes{0});
   CHECK(tools::symmetric_axes(scene_with(centred(pressed_from_to("[0.8,0]", "[2,2]")))) == Axes{1});
+  // By less than half a particle too far to one side, which then has one more.
+  CHECK(tools::symmetric_axes(scene_with(centred("/bodies/block/geometry={\"type\":\"box\",\"lower\":[0.45,0.5],"
+                                                 "\"upper\":[1.65,1.5]}"))) == Axes{1});
   CHECK(tools::symmetric_axes(scene_with({})).empty());
   CHECK(tools::symmetric_axes(shipped("uxo/quick.json")).empty());
   CHECK(tools::symmetric_axes(shipped("uxo/quick.json", {"/centrifuge=null"})) == Axes{1});

@@ -120,7 +120,7 @@ CERTIFICATES = {
                     Run("punch/quick.json", {**MILLISECOND, **HALF_OF_PUNCH, "/transfer": "tflip"}), "punch"),
         Certificate("projectile to 0.1 ms: the report's, half and rigid, both on 5 mm",
                     Run("uxo/table.json", TO_100_US), Run("uxo/half.json", TO_100_US), "projectile"),
-        Certificate("the same, half with `tflip` in a box as far as waves come",
+        Certificate("the same, half with `tflip` in a smaller box",
                     Run("uxo/table.json", TO_100_US), Run("uxo/half.json", AS_FAR_AS_WAVES), "projectile"),
     ],
     "late": [
