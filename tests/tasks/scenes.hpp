@@ -167,4 +167,18 @@ inline double worked(const EnergyLedger& energies)
   return energies.elastic + energies.plastic + energies.viscous + energies.contact;
 }
 
+/// How far the energy is off at any time until `end`, over what a scene without loads begins with.
+inline double greatest_energy_error(const Scene& scene, double end)
+{
+  const auto simulation = Simulation::make(scene, 1);
+  const double given = simulation->report().kinetic;
+  double error = 0;
+  while (simulation->time() < end) {
+    simulation->advance(end);
+    const EnergyLedger& e = simulation->energies();
+    error = std::max(error, std::abs(simulation->report().kinetic + worked(e) + e.filter - e.half_step - given));
+  }
+  return error / given;
+}
+
 }  // namespace tamp::test
