@@ -122,6 +122,7 @@ class Run:
 
     def __init__(self, folder):
         self.rows = results.rows_of(results.history(folder))
+        self.end = files.document(folder / "given.json")["/time/end"]
         self.user = float((folder / "user_s.txt").read_text())
         self.steps = int(self.rows[-1]["step"])
 
@@ -156,9 +157,10 @@ def print_positions(runs, millimetres):
     header = ["", *(f"{1e3 * time:g} ms" for time in TIMES), "deepest", "speed at the end", "steps", "user time"]
     rows = []
     for name, one in runs.items():
-        deepest = one.deepest()
+        deepest, end = one.deepest(), one.rows[-1]
+        early = "" if end["time"] >= one.end else f", ends at {1e3 * end['time']:.2f} ms"
         rows.append([CASES[name][0], *(position(one.at(time)) for time in TIMES),
-                     f"{depth(deepest):.1f} at {1e3 * deepest['time']:.2f} ms", f"{speed(one.rows[-1]):.0f} m/s",
+                     f"{depth(deepest):.1f} at {1e3 * deepest['time']:.2f} ms", f"{speed(end):.0f} m/s{early}",
                      f"{one.steps}", f"{one.user:.0f} s"])
     print_table(header, rows)
 
