@@ -32,7 +32,8 @@ struct Progress {
 class Engine
 {
  public:
-  /// `executor` must outlive the engine. Throws GraphError with every mistake that the tasks hold.
+  /// `executor` must outlive the engine. Throws GraphError with every mistake that the tasks hold, and for a layout that
+  /// is dealt to other ranks than the communicator's.
   Engine(const PatchLayout& layout, std::vector<std::string> group_names, std::vector<GraphTasks> graphs,
          Executor& executor, const Communicator& communicator = {});
 
@@ -59,7 +60,7 @@ class Engine
   /// graphs do not outlive a deal.
   void balance_every(long n_steps);
   const std::vector<Rebalance>& rebalances() const { return balance_.rebalances(); }
-  /// Gives each patch, between steps, to the rank that stands at its place in `ranks`.
+  /// Gives each patch, between steps, to the rank that stands at its place in `ranks`; see PatchLayout::give_to_ranks.
   void deal(const std::vector<int>& ranks);
 
   /// The profile of the steps so far on all ranks.

@@ -4,6 +4,7 @@
 #include <bitset>
 #include <cstring>
 
+#include "runtime/graph/graph_error.hpp"
 #include "runtime/graph/step_verdict.hpp"
 
 namespace tamp::runtime
@@ -29,6 +30,7 @@ BoundGraph::BoundGraph(const TaskGraph& graph, Warehouse& warehouse, const Commu
                        const RankClocks* clocks)
     : graph_(graph), warehouse_(warehouse), rank_(communicator.rank())
 {
+  expect_ranks(graph.layout(), communicator.size());
   for (const Patch& patch : graph.layout()) {
     places_.push_back(n_local_patches_);
     if (patch.rank == rank_) ++n_local_patches_;

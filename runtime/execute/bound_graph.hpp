@@ -18,7 +18,8 @@ namespace tamp::runtime
 class BoundGraph final : public Work
 {
  public:
-  /// Collective: the ranks of the communicator are those of the graph's layout. For `clocks` see Exchange.
+  /// Collective. Throws GraphError unless the graph's layout is dealt to the ranks of the communicator. For `clocks`
+  /// see Exchange.
   BoundGraph(const TaskGraph& graph, Warehouse& warehouse, const Communicator& communicator = {},
              const RankClocks* clocks = nullptr);
 

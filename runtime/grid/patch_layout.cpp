@@ -71,6 +71,15 @@ Index PatchLayout::place_of(int patch) const
 
 void PatchLayout::give_to_ranks(const std::vector<int>& rank_of_patch, int n_ranks)
 {
+  if (rank_of_patch.size() != patches_.size()) {
+    throw std::invalid_argument("ranks of " + std::to_string(rank_of_patch.size()) + " patches for a layout of " +
+                                std::to_string(patches_.size()));
+  }
+  for (const int rank : rank_of_patch) {
+    if (rank >= 0 && rank < n_ranks) continue;
+    throw std::invalid_argument("a patch of rank " + std::to_string(rank) + ", where there are " +
+                                std::to_string(n_ranks) + " from 0 on");
+  }
   n_ranks_ = n_ranks;
   for (Patch& patch : patches_) patch.rank = rank_of_patch[static_cast<std::size_t>(patch.id)];
 }

@@ -64,7 +64,8 @@ class PatchLayout
   const Index& n_patches() const { return n_patches_; }
   int size() const { return static_cast<int>(patches_.size()); }
   const Patch& operator[](int id) const { return patches_[static_cast<std::size_t>(id)]; }
-  /// Which rank works on which patch; all are rank 0's until this says otherwise.
+  /// Which rank works on which patch; all are rank 0's until this says otherwise. Throws std::invalid_argument unless
+  /// it gives each patch to one of the ranks.
   void give_to_ranks(const std::vector<int>& rank_of_patch, int n_ranks);
   int n_ranks() const { return n_ranks_; }
   std::vector<int> ranks() const;

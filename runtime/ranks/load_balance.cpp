@@ -47,7 +47,7 @@ std::optional<std::vector<int>> LoadBalance::look(long step, const PatchLayout& 
   looked_before_ = step;
   const std::vector<double> costs = sum_over_ranks(own_costs, communicator);
   if (!rebalances_.empty() && rebalances_.back().imbalance_got == 0) {
-    rebalances_.back().imbalance_got = imbalance(costs, layout.ranks(), communicator.size());
+    rebalances_.back().imbalance_got = imbalance(costs, layout.ranks(), layout.n_ranks());
   }
   std::vector<double> both = costs;
   const std::vector<double> before = std::exchange(costs_before_, costs);

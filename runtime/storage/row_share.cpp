@@ -1,11 +1,14 @@
 #include "runtime/storage/row_share.hpp"
 
+#include "runtime/graph/graph_error.hpp"
+
 namespace tamp::runtime
 {
 
 std::vector<std::uint64_t> particles_by_patch(const Warehouse& warehouse, int group, const Communicator& communicator)
 {
   const PatchLayout& layout = warehouse.layout();
+  expect_ranks(layout, communicator.size());
   // Each rank fills in its own.
   std::vector<std::uint64_t> counts(static_cast<std::size_t>(layout.size()), 0);
   for (const Patch& patch : layout) {

@@ -48,7 +48,8 @@ RowShare share_by_patch(std::span<const std::uint64_t> n_rows, IsOwn&& is_own)
   return share;
 }
 
-/// How many particles of a group each patch has, whatever rank it is on. Collective.
+/// How many particles of a group each patch has, whatever rank it is on. Collective. Throws GraphError for a
+/// warehouse on other ranks than the communicator's.
 std::vector<std::uint64_t> particles_by_patch(const Warehouse& warehouse, int group, const Communicator& communicator);
 
 /// Where this rank's particles stand in a table of those of all ranks, patch after patch.

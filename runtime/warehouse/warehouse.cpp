@@ -4,6 +4,8 @@
 #include <cstddef>
 #include <stdexcept>
 
+#include "runtime/graph/graph_error.hpp"
+
 namespace tamp::runtime
 {
 
@@ -146,6 +148,7 @@ void Warehouse::receive(int patch, int rank, const Communicator& communicator)
 /// All ranks go through the patches in one order, so that each transfer finds both of its ends.
 void Warehouse::deal(std::span<const TaskGraph* const> graphs, const Communicator& communicator)
 {
+  expect_ranks(graphs.front()->layout(), communicator.size());
   const std::vector<int> old_ranks = layout_->ranks();
   layout_ = &graphs.front()->layout();
   for (const Patch& patch : *layout_) {

@@ -31,7 +31,8 @@ class Warehouse
   Warehouse& operator=(const Warehouse&) = delete;
 
   /// The same graphs over patches dealt anew. What a patch holds goes straight into its fields on the other rank, one
-  /// field at a time, and patches that stay are not touched. Collective.
+  /// field at a time, and patches that stay are not touched. Throws GraphError where they are dealt to other ranks than
+  /// the communicator's. Collective.
   void deal(std::span<const TaskGraph* const> graphs, const Communicator& communicator);
 
   const PatchLayout& layout() const { return *layout_; }

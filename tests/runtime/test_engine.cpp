@@ -4,8 +4,10 @@
 
 #include <numeric>
 
+#include "runtime/graph/graph_error.hpp"
 #include "runtime/graph/step_verdict.hpp"
 #include "runtime/step_error.hpp"
+#include "runtime/storage/fields/field_copy.hpp"
 #include "runtime/storage/temporary_folder.hpp"
 #include "tests/runtime/heat.hpp"
 
@@ -50,6 +52,47 @@ TEST_CASE("the last step is as long as it takes to the end", "[engine]")
   CHECK(heat.engine.progress().time == 2.5 * dt);
   CHECK(heat.engine.progress().n_steps == 3);
   CHECK(heat.engine.progress().step_size == Approx(0.5 * dt));
+}
+
+TEST_CASE("a layout that is dealt to other ranks than the communicator's is refused wherever the two meet",
+          "[engine][ranks]")
+{
+  const Communicator ranks = Communicator::world();
+  const Grid grid{2, {0, 0, 0}, 0.25, {4, 4, 1}};
+  PatchLayout layout(grid, {2, 2, 1});
+  layout.give_to_ranks({ranks.size(), 0, 0, ranks.size()}, ranks.size() + 1);
+  const TaskList tasks{Heat::diffusion(grid)};
+  const HostData host{{&temperature, &Heat::total}, {}};
+  Executor executor(1, on_shared_cores());
+  const TaskGraph graph(tasks, layout, {"heat"}, host);
+  const std::vector<const TaskGraph*> graphs{&graph};
+  Warehouse warehouse(graphs, ranks.rank());
+  const TemporaryFolder folder(ranks);
+
+  CHECK_THROWS_AS(Engine(layout, {"heat"}, {{tasks, host}}, executor, ranks), GraphError);
+  CHECK_THROWS_AS(BoundGraph(graph, warehouse, ranks), GraphError);
+  CHECK_THROWS_AS(warehouse.deal(graphs, ranks), GraphError);
+  CHECK_THROWS_AS(write_checkpoint(folder.path(), {}, {}, warehouse, {"heat"}, 1, ranks), GraphError);
+  CHECK_THROWS_AS(read_checkpoint({}, warehouse, {"heat"}, ranks), GraphError);
+  CHECK_THROWS_AS(gathered(FieldCopy{}, layout, ranks), GraphError);
+  CHECK_THROWS_AS(particles_by_patch(warehouse, 0, ranks), GraphError);
+  CHECK_THROWS_WITH(expect_ranks(layout, ranks.size()),
+                    Catch::Contains("layout on other ranks: its patches are dealt to " +
+                                    std::to_string(ranks.size() + 1) + " ranks"));
+}
+
+TEST_CASE("patches are given to each of the ranks that there are, and to no others", "[engine]")
+{
+  PatchLayout layout({2, {0, 0, 0}, 1, {4, 4, 1}}, {2, 2, 1});
+  Heat heat = plate({});
+
+  CHECK_THROWS_AS(layout.give_to_ranks({0, 1, 0}, 2), std::invalid_argument);
+  CHECK_THROWS_AS(layout.give_to_ranks({0, 1, 0, 2}, 2), std::invalid_argument);
+  CHECK_THROWS_AS(layout.give_to_ranks({0, -1, 0, 1}, 2), std::invalid_argument);
+  CHECK_THROWS_AS(heat.engine.deal(std::vector<int>(12, 1)), std::invalid_argument);
+  CHECK(layout.n_ranks() == 1);
+  heat.run(1, dt);
+  CHECK(heat.engine.progress().n_steps == 1);
 }
 
 TEST_CASE("patches that follow the load to other ranks take all along", "[engine][ranks]")

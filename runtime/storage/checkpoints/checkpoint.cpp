@@ -9,6 +9,7 @@
 #include <stdexcept>
 
 #include "runtime/file_error.hpp"
+#include "runtime/graph/graph_error.hpp"
 #include "runtime/ranks/gather_by_patch.hpp"
 #include "runtime/ranks/on_all_ranks.hpp"
 #include "runtime/storage/checkpoints/checkpoint_file.hpp"
@@ -194,6 +195,7 @@ void write_checkpoint(const fs::path& folder, const CheckpointHeader& header, st
                       Warehouse& warehouse, const std::vector<std::string>& group_names, int keep,
                       const Communicator& communicator)
 {
+  expect_ranks(warehouse.layout(), communicator.size());
   const std::vector<StateTable> tables = state_tables(warehouse, group_names);
   std::vector<std::vector<PatchEntry>> own;
   own.reserve(tables.size());
@@ -210,6 +212,7 @@ CheckpointCopy copy_checkpoint(const CheckpointHeader& header, std::span<const s
                                const std::vector<std::string>& group_names, const ForAll& for_all,
                                const Communicator& communicator)
 {
+  expect_ranks(warehouse.layout(), communicator.size());
   const std::vector<StateTable> tables = state_tables(warehouse, group_names);
   std::vector<std::vector<PatchEntry>> own(tables.size());
   std::vector<std::vector<std::byte>> bytes(tables.size());
@@ -263,6 +266,7 @@ std::optional<FoundCheckpoint> newest_checkpoint(const fs::path& folder, std::ve
 void read_checkpoint(const FoundCheckpoint& found, Warehouse& warehouse, const std::vector<std::string>& group_names,
                      const Communicator& communicator)
 {
+  expect_ranks(warehouse.layout(), communicator.size());
   const std::vector<StateTable> tables = state_tables(warehouse, group_names);
   on_all_ranks(communicator, [&] {
     const CheckpointReader reader(found.file);

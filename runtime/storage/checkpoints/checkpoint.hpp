@@ -14,7 +14,8 @@
 #include "runtime/warehouse/warehouse.hpp"
 
 /// A checkpoint is one file of all that a run needs to go on bit for bit, on any number of ranks: the state of every
-/// patch, and bytes of the host's own. All calls are collective, and what fails on one rank throws on all.
+/// patch, and bytes of the host's own. All calls are collective, and what fails on one rank throws on all. A warehouse
+/// on other ranks than the communicator's is a GraphError.
 namespace tamp::runtime
 {
 

@@ -4,6 +4,7 @@
 #include <numeric>
 #include <utility>
 
+#include "runtime/graph/graph_error.hpp"
 #include "runtime/ranks/gather_by_patch.hpp"
 
 namespace tamp::runtime
@@ -95,6 +96,7 @@ void FieldCopy::show_values()
 
 FieldCopy gathered(FieldCopy own, const PatchLayout& layout, const Communicator& communicator)
 {
+  expect_ranks(layout, communicator.size());
   if (communicator.size() == 1) return own;
   ValueGatherer values(own.values, layout, communicator);
   for (std::size_t b = 0; b < own.particles.size(); ++b) {

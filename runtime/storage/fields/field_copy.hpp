@@ -39,7 +39,8 @@ struct FieldCopy {
   LedgerHold held;
 };
 
-/// The fields of all ranks as those of one, on the first rank; on others nothing is left. Collective.
+/// The fields of all ranks as those of one, on the first rank; on others nothing is left. Collective. Throws
+/// GraphError for a layout of other ranks than the communicator's.
 FieldCopy gathered(FieldCopy own, const PatchLayout& layout, const Communicator& communicator);
 
 }  // namespace tamp::runtime

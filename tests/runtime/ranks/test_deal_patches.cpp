@@ -76,7 +76,9 @@ TEST_CASE("patches move when the same deal pays in two intervals in a row, and n
   CHECK(look(50, first_dear) == std::vector<int>{0, 1, 1, 1});
   // The next two intervals decide again.
   CHECK_FALSE(look(60, last_dear));
-  CHECK(balance.rebalances().size() == 1);
+  REQUIRE(balance.rebalances().size() == 1);
+  // By the ranks of the layout, which the host has not dealt anew here.
+  CHECK(balance.rebalances()[0].imbalance_got == Approx(4.0 / 3));
 }
 
 }  // namespace tamp::runtime::test_deal_patches
