@@ -68,6 +68,7 @@ Engine::Engine(const PatchLayout& layout, std::vector<std::string> group_names, 
       held_by_graph_(warehouse_.ledger().graph, 0)
 {
   held_by_graph_.hold(static_cast<std::size_t>(std::max(beyond_ledger(), std::ptrdiff_t{0})));
+  look_for_idle_ranks();
 }
 
 /// What the heap has grown by since the start beyond what the ledger knows of: the graphs and what goes with them,
@@ -101,12 +102,13 @@ const Progress& Engine::progress() const
 bool Engine::advance(double size, double end)
 {
   balance_if_due();
+  hear_idle_ranks();
   const auto [n_steps, time, last_size] = progress();
   size = std::min(size, end - time);
   schedule().taking_processor_time = profiler_.takes_processor_time();
   run_step({n_steps, time, size, last_size, requests_, profiler_.wall_to_tell()});
   if (was_refused()) return false;
-  requests_ = 0;
+  if (!is_idle_) requests_ = 0;
   warehouse().advance();
   const Requests& told = warehouse().result(requests_label);
   asked_ = told.bits;
@@ -161,6 +163,25 @@ void Engine::balance_if_due()
   if (ranks) deal(*ranks);
 }
 
+void Engine::look_for_idle_ranks()
+{
+  std::vector<bool> has_patches(static_cast<std::size_t>(communicator_.size()), false);
+  for (const Patch& patch : layout()) has_patches[static_cast<std::size_t>(patch.rank)] = true;
+  is_idle_ = !has_patches[static_cast<std::size_t>(communicator_.rank())];
+  some_are_idle_ = std::find(has_patches.begin(), has_patches.end(), false) != has_patches.end();
+}
+
+/// A rank without patches has no part in what a step gathers. Where there is one, all tell the others of their requests
+/// now and then, and those with patches bring them into the step.
+void Engine::hear_idle_ranks()
+{
+  constexpr long every = 8;
+  if (!some_are_idle_ || progress().n_steps % every != 0) return;
+  const auto watch = executor_.watch("hearing ranks without patches");
+  for (const unsigned bits : communicator_.gather_value(requests_)) requests_ |= bits;
+  if (is_idle_) requests_ = 0;
+}
+
 void Engine::deal(const std::vector<int>& ranks)
 {
   const std::size_t held = held_by_graph_.bytes();
@@ -179,6 +200,7 @@ void Engine::deal(const std::vector<int>& ranks)
   ready_ = std::move(ready);
   compiled_ = std::move(compiled);
   held_by_graph_.hold(held);
+  look_for_idle_ranks();
 }
 
 CheckpointHeader Engine::header(const std::string& fingerprint) const

@@ -32,8 +32,8 @@ struct Progress {
 class Engine
 {
  public:
-  /// `executor` must outlive the engine. Throws GraphError with every mistake that the tasks hold, and for a layout that
-  /// is dealt to other ranks than the communicator's.
+  /// `executor` must outlive the engine. Throws GraphError with every mistake that the tasks hold, and for a layout
+  /// that is dealt to other ranks than the communicator's.
   Engine(const PatchLayout& layout, std::vector<std::string> group_names, std::vector<GraphTasks> graphs,
          Executor& executor, const Communicator& communicator = {});
 
@@ -49,8 +49,8 @@ class Engine
 
   const Progress& progress() const;
 
-  /// Bits that this rank's host tells all ranks with the next step; not collective. A rank without patches is not
-  /// heard.
+  /// Bits that this rank's host tells all ranks with the next step, or within eight if it has no patches; not
+  /// collective.
   void ask(unsigned requests) { requests_ |= requests; }
   /// Requests of any rank with the last step; not collective.
   unsigned asked() const { return asked_; }
@@ -108,6 +108,8 @@ class Engine
   void run_step(const Step& step);
   bool was_refused();
   void balance_if_due();
+  void look_for_idle_ranks();
+  void hear_idle_ranks();
   CheckpointHeader header(const std::string& fingerprint) const;
 
   /// What the program had before.
@@ -127,6 +129,9 @@ class Engine
   LedgerHold held_by_graph_;
   unsigned requests_ = 0;
   unsigned asked_ = 0;
+  /// Whether this rank, and whether any, has no patches.
+  bool is_idle_ = false;
+  bool some_are_idle_ = false;
 };
 
 }  // namespace tamp::runtime

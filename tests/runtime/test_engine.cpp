@@ -95,6 +95,28 @@ TEST_CASE("patches are given to each of the ranks that there are, and to no othe
   CHECK(heat.engine.progress().n_steps == 1);
 }
 
+TEST_CASE("what a rank without patches asks for is heard by all, once, as is what the others ask for",
+          "[engine][ranks]")
+{
+  const Communicator ranks = Communicator::world();
+  // The first rank has all patches.
+  Heat heat = plate(ranks);
+  const unsigned own = 1U << static_cast<unsigned>(ranks.rank()), all = (1U << static_cast<unsigned>(ranks.size())) - 1;
+  heat.run(1, dt);
+
+  heat.engine.ask(own);
+  unsigned heard = 0;
+  int n_heard = 0;
+  for (int step = 0; step < 24; ++step) {
+    heat.run(1, dt);
+    heard |= heat.engine.asked();
+    n_heard += int{(heat.engine.asked() & (1U << static_cast<unsigned>(ranks.size() - 1))) != 0};
+  }
+
+  CHECK(heard == all);
+  CHECK(n_heard == 1);
+}
+
 TEST_CASE("patches that follow the load to other ranks take all along", "[engine][ranks]")
 {
   Heat heat = plate(Communicator::world());
