@@ -1,10 +1,11 @@
 // The program of docs/first_task_graph.md: the heat equation on the unit square, on threads and ranks.
 
-#include <fmt/core.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <exception>
 #include <filesystem>
 #include <numbers>
 #include <string>
@@ -12,6 +13,7 @@
 #include <vector>
 
 #include "runtime/engine.hpp"
+#include "runtime/file_error.hpp"
 #include "runtime/profile/report.hpp"
 #include "runtime/profile/table.hpp"
 
@@ -113,16 +115,16 @@ double error_of_restarted(int n, double end, const std::filesystem::path& folder
 {
   Plate plate(n, executor, ranks);
   std::vector<std::string> refused;
-  plate.engine.restart(newest_checkpoint(folder, refused, ranks).value());
+  const auto newest = newest_checkpoint(folder, refused, ranks);
+  if (!newest) throw FileError(folder.string(), fmt::format("no checkpoint is whole: {}", fmt::join(refused, "; ")));
+  plate.engine.restart(*newest);
   plate.run_to(end);
   return plate.greatest_error();
 }
 
-int main(int argc, char** argv)
+// Whether the errors fall as they should, and are the same after a restart.
+bool solves(const std::filesystem::path& folder, const Communicator& ranks)
 {
-  const MpiSession mpi(argc, argv);
-  const Communicator ranks = Communicator::world();
-  const std::filesystem::path folder = argc > 1 ? argv[1] : "heat";
   Executor executor(2);
   const double middle = 0.01, end = 0.02;
   Plate coarse(16, executor, ranks), fine(32, executor, ranks);
@@ -143,6 +145,16 @@ int main(int argc, char** argv)
     }
     fmt::print(stderr, "{}", profile);
   }
-  const bool is_good = std::abs(order - 2) < 0.1 && restarted == fine.greatest_error();
-  return is_good ? EXIT_SUCCESS : EXIT_FAILURE;
+  return std::abs(order - 2) < 0.1 && restarted == fine.greatest_error();
+}
+
+int main(int argc, char** argv)
+{
+  const MpiSession mpi(argc, argv);
+  try {
+    return solves(argc > 1 ? argv[1] : "heat", Communicator::world()) ? EXIT_SUCCESS : EXIT_FAILURE;
+  } catch (const std::exception& error) {
+    fmt::print(stderr, "{}\n", error.what());
+    return EXIT_FAILURE;
+  }
 }

@@ -1,3 +1,5 @@
+#include <sys/wait.h>
+
 #include <catch2/catch.hpp>
 #include <cstdio>
 #include <fstream>
@@ -78,6 +80,20 @@ TEST_CASE("the program of the first task graph finds its order, restarts and is 
     CHECK(log_has("diffuse"));
     CHECK(log_has("dealt anew before step 20"));
   }
+}
+
+TEST_CASE("the program of the first task graph says in words what file it cannot have")
+{
+  const tamp::runtime::TemporaryFolder folder;
+  const std::string log = folder.path() / "log", below_a_file = log + "/plate";
+
+  const Run refused = run(TAMP_FIRST_TASK_GRAPH " " + below_a_file + " 2> " + log);
+
+  CHECK(WIFEXITED(refused.status));
+  CHECK(WEXITSTATUS(refused.status) == 1);
+  std::stringstream text;
+  text << std::ifstream(log).rdbuf();
+  CHECK_THAT(text.str(), Catch::StartsWith(below_a_file));
 }
 
 }  // namespace test_first_task_graph
