@@ -43,10 +43,6 @@ struct TicksOverTime {
     for (std::size_t k = 0; k < half; ++k) of_part[k] = of_part[2 * k] + of_part[2 * k + 1];
     std::fill(of_part.begin() + half, of_part.end(), std::uint64_t{0});
   }
-  void take_most(const TicksOverTime& other)
-  {
-    for (std::size_t k = 0; k < of_part.size(); ++k) of_part[k] = std::max(of_part[k], other.of_part[k]);
-  }
   void add(const TicksOverTime& other)
   {
     for (std::size_t k = 0; k < of_part.size(); ++k) of_part[k] += other.of_part[k];

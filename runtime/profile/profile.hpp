@@ -50,6 +50,7 @@ struct TaskStatistics {
 struct RankStatistics {
   std::vector<TaskStatistics> tasks{};
   double step_s = 0;
+  double between_s = 0;
   double overhead = 0;
 };
 
@@ -100,8 +101,8 @@ struct Profile {
   std::vector<double> step_over_time_s;
   long n_steps = 0;
   long n_traced_steps = 0;
-  /// Mean time of a step, of its longest chain of tasks on one rank, and the share of the workers' time outside of task
-  /// bodies.
+  /// Mean time of a step, on the rank where steps take longest, of its longest chain of tasks on one rank, and the
+  /// share of the workers' time outside of task bodies.
   double step_s = 0;
   double critical_path_s = 0;
   double overhead = 0;
@@ -113,7 +114,7 @@ struct Profile {
   std::vector<InstanceTime> mean_step;
   /// That chain, first to last.
   std::vector<ChainLink> chain;
-  /// What the record itself takes, and all that the host does between steps, for each step.
+  /// What the record itself takes, and all that the host does between steps, for each step, on that rank, too.
   double recording_s = 0;
   double between_s = 0;
   /// The longest first; the time is that of all workers of all ranks.

@@ -300,28 +300,27 @@ std::vector<double> Profiler::per_step(const TicksOverTime& ticks, double second
 void Profiler::add_steps(Profile& profile, const std::vector<Steps>& of_ranks, double second) const
 {
   const double to_mean = n_steps_ > 0 ? second / static_cast<double>(n_steps_) : 0;
-  Steps sum, most;
+  // Times of one rank, so that they add up to what passed there.
+  const Steps& busiest = *std::ranges::max_element(of_ranks, {}, &Steps::ticks);
+  Steps sum;
   double path_share = 0;
   for (std::size_t r = 0; r < of_ranks.size(); ++r) {
     const Steps& steps = of_ranks[r];
     profile.ranks[r].step_s = static_cast<double>(steps.ticks) * to_mean;
+    profile.ranks[r].between_s = static_cast<double>(steps.between) * to_mean;
     profile.ranks[r].overhead = overhead(steps);
     sum.ticks += steps.ticks;
     sum.in_tasks += steps.in_tasks;
     sum.traffic.add(steps.traffic);
-    most.ticks = std::max(most.ticks, steps.ticks);
-    most.over_time.take_most(steps.over_time);
-    most.recording = std::max(most.recording, steps.recording);
-    most.between = std::max(most.between, steps.between);
     if (steps.looked_at == 0) continue;
     path_share = std::max(path_share, static_cast<double>(steps.path_ticks) / static_cast<double>(steps.looked_at));
   }
-  profile.step_s = static_cast<double>(most.ticks) * to_mean;
+  profile.step_s = static_cast<double>(busiest.ticks) * to_mean;
   profile.steps_each_part = parts_.steps_each();
-  profile.step_over_time_s = per_step(most.over_time, second);
+  profile.step_over_time_s = per_step(busiest.over_time, second);
   profile.critical_path_s = path_share * profile.step_s;
-  profile.recording_s = static_cast<double>(most.recording) * to_mean;
-  profile.between_s = static_cast<double>(most.between) * to_mean;
+  profile.recording_s = static_cast<double>(busiest.recording) * to_mean;
+  profile.between_s = static_cast<double>(busiest.between) * to_mean;
   profile.overhead = overhead(sum);
   profile.n_messages = sum.traffic.n_messages;
   profile.message_bytes = sum.traffic.n_bytes;

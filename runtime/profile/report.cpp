@@ -54,7 +54,10 @@ nlohmann::json to_json(const std::vector<RankStatistics>& ranks)
 {
   nlohmann::json list = nlohmann::json::array();
   for (const RankStatistics& rank : ranks) {
-    list.push_back({{"step_s", rank.step_s}, {"overhead", rank.overhead}, {"tasks", to_json(rank.tasks)}});
+    list.push_back({{"step_s", rank.step_s},
+                    {"between_s", rank.between_s},
+                    {"overhead", rank.overhead},
+                    {"tasks", to_json(rank.tasks)}});
   }
   return list;
 }

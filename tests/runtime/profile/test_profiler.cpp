@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <catch2/catch.hpp>
+#include <chrono>
+#include <thread>
 
 #include "runtime/profile/report.hpp"
 #include "runtime/profile/table.hpp"
@@ -94,6 +96,34 @@ TEST_CASE("each rank has its own numbers, and together they are those of the run
   }
   CHECK(of_ranks == all);
   for (const PatchStatistics& patch : profile.patches) CHECK(patch.rank < world.size());
+  const nlohmann::json json = to_json(profile, heat.engine.warehouse().ledger(), world);
+  for (const auto& rank : json["ranks"]) CHECK(rank.at("between_s") > 0.0);
+}
+
+TEST_CASE("a step and what lies between two are those of one rank, so that they add up to the time that passed",
+          "[profile][ranks]")
+{
+  const Communicator world = Communicator::world();
+  test::Heat heat(16, {4, 4, 1}, 2, world);
+  std::vector<int> owners(16);
+  for (std::size_t p = 0; p < owners.size(); ++p) owners[p] = static_cast<int>(p) % world.size();
+  heat.engine.deal(owners);
+  heat.run(1, 1e-4);
+  const Profile before = heat.engine.profile();
+
+  // While the last rank's host is at something else the others wait for it within their steps.
+  world.barrier();
+  const auto start = std::chrono::steady_clock::now();
+  for (int step = 0; step < 40; ++step) {
+    if (world.rank() == world.size() - 1) std::this_thread::sleep_for(std::chrono::milliseconds(2));
+    heat.run(1, 1e-4);
+  }
+  const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - start;
+  const Profile profile = heat.engine.profile();
+
+  const double accounted = 41 * (profile.step_s + profile.between_s) - (before.step_s + before.between_s);
+  CHECK(accounted < 1.2 * world.max(wall.count()) + 0.02);
+  CHECK(accounted > 0.8 * 40 * 2e-3);
 }
 
 TEST_CASE("the ledger knows the bytes of each label", "[profile]")
