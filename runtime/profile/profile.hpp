@@ -91,6 +91,13 @@ struct Wait {
   double total_s = 0;
 };
 
+/// Whether other programs had the cores for so long that what was measured says little of this one.
+inline bool is_too_busy(double core_share)
+{
+  constexpr double least_share = 0.9;
+  return core_share < least_share;
+}
+
 struct Profile {
   /// Most expensive first.
   std::vector<TaskStatistics> tasks;
@@ -117,6 +124,8 @@ struct Profile {
   /// What the record itself takes, and all that the host does between steps, for each step, on that rank, too.
   double recording_s = 0;
   double between_s = 0;
+  /// The part of tasks' time in which workers had their cores, by samples; NaN where these are too few to tell.
+  double core_share = std::numeric_limits<double>::quiet_NaN();
   /// The longest first; the time is that of all workers of all ranks.
   std::vector<Wait> waits;
   /// Messages between ranks: how many, how long, how long on their way in sum, and the part of that in which the worker

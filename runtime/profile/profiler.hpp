@@ -56,6 +56,8 @@ class Profiler
 
  private:
   static constexpr long look_every = 8;
+  /// Of processor time: of fewer one that was cut off would tell too much.
+  static constexpr long least_samples = 8;
 
   struct Steps {
     std::uint64_t first_tick = 0;
@@ -69,6 +71,9 @@ class Profiler
     // Of the steps that are looked at: how long they took, and their longest chains on this rank.
     std::uint64_t looked_at = 0;
     std::uint64_t path_ticks = 0;
+    // Of the steps in which processor time is taken: that of tasks by the clock, and what of it their workers had.
+    double sampled_ns = 0;
+    double processor_ns = 0;
     Traffic traffic;
   };
 

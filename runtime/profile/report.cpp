@@ -109,27 +109,31 @@ nlohmann::json to_json(const Profile& profile, const MemoryLedger& ledger, const
 {
   nlohmann::json waits = nlohmann::json::array();
   for (const Wait& w : profile.waits) waits.push_back({{"task", w.task}, {"waits_for", w.cause}, {"s", w.total_s}});
-  return {{"tasks", tasks_of_run(profile.tasks)},
-          {"ranks", to_json(profile.ranks)},
-          {"patches", to_json(profile.patches)},
-          {"over_time", {{"steps_each", profile.steps_each_part}, {"step_s", profile.step_over_time_s}}},
-          {"steps", profile.n_steps},
-          {"traced_steps", profile.n_traced_steps},
-          {"overhead", profile.overhead},
-          {"critical_path_s", profile.critical_path_s},
-          {"step_s", profile.step_s},
-          {"longest_chain_s", profile.longest_chain_s},
-          {"longest_chain", to_json(profile.chain)},
-          {"mean_step", to_json(profile.mean_step)},
-          {"replayed_s", profile.replayed_s},
-          {"recording_s", profile.recording_s},
-          {"between_s", profile.between_s},
-          {"waits", waits},
-          {"messages", profile.n_messages},
-          {"message_bytes", profile.message_bytes},
-          {"message_s", profile.message_s},
-          {"message_wait_s", profile.message_wait_s},
-          {"memory", to_json(ledger, profile.makers, communicator)}};
+  nlohmann::json json = {{"tasks", tasks_of_run(profile.tasks)},
+                         {"ranks", to_json(profile.ranks)},
+                         {"patches", to_json(profile.patches)},
+                         {"over_time", {{"steps_each", profile.steps_each_part}, {"step_s", profile.step_over_time_s}}},
+                         {"steps", profile.n_steps},
+                         {"traced_steps", profile.n_traced_steps},
+                         {"overhead", profile.overhead},
+                         {"critical_path_s", profile.critical_path_s},
+                         {"step_s", profile.step_s},
+                         {"longest_chain_s", profile.longest_chain_s},
+                         {"longest_chain", to_json(profile.chain)},
+                         {"mean_step", to_json(profile.mean_step)},
+                         {"replayed_s", profile.replayed_s},
+                         {"recording_s", profile.recording_s},
+                         {"between_s", profile.between_s},
+                         {"waits", waits},
+                         {"messages", profile.n_messages},
+                         {"message_bytes", profile.message_bytes},
+                         {"message_s", profile.message_s},
+                         {"message_wait_s", profile.message_wait_s},
+                         {"memory", to_json(ledger, profile.makers, communicator)}};
+  if (std::isfinite(profile.core_share)) {
+    json.update({{"core_share", profile.core_share}, {"too_busy", is_too_busy(profile.core_share)}});
+  }
+  return json;
 }
 
 }  // namespace tamp::runtime

@@ -125,6 +125,13 @@ std::string ranks_text(const nlohmann::json& profile)
 
 }  // namespace
 
+std::string busy_text(const nlohmann::json& profile)
+{
+  if (!profile.value("too_busy", false)) return "";
+  return fmt::format("too busy to trust: other programs had these cores for {:.0f} % of the time of tasks\n",
+                     100 * (1 - profile.at("core_share").get<double>()));
+}
+
 std::string phase_of(const std::string& task)
 {
   return task.substr(0, task.find(':'));
@@ -153,7 +160,7 @@ std::string to_text(const nlohmann::json& profile, const TableChoice& choice)
     text += fmt::format("memory gives {:.1f} GB/s to a worker while all ask it; more comes from caches\n",
                         choice.memory_rate * 1e-9);
   }
-  text += messages_text(profile);
+  text += busy_text(profile) + messages_text(profile);
   if (choice.n_rows > 0 || !choice.phase.empty()) return text;
   if (profile.contains("replayed_s")) {
     text += fmt::format(

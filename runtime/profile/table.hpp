@@ -21,6 +21,9 @@ struct TableChoice {
 /// The run as a whole, most expensive task first.
 std::string to_text(const nlohmann::json& profile, const TableChoice& choice = {});
 
+/// A line on a machine that was too busy for its times to be trusted; empty for others.
+std::string busy_text(const nlohmann::json& profile);
+
 /// What one of the ranks did.
 std::string rank_text(const nlohmann::json& profile, std::size_t rank, const TableChoice& choice = {});
 

@@ -143,11 +143,7 @@ class GainBenchmark
   }
 
   /// Whether other programs had the cores for so long that the workers waited for these, which no replay knows.
-  bool is_too_busy() const
-  {
-    constexpr double least_share = 0.9;
-    return median(core_share_) < least_share;
-  }
+  bool is_too_busy() const { return runtime::is_too_busy(median(core_share_)); }
 
   nlohmann::ordered_json json() const
   {

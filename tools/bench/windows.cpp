@@ -225,11 +225,7 @@ class WindowBenchmark
   }
 
   /// Whether other programs had the core for so long that caches and memory were theirs, too.
-  bool is_too_busy() const
-  {
-    constexpr double least_share = 0.9;
-    return whole_.time.core_share < least_share;
-  }
+  bool is_too_busy() const { return runtime::is_too_busy(whole_.time.core_share); }
 
   Machine machine() const { return {median(bandwidth_), median(arithmetic_)}; }
 

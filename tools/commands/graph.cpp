@@ -8,6 +8,7 @@
 #include "runtime/graph/svg.hpp"
 #include "runtime/profile/dealt_step.hpp"
 #include "runtime/profile/mean_step.hpp"
+#include "runtime/profile/table.hpp"
 #include "runtime/storage/whole_file.hpp"
 #include "tasks/forecast/demand.hpp"
 #include "tasks/step_graph.hpp"
@@ -93,7 +94,8 @@ std::string threads_text(const runtime::TaskGraph& graph, const GraphArguments& 
       throw InputError({"--run", options.run, "expected a run of this scene, of at most 20,000 tasks a step"});
     }
     return to_text(deal_to_threads(*step, options.n_threads)) +
-           replays_text(*step, options.n_threads, threads_of(machine), profile.at("step_s").get<double>());
+           replays_text(*step, options.n_threads, threads_of(machine), profile.at("step_s").get<double>()) +
+           runtime::busy_text(profile);
   });
 }
 

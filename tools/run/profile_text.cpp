@@ -11,6 +11,7 @@
 #include "runtime/profile/table.hpp"
 #include "tools/run/run_document.hpp"
 #include "tools/run/run_folder.hpp"
+#include "tools/system/console.hpp"
 #include "tools/system/errors.hpp"
 #include "tools/system/suggestion.hpp"
 
@@ -57,6 +58,12 @@ std::string view_of(const nlohmann::json& profile, const ProfileView& view)
   return fmt::format("{}", fmt::join(tables, "\n"));
 }
 
+std::string busy_text(const char* run, const nlohmann::json& profile)
+{
+  const std::string text = runtime::busy_text(profile);
+  return text.empty() ? "" : fmt::format("{}: {}", run, text);
+}
+
 std::string comparison_of(const nlohmann::json& here, const nlohmann::json& there, const ProfileView& view)
 {
   std::vector<runtime::TaskComparison> tasks = runtime::compare_profiles(here, there);
@@ -64,7 +71,11 @@ std::string comparison_of(const nlohmann::json& here, const nlohmann::json& ther
   if (!view.phase.empty()) {
     std::erase_if(tasks, [&](const auto& task) { return runtime::phase_of(task.name) != view.phase; });
   }
-  return view.as_json ? runtime::to_json(tasks).dump(1) + "\n" : runtime::to_text(tasks);
+  const std::string busy = busy_text("here", here) + busy_text("there", there);
+  if (!view.as_json) return runtime::to_text(tasks) + busy;
+  // A list of tasks has no place for it.
+  if (!busy.empty()) print_err("tamp: note: {}", busy);
+  return runtime::to_json(tasks).dump(1) + "\n";
 }
 
 }  // namespace
@@ -76,7 +87,9 @@ std::string with_profile(const fs::path& run, const std::function<std::string(co
     throw InputError({run.string(), "no run", "expected the folder of a run"});
   }
   std::string text;
-  with_run_document(file, [&](const nlohmann::json& profile) { text = render(profile); });
+  with_run_document(file, [&](const nlohmann::json& profile) {
+    text = render(profile);
+  });
   return text;
 }
 

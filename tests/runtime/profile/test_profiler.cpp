@@ -126,6 +126,34 @@ TEST_CASE("a step and what lies between two are those of one rank, so that they 
   CHECK(accounted > 0.8 * 40 * 2e-3);
 }
 
+TEST_CASE("a profile whose workers were without their cores as tasks ran says that it is too busy to trust",
+          "[profile]")
+{
+  const CellLabel<double, "rest"> rest;
+  const auto profile_of = [&](int n_steps, bool sleeps) {
+    const auto work = task("work").over_patches().computes(rest).body([sleeps](const TaskContext&, auto) {
+      // Asleep a worker has no core, as when another program has it.
+      if (sleeps) return std::this_thread::sleep_for(std::chrono::microseconds(200));
+      const auto end = std::chrono::steady_clock::now() + std::chrono::microseconds(200);
+      while (std::chrono::steady_clock::now() < end) continue;
+    });
+    const PatchLayout layout({2, {0, 0, 0}, 1, {4, 4, 1}}, {1, 1, 1});
+    Executor executor(1);
+    Engine engine(layout, {"all"}, {{{work}, {{}, {&rest}}}}, executor);
+    for (int step = 0; step < n_steps; ++step) engine.advance(1);
+    return to_json(engine.profile(), engine.warehouse().ledger());
+  };
+
+  const nlohmann::json asleep = profile_of(300, true), at_work = profile_of(300, false), brief = profile_of(100, true);
+
+  CHECK(asleep.at("core_share") < 0.5);
+  CHECK(asleep.at("too_busy") == true);
+  CHECK_THAT(to_text(asleep), Catch::Contains("too busy to trust"));
+  CHECK(at_work.at("core_share") > asleep.at("core_share"));
+  CHECK(at_work.at("core_share") <= 1);
+  CHECK_FALSE(brief.contains("core_share"));
+}
+
 TEST_CASE("the ledger knows the bytes of each label", "[profile]")
 {
   test::Heat heat(16, {2, 2, 1}, 1);

@@ -113,6 +113,34 @@ TEST_CASE("lists of a profile that are none, or empty where no run leaves them s
   CHECK(tamp_with(command + view).exit_code == 4);
 }
 
+TEST_CASE("a profile of a machine that was too busy is said to be so, whoever reads it")
+{
+  const TemporaryFolder folder;
+  const std::string out = (folder.path() / "run").string(), other = (folder.path() / "other").string();
+  REQUIRE(tamp_with("run " TAMP_SOURCE_DIR "/inputs/punch/quick.json --steps 20 --threads 1 --quiet --out " + out)
+              .exit_code == 0);
+  auto profile = nlohmann::json::parse(read_text(out + "/profile.json"));
+  fs::create_directories(other);
+  const auto write_other = [&] { folder.write("other/profile.json", profile.dump()); };
+  const std::string beside = "profile " + out + " --compare " + other;
+
+  write_other();
+  CHECK_THAT(tamp_with(beside).out, !Catch::Contains("too busy"));
+  profile["core_share"] = 0.6;
+  profile["too_busy"] = true;
+  write_other();
+  const Outcome compared = tamp_with(beside), as_json = tamp_with(beside + " --format json");
+
+  CHECK(compared.exit_code == 0);
+  CHECK_THAT(compared.out, Catch::Contains("there: too busy to trust: other programs had these cores for 40 %"));
+  CHECK_THAT(as_json.err, Catch::Contains("too busy to trust"));
+  CHECK(nlohmann::json::parse(as_json.out)[0]["name"] == "a step");
+  CHECK_THAT(tamp_with("profile " + other).out, Catch::Contains("too busy to trust"));
+  const std::string graph = "graph " TAMP_SOURCE_DIR "/inputs/punch/quick.json --run " + other;
+  CHECK_THAT(tamp_with(graph + " --threads 2").out, Catch::Contains("too busy to trust"));
+  CHECK_THAT(tamp_with(graph + " --format html").out, Catch::Contains("too busy with other programs"));
+}
+
 TEST_CASE("the page of a run says how it ended, how far to trust it, and where its time went")
 {
   const TemporaryFolder folder;

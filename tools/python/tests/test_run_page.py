@@ -200,3 +200,14 @@ class TheSentence(unittest.TestCase):
 
         self.assertEqual((tags.wrong, tags.open, tags.of("svg")), ([], [], []))
         self.assertIn("No step was traced", run_page.one_step(None))
+
+
+class TheTimeOfSteps(unittest.TestCase):
+    def test_is_not_to_be_trusted_of_a_machine_that_was_too_busy(self):
+        profile = {"step_s": 1e-3, "longest_chain_s": 5e-4, "between_s": 1e-5, "overhead": 0.02}
+
+        text = run_page.time_of_steps({**profile, "too_busy": True, "core_share": 0.6})
+
+        self.assertIn("too busy to trust these times: other programs had its cores for 40", text)
+        self.assertNotIn("too busy", run_page.time_of_steps({**profile, "too_busy": False, "core_share": 0.95}))
+        self.assertNotIn("too busy", run_page.time_of_steps(profile))

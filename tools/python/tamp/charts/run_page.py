@@ -226,6 +226,9 @@ def time_of_steps(profile):
             f"its longest chain of tasks, {si_text(profile.get('longest_chain_s'), 's')}. Between two steps pass "
             f"{si_text(profile.get('between_s'), 's')}, for output and the history. Outside of tasks workers spend "
             f"{percent_text(profile['overhead'])} of the steps.")
+    if profile.get("too_busy"):
+        text += (" The machine was too busy to trust these times: other programs had its cores for "
+                 f"{percent_text(1 - profile['core_share'])} of the time of tasks.")
     return f"<p>{escaped(text)}</p>\n"
 
 
