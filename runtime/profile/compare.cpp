@@ -163,6 +163,22 @@ std::vector<TaskComparison> compare_profiles(const nlohmann::json& here, const n
   return all;
 }
 
+std::string unlike_text(const nlohmann::json& here, const nlohmann::json& there)
+{
+  // Earlier versions did not write what a run ran on.
+  if (!here.contains("machine") || !there.contains("machine")) return "";
+  std::string unlike;
+  for (const auto& [key, words] : {std::pair{"ranks", "ranks"},
+                                   {"threads", "threads of each"},
+                                   {"processor", "processor"},
+                                   {"instruction_set", "instructions"}}) {
+    const nlohmann::json &own = here.at("machine").at(key), &other = there.at("machine").at(key);
+    if (own != other)
+      unlike += fmt::format("{}{} {} here, {} there", unlike.empty() ? "" : "; ", words, own.dump(), other.dump());
+  }
+  return unlike.empty() ? "" : "runs that differ in more than their tasks: " + unlike + "\n";
+}
+
 std::string to_text(const std::vector<TaskComparison>& tasks)
 {
   std::string text = fmt::format("{:<36} {:>12} {:>12}  {}\n", "microseconds a step", "here", "there", "there / here");

@@ -29,6 +29,10 @@ struct TaskComparison {
 /// each has its own numbers, and no ratio. The step comes first, then the tasks with the largest differences.
 std::vector<TaskComparison> compare_profiles(const nlohmann::json& here, const nlohmann::json& there);
 
+/// A line on runs of unlike ranks or threads, or on unlike machines; empty for others. Throws nlohmann's exceptions for
+/// what no run has written.
+std::string unlike_text(const nlohmann::json& here, const nlohmann::json& there);
+
 std::string to_text(const std::vector<TaskComparison>& tasks);
 nlohmann::json to_json(const std::vector<TaskComparison>& tasks);
 

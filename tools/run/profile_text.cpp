@@ -71,10 +71,10 @@ std::string comparison_of(const nlohmann::json& here, const nlohmann::json& ther
   if (!view.phase.empty()) {
     std::erase_if(tasks, [&](const auto& task) { return runtime::phase_of(task.name) != view.phase; });
   }
-  const std::string busy = busy_text("here", here) + busy_text("there", there);
-  if (!view.as_json) return runtime::to_text(tasks) + busy;
+  const std::string unlike = runtime::unlike_text(here, there) + busy_text("here", here) + busy_text("there", there);
+  if (!view.as_json) return runtime::to_text(tasks) + unlike;
   // A list of tasks has no place for it.
-  if (!busy.empty()) print_err("tamp: note: {}", busy);
+  if (!unlike.empty()) print_err("tamp: note: {}", unlike);
   return runtime::to_json(tasks).dump(1) + "\n";
 }
 

@@ -113,7 +113,7 @@ TEST_CASE("lists of a profile that are none, or empty where no run leaves them s
   CHECK(tamp_with(command + view).exit_code == 4);
 }
 
-TEST_CASE("a profile of a machine that was too busy is said to be so, whoever reads it")
+TEST_CASE("a profile of a machine that was too busy, and runs that are unlike, are said to be so")
 {
   const TemporaryFolder folder;
   const std::string out = (folder.path() / "run").string(), other = (folder.path() / "other").string();
@@ -125,17 +125,22 @@ TEST_CASE("a profile of a machine that was too busy is said to be so, whoever re
   const std::string beside = "profile " + out + " --compare " + other;
 
   write_other();
-  CHECK_THAT(tamp_with(beside).out, !Catch::Contains("too busy"));
+  CHECK_THAT(tamp_with(beside).out, !Catch::Contains("differ in more") && !Catch::Contains("too busy"));
+  profile["machine"]["ranks"] = 3;
+  profile["machine"]["threads"] = 4;
   profile["core_share"] = 0.6;
   profile["too_busy"] = true;
   write_other();
-  const Outcome compared = tamp_with(beside), as_json = tamp_with(beside + " --format json");
+  const Outcome unlike = tamp_with(beside), as_json = tamp_with(beside + " --format json");
 
-  CHECK(compared.exit_code == 0);
-  CHECK_THAT(compared.out, Catch::Contains("there: too busy to trust: other programs had these cores for 40 %"));
-  CHECK_THAT(as_json.err, Catch::Contains("too busy to trust"));
+  CHECK(unlike.exit_code == 0);
+  CHECK_THAT(unlike.out, Catch::Contains("ranks 1 here, 3 there; threads of each 1 here, 4 there") &&
+                             Catch::Contains("there: too busy to trust: other programs had these cores for 40 %"));
+  CHECK_THAT(as_json.err, Catch::Contains("ranks 1 here, 3 there") && Catch::Contains("too busy to trust"));
   CHECK(nlohmann::json::parse(as_json.out)[0]["name"] == "a step");
   CHECK_THAT(tamp_with("profile " + other).out, Catch::Contains("too busy to trust"));
+  profile["machine"]["ranks"] = 1;
+  write_other();
   const std::string graph = "graph " TAMP_SOURCE_DIR "/inputs/punch/quick.json --run " + other;
   CHECK_THAT(tamp_with(graph + " --threads 2").out, Catch::Contains("too busy to trust"));
   CHECK_THAT(tamp_with(graph + " --format html").out, Catch::Contains("too busy with other programs"));
