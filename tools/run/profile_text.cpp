@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "runtime/profile/check_profile.hpp"
 #include "runtime/profile/compare.hpp"
 #include "runtime/profile/memory_table.hpp"
 #include "runtime/profile/table.hpp"
@@ -88,6 +89,7 @@ std::string with_profile(const fs::path& run, const std::function<std::string(co
   }
   std::string text;
   with_run_document(file, [&](const nlohmann::json& profile) {
+    runtime::check_profile(profile);
     text = render(profile);
   });
   return text;

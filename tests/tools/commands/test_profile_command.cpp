@@ -113,6 +113,43 @@ TEST_CASE("lists of a profile that are none, or empty where no run leaves them s
   CHECK(tamp_with(command + view).exit_code == 4);
 }
 
+TEST_CASE("numbers of a profile that no run comes to are damage, whoever reads them")
+{
+  const TemporaryFolder folder;
+  const std::string out = (folder.path() / "run").string();
+  REQUIRE(tamp_with("run " TAMP_SOURCE_DIR "/inputs/punch/quick.json --steps 3 --quiet --out " + out).exit_code == 0);
+  const auto sound = nlohmann::json::parse(read_text(out + "/profile.json"));
+  const auto damaged_with = [&](const nlohmann::json::json_pointer& place, double number) {
+    nlohmann::json damaged = sound;
+    damaged[place] = number;
+    folder.write("run/profile.json", damaged.dump());
+    const std::string profile = "profile " + out;
+    std::string compared = profile + " --compare ";
+    compared += out;
+    for (const std::string& command : {profile, profile + " --chain", compared, profile + " --format json",
+                                       "graph " TAMP_SOURCE_DIR "/inputs/punch/quick.json --threads 2 --run " + out}) {
+      CAPTURE(place, number, command);
+      const Outcome outcome = tamp_with(command);
+      CHECK(outcome.exit_code == 4);
+      CHECK_THAT(outcome.err, Catch::Contains("profile.json: is damaged: a value is out of range"));
+    }
+  };
+  const auto instance = "/mean_step"_json_pointer / sound["mean_step"].begin().key() / 0;
+
+  for (const double number : {1e308, -1e300, -1e-6}) {
+    damaged_with("/step_s"_json_pointer, number);
+    damaged_with("/tasks/0/mean_s"_json_pointer, number);
+    damaged_with("/tasks/0/over_time_s/0"_json_pointer, number);
+    damaged_with("/longest_chain/0/s"_json_pointer, number);
+  }
+  damaged_with("/memory/total"_json_pointer, 1e308);
+  damaged_with("/longest_chain/0/patch"_json_pointer, 99);
+  damaged_with("/longest_chain/0/rank"_json_pointer, 1);
+  damaged_with("/patches/0/rank"_json_pointer, 1);
+  damaged_with(instance / 0, 99);
+  damaged_with(instance / 3, 1e308);
+}
+
 TEST_CASE("a profile of a machine that was too busy, and runs that are unlike, are said to be so")
 {
   const TemporaryFolder folder;
