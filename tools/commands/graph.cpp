@@ -51,24 +51,44 @@ void expect_patch(int patch, const std::string& format, int n_patches)
   }
 }
 
+/// Earlier versions did not write all that tells one step from another.
+void expect_mean_step(const nlohmann::json& profile, const std::string& run)
+{
+  if (profile.contains("machine") && profile.contains("mean_step")) return;
+  throw InputError({"--run", run, "expected a run of this version of TAMP"});
+}
+
+void expect_ranks_of(const nlohmann::json& profile, int n_ranks)
+{
+  const double of_run = profile.at("machine").at("ranks").get<double>();
+  if (of_run == n_ranks) return;
+  throw InputError({"--ranks", std::to_string(n_ranks), fmt::format("expected those of the run, {:.0f}", of_run)});
+}
+
+/// Whether the tasks of a graph were measured one by one, or all of them by name where there were too many, or where
+/// patches went to other ranks as the run went on.
+bool is_step_of(const runtime::TaskGraph& graph, const nlohmann::json& profile)
+{
+  std::vector<int> ranks;
+  for (const nlohmann::json& patch : profile.at("patches")) ranks.push_back(patch.at("rank").get<int>());
+  if (ranks.size() != graph.layout().ranks().size()) return false;
+  const bool one_by_one = !profile.at("mean_step").empty() && ranks == graph.layout().ranks();
+  return one_by_one ? timed_step(graph, profile).has_value() : n_measured(graph, profile) == fold(graph).tasks.size();
+}
+
 /// The page, with what a run took if one is named.
 std::string page_of(const runtime::TaskGraph& graph, const GraphArguments& options)
 {
   const std::string title = "A time step of " + options.scene;
   if (options.run.empty()) return to_html(graph, title);
   return with_profile(options.run, [&](const nlohmann::json& profile) {
-    if (n_measured(graph, profile) == 0) {
-      throw InputError({"--run", options.run, "expected a run of this scene: none of its tasks is in the graph"});
+    expect_mean_step(profile, options.run);
+    expect_ranks_of(profile, options.n_ranks);
+    if (!is_step_of(graph, profile)) {
+      throw InputError({"--run", options.run, "expected a run of this scene: it has other tasks than the graph"});
     }
     return to_html(graph, title, profile);
   });
-}
-
-/// Earlier versions did not write all that replay needs.
-void expect_mean_step(const nlohmann::json& profile, const std::string& run)
-{
-  if (profile.contains("machine") && profile.contains("mean_step")) return;
-  throw InputError({"--run", run, "expected a run of this version of TAMP"});
 }
 
 int threads_of(const nlohmann::json& machine)
@@ -84,17 +104,14 @@ std::string threads_text(const runtime::TaskGraph& graph, const GraphArguments& 
   if (options.run.empty()) return to_text(runtime::deal_to_threads(graph, options.n_threads));
   return with_profile(options.run, [&](const nlohmann::json& profile) {
     expect_mean_step(profile, options.run);
-    const nlohmann::json& machine = profile.at("machine");
-    if (machine.at("ranks").get<int>() != options.n_ranks) {
-      throw InputError({"--ranks", std::to_string(options.n_ranks),
-                        fmt::format("expected those of the run, {}", machine.at("ranks").get<int>())});
-    }
+    expect_ranks_of(profile, options.n_ranks);
     const auto step = timed_step(graph, profile);
     if (!step) {
       throw InputError({"--run", options.run, "expected a run of this scene, of at most 20,000 tasks a step"});
     }
     return to_text(deal_to_threads(*step, options.n_threads)) +
-           replays_text(*step, options.n_threads, threads_of(machine), profile.at("step_s").get<double>()) +
+           replays_text(*step, options.n_threads, threads_of(profile.at("machine")),
+                        profile.at("step_s").get<double>()) +
            runtime::busy_text(profile);
   });
 }

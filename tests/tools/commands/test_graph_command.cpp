@@ -78,8 +78,39 @@ TEST_CASE("a page of the graph has what a run of the scene took, and its longest
   CHECK(shares > 0.9);  // but for the engine's own
   CHECK(n_critical > 3);
   CHECK(tamp_with(graph + " --format svg").err == "tamp: --run: --format svg; expected --format html or --threads\n");
-  const Outcome of_other = tamp_with("graph " TAMP_SOURCE_DIR "/inputs/footing/quick.json --format html --run " + run);
-  CHECK(of_other.exit_code == 0);
+}
+
+TEST_CASE("no page and no replay is made of a run on other ranks, or of another scene")
+{
+  const TemporaryFolder folder;
+  const std::string run = (folder.path() / "run").string(), of_run = " --run " + run;
+  REQUIRE(tamp_with("run " + scene + " --steps 20 --threads 1 --quiet --out " + run).exit_code == 0);
+  const std::string form = GENERATE(" --format html", " --threads 2");
+  const auto refused = [&](const std::string& graph, const std::string& words) {
+    const Outcome outcome = tamp_with("graph " + graph + form + of_run);
+    CHECK(outcome.exit_code == 2);
+    CHECK(outcome.out.empty());
+    CHECK_THAT(outcome.err, Catch::Contains(words));
+  };
+
+  refused(scene + " --ranks 2", "--ranks: 2; expected those of the run, 1");
+  refused(TAMP_SOURCE_DIR "/inputs/footing/quick.json", "expected a run of this scene");
+  refused(scene + " --set '/grid/patches=[4, 2]'", "expected a run of this scene");
+}
+
+TEST_CASE("a page is made of a run whose patches went to other ranks", "[mpiexec]")
+{
+  const TemporaryFolder folder;
+  const std::string run = (folder.path() / "run").string();
+  REQUIRE(tamp_on_ranks(2, "run " + scene + " --steps 20 --threads 1 --quiet --out " + run).exit_code == 0);
+  auto profile = nlohmann::json::parse(read_text(folder.path() / "run" / "profile.json"));
+  const std::string graph = "graph " + scene + " --ranks 2 --format html --run " + run;
+  CHECK(tamp_with(graph).exit_code == 0);
+
+  for (auto& patch : profile["patches"]) patch["rank"] = 1 - patch["rank"].get<int>();
+  folder.write("run/profile.json", profile.dump());
+
+  CHECK(tamp_with(graph).exit_code == 0);
 }
 
 TEST_CASE("a step is dealt to threads, and with a run of its scene told how fast it would be on them")
