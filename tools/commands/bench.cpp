@@ -134,7 +134,7 @@ CLI::App* add_bench_command(CLI::App& app)
   command
       ->add_option("--particles", options->peers.n_particles,
                    "of peers: about how many, instead of 40,000 in the plane and 64,000 in space")
-      ->check(is_from_to(64, 100'000'000));
+      ->check(is_whole_from_to(64, 100'000'000));
   command
       ->add_option(
           "--task", options->gains.tasks,
@@ -149,7 +149,7 @@ CLI::App* add_bench_command(CLI::App& app)
   command
       ->add_option("--message-bytes", options->tasks.message_bytes,
                    "of tasks on several ranks: data that one sends to the next in a step, a multiple of 8")
-      ->check(is_from_to(8, 1 << 20))
+      ->check(is_whole_from_to(8, 1 << 20))
       ->check(CLI::Validator(multiple_of_8, ""));
   command->footer(examples({{"tamp bench gains", "whether what a profile says of faster tasks comes true"},
                             {"tamp bench moduli", "Table, SVR and MLP by evaluation"},

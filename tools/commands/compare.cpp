@@ -111,7 +111,7 @@ CLI::App* add_compare_command(CLI::App& app)
       ->type_name("DIR");
   add_assignments(*command, options->assignments, "scene");
   command->add_option("--threads", options->comparison.n_threads, "threads; by default the cores that may be used")
-      ->check(is_from_to(1, 1024));
+      ->check(is_whole_from_to(1, 1024));
   command->add_option("--until", options->comparison.until, "stop at this simulated time, in seconds")
       ->check(is_above_zero())
       ->default_str("the scene's end");

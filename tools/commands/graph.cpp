@@ -157,7 +157,7 @@ CLI::App* add_graph_command(CLI::App& app)
       command->add_option("--format", options->format, "dot (for graphviz), json, html (a page) or svg")
           ->check(is_one_of({"dot", "json", "html", "svg"}));
   command->add_option("--ranks", options->n_ranks, "as so many ranks would have it, with their messages")
-      ->check(is_from_to(1, most_ranks));
+      ->check(is_whole_from_to(1, most_ranks));
   command
       ->add_option(
           "--run", options->run,
@@ -171,7 +171,7 @@ CLI::App* add_graph_command(CLI::App& app)
   command
       ->add_option("--threads", options->n_threads,
                    "in place of the graph, what so many threads of each rank have of it, and how much may run at once")
-      ->check(is_from_to(1, most_threads))
+      ->check(is_whole_from_to(1, most_threads))
       ->excludes(format)
       ->excludes(patch);
   command->footer(examples(

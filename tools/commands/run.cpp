@@ -63,7 +63,7 @@ void add_checkpoint_options(CLI::App& command, CheckpointPolicy& policy)
   command.add_option("--checkpoint-wall", policy.wall, "and every so many seconds of the clock")
       ->check(is_above_zero());
   command.add_option("--checkpoint-keep", policy.keep, "how many checkpoints stay, the newest")
-      ->check(is_from_to(1, 1000));
+      ->check(is_whole_from_to(1, 1000));
 }
 
 void expect_few_checkpoints(const CheckpointPolicy& policy, double end)
@@ -120,7 +120,7 @@ CLI::App* add_run_command(CLI::App& app)
           ->check(is_not_empty());
   add_assignments(*command, options->assignments, "scene");
   command->add_option("--threads", options->n_threads, "threads of each rank")
-      ->check(is_from_to(1, 1024))
+      ->check(is_whole_from_to(1, 1024))
       ->default_str("its share of the cores");
   command
       ->add_option("--schedule", options->schedule,

@@ -39,6 +39,14 @@ TEST_CASE("a number out of its range is refused with the range in words")
 {
   const std::vector<std::array<std::string, 2>> all{
       {"verify --jobs 0", "--jobs: 0; expected a whole number, at least 1"},
+      {"run a.json --threads 1.5", "--threads: 1.5; expected a whole number, 1 to 1024"},
+      {"run a.json --checkpoint-keep 1.5", "--checkpoint-keep: 1.5; expected a whole number, 1 to 1000"},
+      {"compare a.json --threads 1e1", "--threads: 1e1; expected a whole number, 1 to 1024"},
+      {"graph a.json --ranks 1.5", "--ranks: 1.5; expected a whole number, 1 to 1024"},
+      {"graph a.json --threads 1.5", "--threads: 1.5; expected a whole number, 1 to 1024"},
+      {"drive a.json b.csv --repeat 1.5", "--repeat: 1.5; expected a whole number, 1 to 1000"},
+      {"bench peers --particles 99.5", "--particles: 99.5; expected a whole number, 64 to 100000000"},
+      {"bench tasks --message-bytes 16.5", "--message-bytes: 16.5; expected a whole number, 8 to 1048576"},
       {"run a.json --steps 0", "--steps: 0; expected a whole number, at least 1"},
       {"run a.json --steps 99999999999999999999", "--steps: 99999999999999999999; expected a whole number, at least 1"},
       {"run a.json --trace-steps some",

@@ -7,6 +7,7 @@
 #include <charconv>
 #include <cmath>
 #include <cstdint>
+#include <optional>
 
 #include "tools/system/suggestion.hpp"
 
@@ -27,19 +28,36 @@ CLI::Validator number_check(const std::string& expected, const IsRight& is_right
   return CLI::Validator(problem, expected);
 }
 
+/// Nothing for what is none, or does not fit.
+std::optional<std::int64_t> whole_number(const std::string& text)
+{
+  std::int64_t value = 0;
+  const char* const end = text.data() + text.size();
+  const auto [at, error] = std::from_chars(text.data(), end, value);
+  return error == std::errc() && at == end ? std::optional(value) : std::nullopt;
+}
+
 }  // namespace
 
 CLI::Validator is_whole_from(std::int64_t least)
 {
   const std::string expected = fmt::format("a whole number, at least {}", least);
   const auto problem = [expected, least](const std::string& text) {
-    std::int64_t value = 0;
-    const char* const end = text.data() + text.size();
-    const auto [at, error] = std::from_chars(text.data(), end, value);
-    const bool is_right = error == std::errc() && at == end && value >= least;
-    return is_right ? "" : fmt::format("{}; expected {}", text, expected);
+    const std::optional<std::int64_t> value = whole_number(text);
+    return value && *value >= least ? "" : fmt::format("{}; expected {}", text, expected);
   };
   return CLI::Validator(problem, expected);
+}
+
+CLI::Validator is_whole_from_to(std::int64_t least, std::int64_t most)
+{
+  const std::string range = fmt::format("{} to {}", least, most);
+  const auto problem = [range, least, most](const std::string& text) {
+    const std::optional<std::int64_t> value = whole_number(text);
+    if (value && *value >= least && *value <= most) return std::string();
+    return fmt::format("{}; expected {}{}", text, value ? "" : "a whole number, ", range);
+  };
+  return CLI::Validator(problem, range);
 }
 
 CLI::Validator is_above_zero()

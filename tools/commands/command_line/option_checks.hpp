@@ -11,6 +11,8 @@ namespace tamp::tools
 
 /// A whole number that fits.
 CLI::Validator is_whole_from(std::int64_t least);
+/// A whole number from `least` to `most`, both of which belong to it.
+CLI::Validator is_whole_from_to(std::int64_t least, std::int64_t most);
 CLI::Validator is_above_zero();
 /// Both ends belong to it.
 CLI::Validator is_from_to(double least, double most);
