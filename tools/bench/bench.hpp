@@ -53,9 +53,10 @@ struct GainOptions {
   std::vector<std::string> tasks;
   int n_rounds = 15;
   long n_steps = 400;
+  int n_threads = 2;
 };
 
-/// Whether what a profile says of a faster task comes true: on two threads a task is made one and a half times as long,
+/// Whether what a profile says of a faster task comes true: a task is made one and a half times as long,
 /// and the step that replay forecasts from a run without that compared with the one measured, in turns. Throws
 /// InputError for a task that the scene's step has not.
 Result gains(const GainOptions& options);

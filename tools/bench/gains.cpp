@@ -19,7 +19,6 @@ namespace tamp::tools::bench
 namespace
 {
 
-constexpr int n_threads_of_runs = 2;
 constexpr double slower = 1.5;
 /// Simulations take turns after so many steps: some hundredths of a second.
 constexpr long steps_of_turn = 50;
@@ -65,10 +64,10 @@ std::vector<std::string> dearest(const std::vector<runtime::TaskStatistics>& tas
 }
 
 /// The dearest on the longest chain of most steps, and the dearest that hardly ever is on it.
-std::vector<std::string> typical_tasks(const tasks::Scene& scene)
+std::vector<std::string> typical_tasks(const tasks::Scene& scene, int n_threads)
 {
   std::vector<std::string> known;
-  const auto executor = std::make_shared<runtime::Executor>(n_threads_of_runs);
+  const auto executor = std::make_shared<runtime::Executor>(n_threads);
   const auto run =
       tasks::Simulation::make(scene, executor, {}, [&](runtime::TaskList& step) { known = names_of(step); });
   while (run->n_steps() < 4 * steps_of_turn && run->time() < scene.time.end) run->advance(scene.time.end);
@@ -88,7 +87,8 @@ class GainBenchmark
  public:
   explicit GainBenchmark(const GainOptions& options) : options_(options), scene_(read_scene(options.scene).scene)
   {
-    const std::vector<std::string> names = options.tasks.empty() ? typical_tasks(scene_) : options.tasks;
+    const std::vector<std::string> names =
+        options.tasks.empty() ? typical_tasks(scene_, options.n_threads) : options.tasks;
     tasks_.reserve(names.size());
     for (const std::string& task : names) tasks_.push_back({task});
   }
@@ -102,7 +102,7 @@ class GainBenchmark
  private:
   void run_round()
   {
-    const auto executor = std::make_shared<runtime::Executor>(n_threads_of_runs);
+    const auto executor = std::make_shared<runtime::Executor>(options_.n_threads);
     const auto as_it_is = tasks::Simulation::make(scene_, executor);
     std::vector<std::unique_ptr<tasks::Simulation>> with_slower_task;
     with_slower_task.reserve(tasks_.size());
@@ -114,7 +114,7 @@ class GainBenchmark
       for (const auto& simulation : with_slower_task) take_turn(*simulation);
     }
     const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - wall_start;
-    core_share_.push_back((process_seconds() - start) / (n_threads_of_runs * wall.count()));
+    core_share_.push_back((process_seconds() - start) / (options_.n_threads * wall.count()));
     for (std::size_t k = 0; k < tasks_.size(); ++k) note(tasks_[k], *as_it_is, *with_slower_task[k]);
     steps_.push_back(as_it_is->engine().profile().step_s);
   }
@@ -150,7 +150,7 @@ class GainBenchmark
     nlohmann::ordered_json all{{"scene", options_.scene.filename().string()},
                                {"rounds", options_.n_rounds},
                                {"steps", options_.n_steps},
-                               {"threads", n_threads_of_runs},
+                               {"threads", options_.n_threads},
                                {"slower", slower},
                                {"step_us", median(steps_) * 1e6},
                                {"core_share", median(core_share_)},
@@ -171,10 +171,11 @@ class GainBenchmark
   std::string text() const
   {
     std::string text = fmt::format(
-        "gains: {}, {} steps on {} threads, one task {} times as long; medians of {} rounds\n"
+        "gains: {}, {} steps on {}, one task {} times as long; medians of {} rounds\n"
         "  a step takes {:.1f} us as it is\n"
         "  {:<32} {:>7} {:>9} {:>12} {:>12} {:>12} {:>11}\n",
-        options_.scene.filename().string(), options_.n_steps, n_threads_of_runs, slower, options_.n_rounds,
+        options_.scene.filename().string(), options_.n_steps,
+        options_.n_threads == 1 ? "1 thread" : fmt::format("{} threads", options_.n_threads), slower, options_.n_rounds,
         median(steps_) * 1e6, "task", "share", "on chain", "by replay", "by a tenth", "measured", "difference");
     for (const SlowedTask& task : tasks_) {
       text += fmt::format("  {:<32} {:>6.1f}% {:>8.0f}% {:>9.1f} us {:>9.1f} us {:>9.1f} us {:>+10.1f}%\n", task.name,

@@ -1,7 +1,9 @@
 #include "tools/bench/bench.hpp"
 
-#include <fmt/core.h>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
 
+#include <algorithm>
 #include <functional>
 #include <map>
 #include <memory>
@@ -24,6 +26,8 @@ namespace tamp::tools
 namespace
 {
 
+constexpr int most_threads = 1024;
+
 struct BenchArguments {
   std::vector<std::string> names;
   std::string json;
@@ -31,6 +35,10 @@ struct BenchArguments {
   bench::WindowOptions windows;
   bench::PeerOptions peers;
   bench::GainOptions gains;
+  /// Empty: as each benchmark has it.
+  std::vector<int> n_threads;
+  /// Options, and the benchmarks that they are of.
+  std::vector<std::pair<const CLI::Option*, std::vector<std::string>>> uses{};
 };
 
 /// Measures a scene that comes with TAMP, unless another was given.
@@ -43,8 +51,16 @@ bench::Result windows_of(const std::string& name, const char* shipped, bench::Wi
 bench::Result gains_of(const BenchArguments& given)
 {
   bench::GainOptions options = given.gains;
+  if (!given.n_threads.empty()) options.n_threads = given.n_threads.front();
   options.scene = given.windows.scene.empty() ? shipped_input("punch/quick.json") : given.windows.scene;
   return bench::gains(options);
+}
+
+bench::Result tasks_of(const BenchArguments& given)
+{
+  bench::TaskOptions options = given.tasks;
+  if (!given.n_threads.empty()) options.n_threads = given.n_threads;
+  return bench::tasks(options);
 }
 
 using Benchmark = std::function<bench::Result(const BenchArguments&)>;
@@ -58,7 +74,7 @@ const std::map<std::string, Benchmark>& benchmarks()
       {"projectile",
        [](const BenchArguments& options) { return windows_of("projectile", "uxo/quick.json", options.windows); }},
       {"punch", [](const BenchArguments& options) { return windows_of("punch", "punch/quick.json", options.windows); }},
-      {"tasks", [](const BenchArguments& options) { return bench::tasks(options.tasks); }}};
+      {"tasks", tasks_of}};
   return all;
 }
 
@@ -77,10 +93,26 @@ std::vector<std::string> names_of(const BenchArguments& options, int n_ranks)
   return names;
 }
 
+/// Refuses what none of these would look at, and what one of them cannot do.
+void expect_used(const BenchArguments& options, const std::vector<std::string>& names)
+{
+  const auto is_run = [&](const std::string& name) { return std::ranges::find(names, name) != names.end(); };
+  for (const auto& [option, benchmarks] : options.uses) {
+    if (option->count() == 0 || std::ranges::any_of(benchmarks, is_run)) continue;
+    throw InputError({option->get_name(), fmt::format("not of {}", fmt::join(names, ", ")),
+                      fmt::format("expected it with {}", fmt::join(benchmarks, " or "))});
+  }
+  if (options.n_threads.size() > 1 && is_run("gains")) {
+    throw InputError({"--threads", fmt::format("{} of gains", fmt::join(options.n_threads, ",")),
+                      "expected one number, or several with the benchmark tasks alone"});
+  }
+}
+
 void run_benchmarks(const BenchArguments& options)
 {
   const auto ranks = runtime::Communicator::world();
   const std::vector<std::string> names = names_of(options, ranks.size());
+  expect_used(options, names);
   if (!options.windows.scene.empty()) expect_input_file(options.windows.scene);
   if (ranks.is_first()) expect_outputs({{"--json", options.json}});
   nlohmann::ordered_json json;
@@ -108,47 +140,53 @@ CLI::App* add_bench_command(CLI::App& app)
   for (const auto& [name, benchmark] : benchmarks()) known.push_back(name);
   command->add_option("NAME", options->names, "which benchmarks; all without a name")->check(is_one_of(known));
   command->add_option("--json", options->json, "write the results to this file too")->type_name("FILE");
-  command
-      ->add_option_function<int>(
-          "--rounds",
-          [options](int n) {
-            options->tasks.n_rounds = options->windows.n_rounds = options->peers.n_rounds = options->gains.n_rounds = n;
-          },
-          "of tasks (15, as far as a minute allows), gains (15), windows of punch and projectile (5) and peers (5): "
-          "how "
-          "often each is measured")
+  const auto is_of = [&](CLI::Option* option, const std::vector<std::string>& benchmarks) {
+    options->uses.emplace_back(option, benchmarks);
+    return option;
+  };
+  is_of(command->add_option_function<int>(
+            "--rounds",
+            [options](int n) {
+              options->tasks.n_rounds = options->windows.n_rounds = options->peers.n_rounds = options->gains.n_rounds =
+                  n;
+            },
+            "of tasks (15, as far as a minute allows), gains (15), windows of punch and projectile (5) and peers (5): "
+            "how often each is measured"),
+        {"tasks", "gains", "punch", "projectile", "peers"})
       ->check(is_whole_from(1));
-  command
-      ->add_option(
-          "--scene", options->windows.scene,
-          "of punch, projectile and gains: run this scene instead of inputs/punch/quick.json, which takes a minute, or "
-          "inputs/uxo/quick.json, which takes five")
+  is_of(command->add_option(
+            "--scene", options->windows.scene,
+            "of punch, projectile and gains: run this scene instead of inputs/punch/quick.json, which takes a minute, "
+            "or inputs/uxo/quick.json, which takes five"),
+        {"punch", "projectile", "gains"})
       ->check(CLI::ExistingFile);
-  command
-      ->add_option_function<int>(
-          "--steps",
-          [options](int n) { options->windows.n_steps = options->gains.n_steps = options->peers.n_steps = n; },
-          "of punch and projectile: steps of a window, instead of a twentieth of the run, or two seconds if that is "
-          "less; of peers and gains: steps of a round, instead of 50 and 400")
+  is_of(command->add_option_function<int>(
+            "--steps",
+            [options](int n) { options->windows.n_steps = options->gains.n_steps = options->peers.n_steps = n; },
+            "of punch and projectile: steps of a window, instead of a twentieth of the run, or two seconds if that is "
+            "less; of peers and gains: steps of a round, instead of 50 and 400"),
+        {"punch", "projectile", "peers", "gains"})
       ->check(is_whole_from(1));
-  command
-      ->add_option("--particles", options->peers.n_particles,
-                   "of peers: about how many, instead of 40,000 in the plane and 64,000 in space")
+  is_of(command->add_option("--particles", options->peers.n_particles,
+                            "of peers: about how many, instead of 40,000 in the plane and 64,000 in space"),
+        {"peers"})
       ->check(is_whole_from_to(64, 100'000'000));
-  command
-      ->add_option(
-          "--task", options->gains.tasks,
-          "of gains: slow this task down, instead of the dearest on the longest chain and the dearest beside it")
+  is_of(command->add_option("--task", options->gains.tasks,
+                            "of gains: slow this task down, instead of the dearest on the longest chain and the "
+                            "dearest beside it"),
+        {"gains"})
       ->type_name("NAME")
       ->allow_extra_args(false)
       ->check(is_not_empty());
-  command->add_option("--threads", options->tasks.n_threads, "of tasks: numbers of threads, as in 1,2")
+  is_of(command->add_option("--threads", options->n_threads,
+                            "of tasks: numbers of threads, as in 1,2; of gains: how many, instead of 2"),
+        {"tasks", "gains"})
       ->delimiter(',')
       ->allow_extra_args(false)
-      ->check(is_whole_from(1));
-  command
-      ->add_option("--message-bytes", options->tasks.message_bytes,
-                   "of tasks on several ranks: data that one sends to the next in a step, a multiple of 8")
+      ->check(is_whole_from_to(1, most_threads));
+  is_of(command->add_option("--message-bytes", options->tasks.message_bytes,
+                            "of tasks on several ranks: data that one sends to the next in a step, a multiple of 8"),
+        {"tasks"})
       ->check(is_whole_from_to(8, 1 << 20))
       ->check(CLI::Validator(multiple_of_8, ""));
   command->footer(examples({{"tamp bench gains", "whether what a profile says of faster tasks comes true"},

@@ -85,6 +85,33 @@ TEST_CASE("the benchmark of gains has for each task what was forecast beside wha
   CHECK_THAT(outcome.out, Catch::Contains("update stress: sand") && Catch::Contains("difference"));
 }
 
+TEST_CASE("the benchmark of gains runs on as many threads as it is told")
+{
+  const TemporaryFolder folder;
+  const std::string file = (folder.path() / "gains.json").string();
+
+  const Outcome outcome = tamp_with("bench gains --threads 1 --steps 20 --rounds 1 --json " + file);
+
+  REQUIRE(outcome.exit_code == 0);
+  CHECK(nlohmann::json::parse(read_text(file)).at("gains").at("threads") == 1);
+  CHECK_THAT(outcome.out, Catch::Contains("20 steps on 1 thread,"));
+}
+
+TEST_CASE("what no benchmark that is asked for looks at is refused with those that do")
+{
+  const auto refused = [](const std::string& arguments, const std::string& words) {
+    const Outcome outcome = tamp_with("bench " + arguments);
+    CHECK(outcome.exit_code == 2);
+    CHECK(outcome.err == "tamp: " + words + "\n");
+  };
+
+  refused("gains --threads 1,2 --rounds 1",
+          "--threads: 1,2 of gains; expected one number, or several with the benchmark tasks alone");
+  refused("moduli --threads 2", "--threads: not of moduli; expected it with tasks or gains");
+  refused("peers --task 'update stress: sand'", "--task: not of peers; expected it with gains");
+  refused("tasks --particles 400", "--particles: not of tasks; expected it with peers");
+}
+
 TEST_CASE("the benchmark of gains finds tasks on the longest chain and beside it in any scene")
 {
   const TemporaryFolder folder;
