@@ -198,6 +198,7 @@ Json run_summary(tasks::Simulation& simulation, const RunHistory& history, const
       over_ranks(simulation, static_cast<std::size_t>(simulation.engine().warehouse().ledger().total().peak()));
   const EnergyBalance& e = history.energies();
   const double n_total = counts["total"].get<double>();
+  const auto n_steps = static_cast<double>(simulation.n_steps() - std::max(outcome.restarted_at, 0L));
   return {{"status", outcome.status},
           {"reason", outcome.reason},
           {"warnings", outcome.warnings},
@@ -217,7 +218,7 @@ Json run_summary(tasks::Simulation& simulation, const RunHistory& history, const
             {"steps", outcome.parts.steps},
             {"output", outcome.parts.output},
             {"end", outcome.parts.end}}},
-          {"particle_updates_per_s", outcome.wall_per_step > 0 ? n_total / outcome.wall_per_step : 0},
+          {"particle_updates_per_s", outcome.parts.steps > 0 ? n_total * n_steps / outcome.parts.steps : 0},
           {"output", output(outcome)},
           {"peak_rss_bytes", {{"sum", rss.sum}, {"max", rss.max}}},
           {"forecast_peak_bytes", simulation.forecast_bytes()},

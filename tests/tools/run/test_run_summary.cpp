@@ -56,6 +56,25 @@ TEST_CASE("the first line of a result is how deep a body was, when, and where it
   CHECK_FALSE(summary["greatest"].contains("step"));
 }
 
+TEST_CASE("particle updates a second are those that were made in the time of the steps, a slow one included")
+{
+  const TemporaryFolder folder;
+  const fs::path out = folder.path() / "run";
+  const std::string scene = folder.write("thrown.json", thrown).string();
+  const auto rate_from = [&](long first) {
+    const Json summary = summary_of(out);
+    const double n =
+        summary["particles"]["total"].get<double>() * static_cast<double>(summary["steps"].get<long>() - first);
+    CHECK(summary["particle_updates_per_s"].get<double>() ==
+          Approx(n / summary["wall_parts_s"]["steps"].get<double>()));
+  };
+
+  REQUIRE(tamp_with("run " + scene + " --quiet --steps 20 --checkpoint-steps 10 --out " + out.string()).exit_code == 0);
+  rate_from(0);
+  REQUIRE(tamp_with("run " + scene + " --quiet --steps 60 --restart " + out.string()).exit_code == 0);
+  rate_from(summary_of(out)["restarted_at_step"].get<long>());
+}
+
 TEST_CASE("a run that goes on knows the greatest of the rows before")
 {
   const TemporaryFolder folder;
