@@ -3,7 +3,9 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <chrono>
 #include <regex>
+#include <thread>
 #include <vector>
 
 #include "runtime/file_error.hpp"
@@ -85,13 +87,20 @@ void expect_no_input_in(const fs::path& folder, std::span<const fs::path> inputs
   }
 }
 
-std::unique_ptr<runtime::FolderLock> lock_of(const fs::path& folder)
+/// Ranks whose launcher was killed end by themselves, but only in a second or so: a restart waits for them.
+std::unique_ptr<runtime::FolderLock> lock_of(const fs::path& folder, RunFolder::Use use)
 {
-  try {
-    return std::make_unique<runtime::FolderLock>(folder);
-  } catch (const runtime::FolderInUse& in_use) {
-    const fs::path lock = folder / runtime::FolderLock::file_name;
-    throw InputError({lock.string(), in_use.what(), "expected a folder of its own for each run"});
+  constexpr std::chrono::milliseconds patience{3000}, pause{100};
+  const auto begin = std::chrono::steady_clock::now();
+  while (true) {
+    try {
+      return std::make_unique<runtime::FolderLock>(folder);
+    } catch (const runtime::FolderInUse& in_use) {
+      const bool may_wait = use == RunFolder::Use::go_on && std::chrono::steady_clock::now() - begin < patience;
+      const fs::path lock = folder / runtime::FolderLock::file_name;
+      if (!may_wait) throw InputError({lock.string(), in_use.what(), "expected a folder of its own for each run"});
+    }
+    std::this_thread::sleep_for(pause);
   }
 }
 
@@ -111,7 +120,7 @@ RunFolder::RunFolder(const fs::path& folder, Use use, std::span<const fs::path> 
     }
     fs::create_directories(folder);
     if (access(folder.c_str(), W_OK | X_OK) != 0) throw runtime::FileError(folder.string(), "cannot be written to");
-    lock_ = lock_of(folder);
+    lock_ = lock_of(folder, use);
     expect_free(folder, use);
     if (use == Use::replace) remove_run(folder);
     if (use != Use::go_on) {

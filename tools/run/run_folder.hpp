@@ -23,7 +23,7 @@ class RunFolder
     begin,
     /// Nothing, or an earlier run, which is removed.
     replace,
-    /// Existing files stay.
+    /// Existing files stay. Who is still at work there has three seconds to end.
     go_on,
   };
 

@@ -1,4 +1,7 @@
 #include <catch2/catch.hpp>
+#include <chrono>
+#include <memory>
+#include <thread>
 
 #include "runtime/file_error.hpp"
 #include "tests/tools/temporary_folder.hpp"
@@ -112,6 +115,20 @@ TEST_CASE("a folder in use is refused, whatever it is wanted for")
   const RunFolder first(folder.path(), begin, {});
 
   CHECK_THROWS_WITH(use(folder.path(), purpose), Catch::Contains("run.lock: in use by process"));
+}
+
+TEST_CASE("a restart waits a moment for a run that is about to end")
+{
+  const TemporaryFolder folder;
+  auto first = std::make_unique<RunFolder>(folder.path(), begin, std::span<const fs::path>());
+  std::thread end([&] {
+    std::this_thread::sleep_for(std::chrono::milliseconds(400));
+    first.reset();
+  });
+
+  CHECK_NOTHROW(use(folder.path(), go_on));
+
+  end.join();
 }
 
 TEST_CASE("a file in the place of a run's folder is refused")
