@@ -129,6 +129,21 @@ def document(path):
         raise Refusal(path, "numbers too long or brackets too deep", "JSON") from None
 
 
+class Damage(ValueError):
+    """What is wrong with a file of TAMP's own, in words."""
+
+
+def words_of(error):
+    """What is wrong with a file, by what went wrong in reading it: Python's words are of no help to a reader."""
+    if isinstance(error, Damage):
+        return str(error)
+    if isinstance(error, KeyError):
+        return f'no "{error.args[0]}"'
+    if isinstance(error, IndexError):
+        return "a list that is too short"
+    return "a value of another kind" if isinstance(error, (AttributeError, TypeError)) else "a value that cannot be"
+
+
 @contextlib.contextmanager
 def written_by_tamp(path):
     """What is done with a file of TAMP's own, which may be damaged."""
@@ -139,7 +154,7 @@ def written_by_tamp(path):
     except Refusal as refusal:
         raise Failure(refusal) from None
     except (ArithmeticError, AttributeError, IndexError, KeyError, TypeError, ValueError) as error:
-        raise Failure(path, f"damaged: {error!r}", "what TAMP has written") from None
+        raise Failure(path, f"damaged: {words_of(error)}", "what TAMP has written") from None
 
 
 def keep_inputs(sources, outputs):

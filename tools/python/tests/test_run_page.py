@@ -4,6 +4,7 @@ import unittest
 
 import numpy as np
 
+from tamp import failure, files
 from tamp.charts import choices, particles, picture, run_page, timeline
 from tamp.charts.timeline import Bar
 from tests.page_tags import Tags
@@ -58,6 +59,25 @@ class TheStep(unittest.TestCase):
         for length in [0, -1]:
             self.assertRaises(ValueError, timeline.read_step, trace(step(2, 0, length), task(2, 0, 4)))
         self.assertRaises(ValueError, timeline.read_step, trace(step(2, 0, 5), task(2, 0, -4)))
+
+    def test_of_a_damaged_trace_is_refused_without_a_word_of_Python(self):
+        whole, part = step(2, 0, 10), task(2, 0, 4)
+        nameless = {key: value for key, value in part.items() if key != "name"}
+        documents = [None, 3, [], {}, {"traceEvents": None}, trace(3), trace(step(2, 0, 0)), trace(whole, nameless)]
+        documents += [trace(whole, {**part, key: value}) for key in part for value in (None, "text", 3, [], {})]
+        n_refused = 0
+        for document in documents:
+            try:
+                with files.written_by_tamp("trace.json"):
+                    found = timeline.read_step(document)
+                    if found:
+                        timeline.chart(found, "timeline")
+            except failure.Failure as refusal:
+                n_refused += 1
+                self.assertRegex(str(refusal), "^trace.json: damaged: .+; expected what TAMP has written$")
+                self.assertNotRegex(str(refusal), "Error|NoneType|\\bint\\b|object|indices|unhashable", document)
+
+        self.assertGreater(n_refused, 20)
 
     def test_is_drawn_with_a_text_for_each_task_in_both_widths(self):
         known = timeline.read_step(trace(step(2, 0, 10), task(2, 0, 4, "push <up>"), task(2, 5, 5, phase="stress")))

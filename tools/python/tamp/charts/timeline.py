@@ -8,6 +8,7 @@ from tamp.charts.chart import Table, make_chart
 from tamp.charts.formatting import counted, percent_text, plain, si_text
 from tamp.charts.over_time import HALF
 from tamp.charts.theme import HUES, LIGHT, N_SHADES, Style, hue
+from tamp.files import Damage
 
 FULL = HALF._replace(name="full", width=984)
 MOST_BARS, MOST_LANES = 900, 32
@@ -52,7 +53,7 @@ def read_step(trace):
     if not durations:
         return None
     if not all(0 < time < math.inf for time in durations.values()) or any(event["dur"] < 0 for event in spans):
-        raise ValueError("what takes no time")
+        raise Damage("what takes no time")
     number = typical(durations)
     chosen = [event for event in spans if event["args"]["step"] == number]
     begin = min(event["ts"] for event in chosen)
