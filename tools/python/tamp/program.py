@@ -47,10 +47,11 @@ def answer(tamp, *words, ranks=1, environment=ENVIRONMENT):
 
 
 def call(tamp, *words, allowed=(0,), **how):
-    """Refuses to go on where the program fails. Gives its answer."""
+    """Refuses to go on where the program fails, or refuses what it was given. Gives its answer."""
     done = answer(tamp, *words, **how)
     if done.returncode not in allowed:
-        raise Failure(tamp, f"exit code {done.returncode}: {done.stderr.strip()}")
+        kind = Refusal if done.returncode == Refusal.code else Failure
+        raise kind(tamp, f"exit code {done.returncode}: {done.stderr.strip()}")
     return done
 
 

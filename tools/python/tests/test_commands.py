@@ -4,12 +4,14 @@ import argparse
 import contextlib
 import importlib
 import io
+import pathlib
 import subprocess
 import sys
 import unittest
 
 from tamp import failure, program
 from tamp.__main__ import COMMANDS, summary
+from tamp.checks import forecasts
 
 
 class Commands(unittest.TestCase):
@@ -37,6 +39,25 @@ class Commands(unittest.TestCase):
                               capture_output=True, text=True)
         self.assertEqual(done.returncode, 2)
         self.assertIn("invalid choice: 'fitt'", done.stderr)
+
+    def test_a_scene_or_a_page_that_there_is_not_is_refused_before_anything_runs(self):
+        for words in [["forecasts", "nope", "--tamp", "/no/program"], ["look-at-page", "nope", "/no/folder"]]:
+            done = subprocess.run([sys.executable, "-m", "tamp", *words], cwd=program.ROOT / "tools/python",
+                                  capture_output=True, text=True)
+            self.assertEqual((done.returncode, done.stdout), (2, ""), words)
+            self.assertEqual(done.stderr, f"{failure.PROGRAM}: nope: no such file\n")
+
+    def test_a_scene_of_ones_own_is_named_by_its_path(self):
+        self.assertEqual(forecasts.shown(program.INPUTS / "punch/quick.json"), pathlib.Path("punch/quick.json"))
+        self.assertEqual(forecasts.shown(pathlib.Path("/own/ball.json")), pathlib.Path("/own/ball.json"))
+
+
+class TheProgram(unittest.TestCase):
+    def test_what_it_refuses_is_refused_and_all_else_is_a_failure(self):
+        for code, raised in [(2, failure.Refusal.code), (3, failure.Failure.code), (4, failure.Failure.code)]:
+            with self.assertRaises(failure.Refusal) as ended:
+                program.call("sh", "-c", f"echo tamp: why >&2; exit {code}")
+            self.assertEqual((ended.exception.code, str(ended.exception)), (raised, f"sh: exit code {code}: tamp: why"))
 
 
 class Guard(unittest.TestCase):

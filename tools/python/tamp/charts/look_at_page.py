@@ -12,6 +12,7 @@ import re
 import subprocess
 import tempfile
 
+from tamp import files
 from tamp.options import count
 
 # A window of Chromium is 500 pixels wide at least; a phone is a frame within it.
@@ -88,6 +89,7 @@ def add_arguments(parser):
 
 
 def main(options):
+    files.check_file(options.page)
     options.out.mkdir(parents=True, exist_ok=True)
     with tempfile.TemporaryDirectory() as folder:
         sound = [look(options, name, width, flags, pathlib.Path(folder)) for name, (width, flags) in LOOKS.items()]

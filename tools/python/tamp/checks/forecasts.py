@@ -35,6 +35,11 @@ def whole(number):
     return "none" if number is None else f"{number:,.0f}"
 
 
+def shown(file):
+    """A scene's name in the table: its path within the inputs, or that of a user's own."""
+    return file.relative_to(INPUTS) if file.is_relative_to(INPUTS) else file
+
+
 def processor_time():
     used = os.times()
     return used.children_user + used.children_system
@@ -47,6 +52,9 @@ def add_arguments(parser):
 
 
 def main(options):
+    for name in options.scenes:
+        if name != "million":
+            files.check_file(name)
     print_head(["scene", "particles", "memory, forecast / ledger / process [MB]", "steps, forecast / taken",
                 "core-seconds, forecast / taken"])
     with tempfile.TemporaryDirectory() as place:
@@ -59,7 +67,7 @@ def main(options):
             program.run(options.tamp, file, out, "--threads", 1)
             used, summary = processor_time() - before, files.document(out / "summary.json")
             forecast = summary["forecast"]
-            print_row([name if name == "million" else file.resolve().relative_to(INPUTS),
+            print_row([name if name == "million" else shown(file.resolve()),
                        f"{summary['particles']['total']:,}",
                        " / ".join(f"{summary['memory'][key] / 1e6:.1f}"
                                   for key in ["forecast_bytes", "ledger_bytes", "process_bytes"]),
