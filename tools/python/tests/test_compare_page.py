@@ -215,6 +215,22 @@ class Lines(unittest.TestCase):
         self.assertEqual(rows[5], ["500 ms", "5 m", "1 m"])
         self.assertEqual(rows[10], ["1 s", "10 m", "–"])
 
+    def test_a_dozen_lines_differ_in_colour_and_without_it_too(self):
+        styles = [over_time.style_of(k) for k in range(12)]
+
+        self.assertEqual(len({style.colour for style in styles}), 12)
+        self.assertEqual(len({(str(style.dashes), style.marker) for style in styles}), 12)
+
+    def test_lines_and_their_entries_are_drawn_in_their_styles(self):
+        svg = over_time.chart(example(*(Line(f"line {k}", [0, 1, 2], [k, k, k]) for k in range(8))), "plot").wide.svg
+        looks = []
+        for k in range(8):
+            whole = re.search(rf'<g id="plot-line-{k}">(.*?)</g>\s*<g id="plot-(line|patch)', svg, re.S)[1]
+            dashes = re.search(r"stroke-dasharray: ([^;]*)", whole)
+            looks.append((dashes[1] if dashes else "", "<use" in whole))
+
+        self.assertEqual(len(set(looks)), 8)
+
     def test_the_narrow_drawing_is_as_wide_as_a_phone(self):
         self.assertEqual(over_time.chart(example(), "plot").narrow.width, NARROW.width)
         self.assertLessEqual(NARROW.width, 360 - 2 * 16)

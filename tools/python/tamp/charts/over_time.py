@@ -8,11 +8,11 @@ from tamp.charts.axes import (
     NARROW, Entry, Layout, Sheet, linear_ticks, log_limits, log_ticks, room_for_ticks, set_ticks,
 )
 from tamp.charts.chart import Table, make_chart
-from tamp.charts.theme import DASHES, Style, hue
+from tamp.charts.theme import DASHES, HUES, MARKERS, Style, hue
 from tamp.charts.formatting import counted, si_text
 
 HALF = Layout("half", 480, 240, 11.5, False)  # two of them beside each other
-N_POINTS, N_ROWS = 400, 10
+N_POINTS, N_ROWS, N_MARKERS = 400, 10, 7
 
 
 class Line(NamedTuple):
@@ -35,7 +35,9 @@ class Plot(NamedTuple):
 
 
 def style_of(k):
-    return Style(hue(k), "", DASHES[k % len(DASHES)])
+    """No two of a dozen have the same colour, or the same dashes and marker."""
+    turn = k // len(HUES)
+    return Style(hue(k, turn), MARKERS[turn - 1] if turn else "", DASHES[k % len(DASHES)])
 
 
 def chart(plot, name):
@@ -53,9 +55,12 @@ def draw(plot, layout):
         if not line.x:
             continue
         x, y = thinned(line.x, line.y, N_POINTS)
-        sheet.axis.plot(x, y, color=hue(k), ls=DASHES[k % len(DASHES)], lw=1.6, gid=f"line-{k}", clip_on=False)
+        style, step = style_of(k), max(len(x) // N_MARKERS, 1)
+        sheet.axis.plot(x, y, color=style.colour, ls=style.dashes, lw=1.6, gid=f"line-{k}", clip_on=False,
+                        marker=style.marker, ms=4.5, markevery=(8 * k % step, step))
         if line.breaks_off:
-            sheet.axis.plot(x[-1:], y[-1:], marker="x", ms=9, mew=2, color=hue(k), clip_on=False, gid=f"cross-{k}")
+            sheet.axis.plot(x[-1:], y[-1:], marker="x", ms=9, mew=2, color=style.colour, clip_on=False,
+                            gid=f"cross-{k}")
     if not any(line.x for line in plot.lines):
         sheet.say_empty("nothing to draw")
     return sheet, []

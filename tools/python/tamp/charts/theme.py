@@ -33,7 +33,7 @@ N_SHADES = 2
 LEVELS = ("#cfe0f5", "#08306b"), ("#27384f", "#cfe4ff")
 N_LEVELS = 7
 MARKERS = "os^DvPhd<*>p"
-DASHES = ["-", (0, (7, 2.5)), (0, (1.5, 2)), (0, (8, 2, 1.5, 2)), (0, (4, 2)), (0, (10, 2, 1.5, 2, 1.5, 2))]
+DASHES = ["-", (0, (7, 2.5)), (0, (1.5, 2)), (0, (8, 2, 1.5, 2)), (0, (4, 2)), (0, (5, 2, 1.5, 2, 1.5, 2))]
 FONT_OF_FILES = "'DejaVu Sans', Verdana, sans-serif"
 FONT_OF_PAGES = "system-ui, sans-serif"
 
