@@ -102,6 +102,25 @@ class ThePage(unittest.TestCase):
         self.assertNotIn('id="plot-1-cross-0"', page)
         self.assertIn("svr: between 0 s and 6 s, breaks off at 6 s after 3 ms.", page)
 
+    def test_what_a_model_changes_stands_beside_what_the_grid_does(self):
+        near, far = ({"depth_at_common_time_m": depth, "q_at_common_time_Pa": q}
+                     for depth, q in [(0.202, 1.5e8), (0.23, 2e8)])
+        document = {**comparison(model("table"), model("svr", **near), model("mlp", **far)),
+                    "coarser": {"depth_at_common_time_m": 0.19, "q_at_common_time_Pa": None}}
+
+        page = page_of(document)
+
+        for row in [["svr", "+1 % (less than by the grid)", "−25 %"], ["mlp", "+15 % (more than by the grid)", "0 %"],
+                    ["cells twice as large", "−5 %", "–"]]:
+            self.assertIn("<tr>" + "".join(f"<td>{cell}</td>" for cell in row) + "</tr>", page)
+        self.assertIn('<th scope="col">difference from table at 2 ms</th>', page)
+
+    def test_it_says_where_what_the_grid_changes_is_not_known(self):
+        said = "What the grid changes is not known, as cells twice as large were not run."
+        for document in [comparison(), {**comparison(), "coarser": None}]:
+            self.assertIn(said, page_of(document))
+        self.assertNotIn("the grid changes", page_of(comparison(model("table"))))
+
     def test_it_says_how_it_was_measured_and_with_what(self):
         page = page_of(comparison())
 

@@ -5,8 +5,11 @@ from typing import Callable, NamedTuple
 
 from tamp import files
 from tamp.charts import over_time, page
+from tamp.charts.chart import Table
 from tamp.charts.over_time import Line, Plot
-from tamp.charts.formatting import NO_NUMBER, counted, escaped, is_number, number_text, plain, si_text
+from tamp.charts.formatting import (
+    NO_NUMBER, counted, escaped, is_number, number_text, percent_text, plain, si_text,
+)
 
 NOTES = """<p>The models ran in turns, in {} rounds, each of which takes all of them through the same simulated time.
 <em>Cost of a step</em> is the median of a model's steps. <em>Ratio to Table</em> compares the medians within one round;
@@ -16,6 +19,8 @@ sand has at five moments of the run. <em>Memory, run alone</em> is the largest r
 first steps of this model only; <em>fields only</em> counts the arrays of particles and grid over the whole run.
 <em>p</em> is the mean stress, compression positive, and q = √(3 J₂).</p>
 """
+BY_GRID = ("What cells twice as large change is a measure of the grid's error: a model that changes less cannot be "
+           "told from the first one on this grid.")
 
 
 def read_comparison(folder):
@@ -29,7 +34,8 @@ def write(comparison, folder):
 def whole_page(comparison):
     charts = [over_time.chart(plot, f"plot-{k + 1}") for k, plot in enumerate(plots(comparison))]
     content = f'<h1>{escaped(comparison["title"])}</h1>\n<p class="faint">{lead(comparison)}</p>\n'
-    content += table_of_models(comparison) + '<div class="charts">\n' + "".join(map(page.figure, charts)) + "</div>\n"
+    content += table_of_models(comparison) + changes(comparison)
+    content += '<div class="charts">\n' + "".join(map(page.figure, charts)) + "</div>\n"
     content += notes(comparison)
     return page.whole_page(f"{comparison['title']}: models compared", f"<main>\n{content}</main>\n", kind="compare")
 
@@ -109,6 +115,41 @@ def table_of_models(comparison):
     head = line('th scope="col"', "", [escaped(model["model"]) for model in models])
     body = "".join(line("td", row.name, map(row.cell, models)) for row in rows(comparison))
     return page.wide(f'<table class="models">\n<thead>{head}</thead>\n<tbody>\n{body}</tbody>\n</table>', "The models")
+
+
+# --- what the models change, and what the grid does ---
+
+
+def changes(comparison):
+    """Of what all models have at the last time that they have all reached."""
+    first, *others = comparison["models"]
+    coarser = comparison.get("coarser")
+    if not others:
+        return ""
+    keys = [("depth", "depth_at_common_time_m")] if comparison["bodies"] else []
+    keys.append(("q", "q_at_common_time_Pa"))
+    rows = [[model["model"], *(change_text(change(model, first, key), change(coarser, first, key)) for _, key in keys)]
+            for model in others]
+    if coarser:
+        rows.append(["cells twice as large", *(change_text(change(coarser, first, key)) for _, key in keys)])
+    head = [f"difference from {first['model']} at {common_time(comparison)}", *(name for name, _ in keys)]
+    said = BY_GRID if coarser else "What the grid changes is not known, as cells twice as large were not run."
+    return f"<h2>What the models change</h2>\n{page.as_html(Table(head, rows))}<p>{said}</p>\n"
+
+
+def change(model, first, key):
+    """None where it is not known."""
+    known = model is not None and is_number(model[key]) and is_number(first[key]) and first[key] != 0
+    return model[key] / first[key] - 1 if known else None
+
+
+def change_text(by_model, by_grid=None):
+    if by_model is None:
+        return NO_NUMBER
+    text = ("+" if by_model > 0 else "") + percent_text(by_model, 2)
+    if by_grid is None:
+        return text
+    return f"{text} ({'less' if abs(by_model) <= abs(by_grid) else 'more'} than by the grid)"
 
 
 # --- the plots ---
