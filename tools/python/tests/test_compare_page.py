@@ -250,6 +250,27 @@ class Lines(unittest.TestCase):
 
         self.assertEqual(len(set(looks)), 8)
 
+    def test_a_blow_goes_beyond_the_axis_which_says_so(self):
+        x = [0.001 * k for k in range(101)]
+        y = [0, 90, 40] + [2 + 0.01 * k for k in range(98)]
+        plot = example(Line("punch", x, y))._replace(through_blow=True)
+
+        chart = over_time.chart(plot, "plot")
+
+        self.assertLess(over_time.y_limits(plot)[1], 6)
+        self.assertIn("punch goes beyond the axis, up to 90 m at a time of 1 ms.", chart.caption)
+        self.assertIn(">up to 90 m<", chart.wide.svg)
+        self.assertIn("punch: between 0 m and 90 m", chart.description)
+        self.assertGreaterEqual(over_time.y_limits(plot._replace(through_blow=False))[1], 90)
+
+    def test_an_axis_that_a_curve_fills_is_whole(self):
+        x = list(range(101))
+        for y in [x, [k**0.5 for k in x], [k**2 for k in x], [math.exp(-k / 20) for k in x], [5] * 101, [0] * 101,
+                  [-k for k in x], [1, 5]]:
+            plot = example(Line("punch", x[: len(y)], y))._replace(through_blow=True)
+            self.assertGreaterEqual(over_time.y_limits(plot)[1], max(y))
+            self.assertEqual(over_time.chart(plot, "plot").caption, "")
+
     def test_the_narrow_drawing_is_as_wide_as_a_phone(self):
         self.assertEqual(over_time.chart(example(), "plot").narrow.width, NARROW.width)
         self.assertLessEqual(NARROW.width, 360 - 2 * 16)

@@ -1,11 +1,13 @@
 """What the page of a run makes of a trace, of pictures, of choices and of memory that are known."""
 
+import pathlib
+import tempfile
 import unittest
 
 import numpy as np
 
 from tamp import failure, files
-from tamp.charts import choices, particles, picture, run_page, timeline
+from tamp.charts import choices, over_time, particles, picture, run_page, timeline
 from tamp.charts.timeline import Bar
 from tests.page_tags import Tags
 
@@ -197,6 +199,34 @@ class Choices(unittest.TestCase):
         self.assertEqual(choices.value_text([0, -9.81], "m/s²"), "0, −9.81 m/s²")
         self.assertEqual(choices.value_text({"axis": [1, 0], "angular_speed": 6}, ""), "axis (1, 0); angular speed 6")
         self.assertEqual(choices.value_text(None, ""), "off")
+
+
+class OverTime(unittest.TestCase):
+    HISTORY = ("time[s],kinetic[J],total[J],punch.depth[m],punch.velocity_y[m/s],punch.contact_force_y[N],dt[s]\n"
+               "0,9,9,0,-1,0,0\n1,8,9,1,-1,2000,1\n2,7,9,2,-1,3000,1\n")
+
+    def plots(self, **scene):
+        with tempfile.TemporaryDirectory() as folder:
+            path = pathlib.Path(folder, "history.csv")
+            path.write_text(self.HISTORY)
+            run = {"history": run_page.History(path), "scene": {"axisymmetric": False, **scene} if scene else None}
+        return {plot.title: plot for plot in run_page.plots(run)}
+
+    def test_forces_and_energies_of_plane_scenes_are_per_metre(self):
+        plane = self.plots(dimension=2)
+        for title, name in [("Energies", "energy"), ("Force on punch against its depth", "force")]:
+            unit = {"energy": "J", "force": "N"}[name]
+            self.assertEqual((plane[title].y_name, plane[title].y_unit),
+                             (f"{name} per metre across the plane", f"{unit}/m"))
+            for whole in [self.plots(dimension=3), self.plots(dimension=2, axisymmetric=True), self.plots()]:
+                self.assertEqual((whole[title].y_name, whole[title].y_unit), (name, unit))
+        self.assertEqual(plane["Depth"].y_unit, "m")
+        self.assertIn("between 2 kN/m and 3 kN/m", over_time.describe(plane["Force on punch against its depth"]))
+
+    def test_forces_are_drawn_through_a_blow_and_energies_whole(self):
+        through = {title for title, plot in self.plots(dimension=3).items() if plot.through_blow}
+
+        self.assertEqual(through, {"Force on punch against its depth"})
 
 
 class TheMemory(unittest.TestCase):

@@ -5,7 +5,7 @@ import math
 
 PREFIXES = {-12: "p", -9: "n", -6: "µ", -3: "m", 0: "", 3: "k", 6: "M", 9: "G", 12: "T"}
 # Units that take a prefix, and the power of ten of those that have one already.
-BASE_UNITS = {unit: (0, unit) for unit in ["", "s", "m", "Pa", "N", "J", "W", "Hz", "m/s", "B"]} | {
+BASE_UNITS = {unit: (0, unit) for unit in ["", "s", "m", "Pa", "N", "J", "W", "Hz", "m/s", "B", "N/m", "J/m"]} | {
     "ns": (-9, "s"), "us": (-6, "s"), "µs": (-6, "s"), "ms": (-3, "s"), "um": (-6, "m"), "mm": (-3, "m"),
     "kPa": (3, "Pa"), "MPa": (6, "Pa"), "GPa": (9, "Pa"), "kN": (3, "N"), "kJ": (3, "J")}
 SUPERSCRIPTS = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")

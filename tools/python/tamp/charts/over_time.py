@@ -1,5 +1,6 @@
 """Lines over time, or over something else, one for each of a few things that are compared."""
 
+import math
 from typing import NamedTuple
 
 import numpy as np
@@ -8,11 +9,14 @@ from tamp.charts.axes import (
     NARROW, Entry, Layout, Sheet, linear_ticks, log_limits, log_ticks, room_for_ticks, set_ticks,
 )
 from tamp.charts.chart import Table, make_chart
-from tamp.charts.theme import DASHES, HUES, MARKERS, Style, hue
+from tamp.charts.theme import DASHES, HUES, LIGHT, MARKERS, Style, hue
 from tamp.charts.formatting import counted, si_text
 
 HALF = Layout("half", 480, 240, 11.5, False)  # two of them beside each other
 N_POINTS, N_ROWS, N_MARKERS = 400, 10, 7
+# A blow is what is more than three times as high as the curve on nine tenths of its way; of an axis that it goes beyond
+# the curve fills two thirds.
+BLOW, PART_OF_WAY, ROOM = 3, 0.9, 1.5
 
 
 class Line(NamedTuple):
@@ -32,6 +36,7 @@ class Plot(NamedTuple):
     logarithmic: bool = False
     x_name: str = "time"
     x_unit: str = "s"
+    through_blow: bool = False  # a short blow may go beyond the axis, which then shows the curve after it
 
 
 def style_of(k):
@@ -42,7 +47,8 @@ def style_of(k):
 
 def chart(plot, name):
     layouts = (HALF, NARROW)
-    return make_chart(name, plot.title, describe(plot), "", table(plot), lambda layout: draw(plot, layout), layouts)
+    return make_chart(name, plot.title, describe(plot), caption(plot), table(plot), lambda layout: draw(plot, layout),
+                      layouts)
 
 
 def draw(plot, layout):
@@ -51,16 +57,19 @@ def draw(plot, layout):
                   left=room_for_ticks(y_limits(plot), lambda tick: si_text(tick, plot.y_unit), plot.logarithmic))
     set_ticks(sheet.axis, "x", (0, end_of(plot) or 1), lambda tick: si_text(tick, plot.x_unit), logarithmic=False)
     set_ticks(sheet.axis, "y", y_limits(plot), lambda tick: si_text(tick, plot.y_unit), logarithmic=plot.logarithmic)
+    beyond = blows(plot)
     for k, line in enumerate(plot.lines):
         if not line.x:
             continue
         x, y = thinned(line.x, line.y, N_POINTS)
         style, step = style_of(k), max(len(x) // N_MARKERS, 1)
-        sheet.axis.plot(x, y, color=style.colour, ls=style.dashes, lw=1.6, gid=f"line-{k}", clip_on=False,
+        sheet.axis.plot(x, y, color=style.colour, ls=style.dashes, lw=1.6, gid=f"line-{k}", clip_on=bool(beyond),
                         marker=style.marker, ms=4.5, markevery=(8 * k % step, step))
         if line.breaks_off:
             sheet.axis.plot(x[-1:], y[-1:], marker="x", ms=9, mew=2, color=style.colour, clip_on=False,
                             gid=f"cross-{k}")
+    for _, x, y in beyond:
+        write_above(sheet, plot, x, y)
     if not any(line.x for line in plot.lines):
         sheet.say_empty("nothing to draw")
     return sheet, []
@@ -72,8 +81,8 @@ def end_of(plot):
 
 def y_limits(plot):
     """Round numbers that enclose the values. Zero belongs to them unless that would flatten what there is to see."""
-    values = [y for line in plot.lines for y in line.y] or [1, 2]
-    low, high = min(values), max(values)
+    low = min((min(line.y) for line in plot.lines if line.y), default=1)
+    high = max((highest(plot, line) for line in plot.lines if line.y), default=2)
     if plot.logarithmic:
         low, high = log_limits([low, high], 0.3)
         ticks = log_ticks(low, high)[0]
@@ -84,6 +93,37 @@ def y_limits(plot):
     spacing = ticks[1] - ticks[0] if len(ticks) > 1 else high - low
     return (ticks[0] if low >= ticks[0] * (1 - 1e-9) else ticks[0] - spacing,
             ticks[-1] if high <= ticks[-1] * (1 + 1e-9) else ticks[-1] + spacing)
+
+
+def highest(plot, line):
+    """Where a line's axis ends: above it, but for a blow."""
+    if not plot.through_blow or len(line.x) < 2:
+        return max(line.y)
+    ways = np.diff(line.x)
+    heights = np.maximum(line.y[1:], line.y[:-1])
+    order = np.argsort(heights)
+    after = float(heights[order][np.searchsorted(np.cumsum(ways[order]), PART_OF_WAY * ways.sum())])
+    return ROOM * after if 0 < BLOW * after < max(line.y) else max(line.y)
+
+
+def blows(plot):
+    """Where the axis ends below a line: its name, and where it is highest."""
+    end = y_limits(plot)[1] if plot.through_blow else math.inf
+    return [(line.name, *max(zip(line.y, line.x))[::-1]) for line in plot.lines
+            if line.y and max(line.y) > end * (1 + 1e-9)]
+
+
+def write_above(sheet, plot, x, y):
+    is_left = x < 0.5 * end_of(plot)
+    sheet.axis.annotate(f"up to {si_text(y, plot.y_unit)}", (x, y_limits(plot)[1]), (8 if is_left else -8, -10),
+                        textcoords="offset points", ha="left" if is_left else "right", annotation_clip=False,
+                        size=sheet.layout.font - 0.5, color=LIGHT["ink"])
+
+
+def caption(plot):
+    """What the axis does not show."""
+    return " ".join(f"{name} goes beyond the axis, up to {si_text(y, plot.y_unit)} at a {plot.x_name} of "
+                    f"{si_text(x, plot.x_unit)}." for name, x, y in blows(plot))
 
 
 def thinned(x, y, n_wanted):

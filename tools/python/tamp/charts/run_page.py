@@ -179,7 +179,18 @@ def plots(run):
         if history.ending(ending):
             made.append(of_each(history, title, ending, "Pa"))
     made.append(plot_of(history, "Step size", "step size", "s", ["dt"]))
-    return made
+    return [per_metre(plot) for plot in made] if is_plane(run["scene"]) else made
+
+
+def is_plane(scene):
+    return scene is not None and scene["dimension"] == 2 and not scene.get("axisymmetric")
+
+
+def per_metre(plot):
+    """Energies and forces of a plane scene are those of a slab one metre thick."""
+    if plot.y_unit not in ("J", "N"):
+        return plot
+    return plot._replace(y_name=f"{plot.y_name} per metre across the plane", y_unit=f"{plot.y_unit}/m")
 
 
 def moving_axes(history):
@@ -215,7 +226,8 @@ def force_against_depth(history, body):
         if is_number(x) and is_number(y) and x > (line.x[-1] if line.x else 0):
             line.x.append(x)
             line.y.append(y)
-    return Plot(f"Force on {body} against its depth", "force", "N", [line], x_name="depth", x_unit="m")
+    return Plot(f"Force on {body} against its depth", "force", "N", [line], x_name="depth", x_unit="m",
+                through_blow=True)
 
 
 # --- where the time went ---
