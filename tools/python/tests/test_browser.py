@@ -74,14 +74,14 @@ class Pages(unittest.TestCase):
             for task in tasks:
                 self.assertIn(f"<td>{task['name']}</td>", opened.text)
 
-    def test_the_report_is_no_wider_than_a_phone(self):
+    def test_the_report_and_its_tables_are_no_wider_than_a_phone(self):
         outer = self.folder / "phone.html"
         outer.write_text(look_at_page.framed(self.report, PHONE, HEIGHT))
 
         opened = Opened(outer, flags=[f"--window-size=500,{HEIGHT}"])
 
         self.assertEqual(opened.complaints, [])
-        self.assertIn(" 0 pixels too wide</title>", opened.text)
+        self.assertIn(", 0 tables cut off, 0 pixels too wide</title>", opened.text)
 
     def test_the_script_of_the_graph_shows_a_task_with_a_button_for_each_instance(self):
         made("graph", SCENE, "--format", "json", "--out", self.folder / "graph.json")

@@ -7,7 +7,8 @@ import unittest
 import numpy as np
 
 from tamp import failure, files
-from tamp.charts import choices, over_time, particles, picture, run_page, timeline
+from tamp.charts import choices, over_time, page, particles, picture, run_page, timeline
+from tamp.charts.chart import Table
 from tamp.charts.timeline import Bar
 from tests.page_tags import Tags
 
@@ -227,6 +228,18 @@ class OverTime(unittest.TestCase):
         through = {title for title, plot in self.plots(dimension=3).items() if plot.through_blow}
 
         self.assertEqual(through, {"Force on punch against its depth"})
+
+
+class Tables(unittest.TestCase):
+    def test_that_are_too_broad_for_a_phone_say_the_names_of_their_columns_to_the_style_sheet(self):
+        broad = page.as_html(Table(["task", "count", 'a "b" <c>\\', "share"], [["push", "1", "2", "3"]]))
+        table = Tags(broad).of("table")[0]
+
+        self.assertEqual(table["class"], "broad-table")
+        self.assertEqual(table["style"], '--column-2: "count "; --column-3: "a \\22 b\\22  \\3c c\\3e \\5c  "; '
+                                         '--column-4: "share "')
+        self.assertIn("<td>push</td><td>1</td>", broad)
+        self.assertEqual(Tags(page.as_html(Table(["a", "b", "c"], [["1", "2", "3"]]))).of("table"), [{}])
 
 
 class TheMemory(unittest.TestCase):

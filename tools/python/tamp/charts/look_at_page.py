@@ -1,9 +1,9 @@
 """Opens a page in Chromium without a window, wide, dark and as narrow as a phone, and says what its console says.
 
 Written are OUT_FOLDER/wide.png, dark.png and phone.png. On each page it chooses points by script, as a person would,
-and measures whether the page is wider than the window. The exit code is 1 where the console complains, the page scrolls
-sideways, or a point that is chosen shows nothing. Debian's chromium is used; of the tests only those of the label
-`browser` want it.
+and measures whether the page is wider than the window, and a table than its box. The exit code is 1 where the console
+complains, the page scrolls sideways, on a phone a table does, or a point that is chosen shows nothing. Debian's
+chromium is used; of the tests only those of the label `browser` want it.
 """
 
 import html
@@ -38,7 +38,13 @@ frame.onload = () => {
   const left = page.querySelector("#chosen.shown") ? 1 : 0;
   if (CHOSEN && visible.length) visible[Math.min(2, visible.length - 1)].click();
   frame.contentWindow.scrollTo(0, 0);
+  const closed = [...page.querySelectorAll("details:not([open])")];
+  closed.forEach(details => details.open = true);
+  const is_cut = table => table.getBoundingClientRect().right > table.parentElement.getBoundingClientRect().right + 0.5;
+  const n_cut = [...page.querySelectorAll(".wide > table")].filter(is_cut).length;
+  closed.forEach(details => details.open = false);
   document.title = `${visible.length} points, ${n_empty} that show nothing, ${left} panels left open, ` +
+    `${n_cut} tables cut off, ` +
     `${page.documentElement.scrollWidth - frame.clientWidth} pixels too wide`;
 };
 """
@@ -77,7 +83,8 @@ def look(options, name, width, flags, folder):
     print("".join(f"  {line}\n" for line in wrong), end="")
     too_wide = re.search(r"(-?\d+) pixels too wide", said)
     fits = too_wide is not None and int(too_wide[1]) <= 0
-    return not wrong and ", 0 that show nothing, 0 panels" in said and fits
+    is_whole = name != "phone" or ", 0 tables cut off, " in said
+    return not wrong and ", 0 that show nothing, 0 panels" in said and is_whole and fits
 
 
 def add_arguments(parser):

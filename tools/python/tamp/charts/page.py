@@ -1,11 +1,14 @@
 """Pages that need nothing but themselves: one HTML file with its drawings, style and script inside."""
 
 import pathlib
+import re
 
 from tamp.charts import picture, theme
 from tamp.charts.formatting import escaped
 
 HERE = pathlib.Path(__file__).resolve().parent
+MOST_COLUMNS = 3  # that stand beside each other on a phone
+MOST_NAMES = 12  # of columns that page.css asks for
 
 
 def whole_page(title, content, kind, script=""):
@@ -35,8 +38,22 @@ def as_html(table, kind=""):
 
     head = "".join(f'<th scope="col">{escaped(cell)}</th>' for cell in table.head)
     body = "".join(map(row, table.rows))
-    named = f' class="{kind}"' if kind else ""
-    return wide(f"<table{named}>\n<thead><tr>{head}</tr></thead>\n<tbody>\n{body}</tbody>\n</table>", "Figures")
+    kinds = [kind] * bool(kind) + ["broad-table"] * (len(table.head) > MOST_COLUMNS)
+    named = f' class="{" ".join(kinds)}"' if kinds else ""
+    content = f"<thead><tr>{head}</tr></thead>\n<tbody>\n{body}</tbody>"
+    return wide(f"<table{named}{names_of_columns(table.head)}>\n{content}\n</table>", "Figures")
+
+
+def names_of_columns(head):
+    """On a narrow page a row of a broad table stands below itself, each cell behind the name of its column."""
+    if len(head) <= MOST_COLUMNS:
+        return ""
+    names = "; ".join(f"--column-{k}: {in_css(name)}" for k, name in enumerate(head[1:MOST_NAMES], start=2))
+    return f' style="{escaped(names)}"'
+
+
+def in_css(text):
+    return '"' + re.sub(r"[^A-Za-z0-9 ]", lambda sign: f"\\{ord(sign[0]):x} ", str(text)) + ' "'
 
 
 def wide(table, name):
