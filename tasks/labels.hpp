@@ -133,7 +133,8 @@ inline const runtime::ReductionLabel<GridTotals, "grid totals"> grid_totals;
 inline const runtime::ReductionLabel<LostParticles, "lost particles"> lost_particles;
 /// Where a scene has body forces.
 inline const runtime::ReductionLabel<BodyForceWork, "body force work"> body_force_work;
-/// Accumulated from the time when the host last took their means, `forces_taken_at` [s]; loads where a scene has any.
+/// Accumulated since the host last took their means, from the middle of the step before, `forces_taken_at` [s]; loads
+/// where a scene has any.
 inline const runtime::ReductionLabel<ContactImpulses, "contact impulses"> contact_impulses;
 inline const runtime::ReductionLabel<LoadTotals, "load totals"> load_totals;
 inline const runtime::GlobalLabel<double, "forces taken at"> forces_taken_at;

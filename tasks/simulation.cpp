@@ -186,7 +186,9 @@ MeanForces Simulation::take_mean_forces()
 {
   const ContactImpulses contact = warehouse().take(contact_impulses);
   const LoadTotals loads = warehouse().take(load_totals);
-  const double span = time() - std::exchange(warehouse().global_state(forces_taken_at), time());
+  // Of kicks, the last of which ends in the middle of the last step.
+  const double until = time() - 0.5 * last_step_size();
+  const double span = until - std::exchange(warehouse().global_state(forces_taken_at), until);
   MeanForces mean{std::vector<ContactForce>(scene_.materials.size()),
                   std::vector<Eigen::Vector3d>(scene_.materials.size(), Eigen::Vector3d::Zero())};
   for (std::size_t m = 0; m < scene_.materials.size() && span > 0; ++m) {

@@ -93,7 +93,8 @@ class Simulation
   ParticleReport report();
   /// Peaks near noses in the last report; those of no particle where the scene has no nose.
   NoseReport nose_peaks() const;
-  /// Those since the last call, or the start; not collective, but to be called by all ranks alike.
+  /// Those since the last call, or the start, each to the middle of the last step, where velocities are; not
+  /// collective, but to be called by all ranks alike.
   MeanForces take_mean_forces();
 
   /// Particles of a material now, on all ranks.

@@ -136,6 +136,21 @@ TEST_CASE("local damping leaves the force of a plate that presses gently, and it
         Approx(-0.4 * mean_stress_yy(column, 0.1, 0.6)).epsilon(0.01));
 }
 
+TEST_CASE("the mean force of a body that is held is the same over many steps and over three with a last one cut short")
+{
+  Scene scene = pressed_column(0.05);
+  scene.local_damping = 0.3;
+  const auto simulation = Simulation::make(scene, 1);
+  advance_to(*simulation, 4.1);
+  simulation->take_mean_forces();
+  advance_to(*simulation, 4.2);
+  const double over_many = simulation->take_mean_forces().contact[1].force.y();
+
+  advance_to(*simulation, simulation->time() + 2.25 * simulation->last_step_size());
+
+  CHECK(simulation->take_mean_forces().contact[1].force.y() == Approx(over_many).epsilon(0.002));
+}
+
 TEST_CASE("the work of driving a body goes into what it presses")
 {
   const auto simulation = Simulation::make(pressed_column(0.05), 1);
