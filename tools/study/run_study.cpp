@@ -13,6 +13,7 @@
 #include "tools/study/study_report.hpp"
 #include "tools/system/charts.hpp"
 #include "tools/system/console.hpp"
+#include "tools/system/errors.hpp"
 #include "tools/system/shell_word.hpp"
 
 namespace tamp::tools::study
@@ -85,6 +86,19 @@ void throw_if_reference_failed(const StudyResults& results)
   }
 }
 
+/// What every charted point was refused for, each reason once.
+void throw_if_none_ran(const StudyResults& results)
+{
+  std::vector<Problem> problems{{results.study.file.string(), "no point ran", "expected settings that can be run"}};
+  std::set<std::string> reasons;
+  for (const auto& [point, result] : results.points) {
+    if (point.role != Point::Role::chart) continue;
+    if (result.end != End::refused) return;
+    if (reasons.insert(result.reason).second) problems.push_back({point.name(), result.reason, ""});
+  }
+  if (!reasons.empty()) throw InputError(std::move(problems));
+}
+
 }  // namespace
 
 void run_study(const StudyOptions& options)
@@ -100,6 +114,7 @@ void run_study(const StudyOptions& options)
   draw_page(folder);
   if (!options.quiet) print_out("  written to {}: index.html, points.csv, charts\n", folder.string());
   throw_if_reference_failed(results);
+  throw_if_none_ran(results);
 }
 
 }  // namespace tamp::tools::study

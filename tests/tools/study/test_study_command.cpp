@@ -271,6 +271,23 @@ TEST_CASE("points that become unstable, take too long or are refused are there w
   CHECK_FALSE(points[1]["errors"].contains("depth"));
 }
 
+TEST_CASE("a study in which no point ran ends with 2, and says why on stderr, each reason once")
+{
+  const FlightStudy study;
+
+  const Outcome outcome = study.run(R"({"sweep": {"/grid/cell_size": [0.3, 0.7], "/time/end": [1e-3, 2e-3]}})");
+
+  CHECK(outcome.exit_code == 2);
+  CHECK_THAT(outcome.err, Contains("study.json: no point ran; expected settings that can be run"));
+  for (const Json& point : study.results()["points"]) {
+    const std::string reason = point["reason"];
+    CAPTURE(reason);
+    CHECK(point["ended"] == "refused");
+    CHECK_THAT(outcome.err, Contains(reason));
+    CHECK(outcome.err.find(reason) == outcome.err.rfind(reason));
+  }
+}
+
 TEST_CASE("points far slower than the fastest end at its limit, and stay ended")
 {
   const FlightStudy study;
