@@ -70,10 +70,11 @@ void check(const CheckArguments& options)
     print_cells(scene, body);
   }
   for (const std::string& line : compiled_moduli(checked)) print_err("  {}\n", line);
+  for (const std::string& line : checked.remarks) print_err("  {}\n", line);
   print_notes(checked.notes);
-  for (const std::string& line : plausibility_warnings(checked)) print_err("tamp: warning: {}\n", line);
-  for (const std::string& line : material_warnings(checked)) print_err("tamp: warning: {}\n", line);
-  for (const std::string& line : contact_warnings(checked)) print_err("tamp: warning: {}\n", line);
+  print_warnings(plausibility_warnings(checked));
+  print_warnings(material_warnings(checked));
+  print_warnings(contact_warnings(checked));
   Forecast forecast = tools::forecast(scene);
   expect_room(checked, forecast);
   add_copies(forecast);

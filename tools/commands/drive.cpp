@@ -64,6 +64,7 @@ void drive_point(const DriveArguments& options)
 {
   const CheckedMaterial checked = read_checked_material(options.material, options.assignments);
   print_notes(checked.notes);
+  print_warnings(checked.warnings);
   const tasks::SceneMaterial& material = checked.material;
   const DeformationPath path = read_path(options.path);
   expect_outputs({{"--out", options.out}, {"--summary", options.summary}});

@@ -81,6 +81,7 @@ AskedModel model_of_material(const ModulusArguments& options)
   }
   const CheckedMaterial checked = read_checked_material(options.file, options.assignments);
   print_notes(checked.notes);
+  print_warnings(checked.warnings);
   const tasks::SceneMaterial& material = checked.material;
   const auto* const sand = std::get_if<components::TabularCap>(&material.model);
   if (sand == nullptr) {

@@ -55,6 +55,10 @@ class Document
   std::vector<Problem> problems;
   /// The old words that were replaced, a line each, with its place.
   std::vector<std::string> notes;
+  /// What may be so and is hardly ever meant, a line each, with its pointer.
+  std::vector<std::string> warnings;
+  /// What is worth knowing of its files, a line each, with its pointer: `tamp check` says it.
+  std::vector<std::string> remarks;
   /// Every file that has been read for it, in the order in which they were named.
   std::vector<InputFile> inputs;
   /// The keys that were left out, by their pointers: `root` has their defaults.

@@ -250,7 +250,7 @@ std::vector<std::string> contact_warnings(const CheckedScene& checked)
 std::vector<std::string> plausibility_warnings(const CheckedScene& checked)
 {
   const tasks::Scene& scene = checked.scene;
-  Warnings warnings;
+  Warnings warnings = checked.warnings;
   for (const InputFile& input : checked.inputs) check_table(input, warnings);
   double fastest_wave = 0;
   for (std::size_t m = 0; m < scene.materials.size(); ++m) {

@@ -8,11 +8,11 @@
 namespace tamp::tools
 {
 
-/// Warnings of values that are allowed in a scene, and hardly ever meant: a line each, with its place. A table whose
-/// numbers look like MPa or percent, soil whose numbers look like kPa, radians or t/m3, a density of no known matter, a
-/// body faster than the fastest wave, a pressure that is put on at once and near the stiffness of what it presses,
-/// steps longer than their bound, a material that no body is of, particles whose mass is not their solid's, and a body
-/// with few cells to its half width on its way into another one.
+/// Warnings of values that are allowed in a scene, and hardly ever meant: a line each, with its place. What reading it
+/// has found (CheckedScene), a table whose numbers look like MPa or percent, soil whose numbers look like kPa, radians
+/// or t/m3, a density of no known matter, a body faster than the fastest wave, a pressure that is put on at once and
+/// near the stiffness of what it presses, steps longer than their bound, a material that no body is of, particles whose
+/// mass is not their solid's, and a body with few cells to its half width on its way into another one.
 std::vector<std::string> plausibility_warnings(const CheckedScene& checked);
 
 /// Where a scene takes a material for another one than was tested: a line each, with its place. A density more than 5 %

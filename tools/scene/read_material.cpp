@@ -211,7 +211,7 @@ CheckedMaterial read_checked_material(const std::filesystem::path& file, const s
   auto material = read_material(file.stem().string(), JsonReader(document, material_keys()));
   if (!document.problems.empty()) throw InputError(std::move(document.problems));
   document.root["inputs"] = to_json(document.inputs);
-  return {std::move(*material), std::move(document.root), std::move(document.notes)};
+  return {std::move(*material), std::move(document.root), std::move(document.notes), std::move(document.warnings)};
 }
 
 }  // namespace tamp::tools

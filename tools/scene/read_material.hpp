@@ -20,6 +20,8 @@ struct CheckedMaterial {
   Json resolved;
   /// Old words in it, a line each, with its place and the word of now.
   std::vector<std::string> notes;
+  /// What reading it has found to be hardly meant, a line each.
+  std::vector<std::string> warnings;
 };
 
 /// Reads a material's file by itself, after `assignments` (POINTER=VALUE, pointers into the file). The material's name

@@ -437,8 +437,9 @@ CheckedScene read_scene(const std::filesystem::path& file, const std::vector<std
   tasks::Scene scene = SceneReader(document).read();
   if (!document.problems.empty()) throw InputError(std::move(document.problems));
   document.root["inputs"] = to_json(document.inputs);
-  return {std::move(scene), std::move(document.root), std::move(document.inputs), std::move(document.notes),
-          std::move(document.left_out)};
+  return {std::move(scene),           std::move(document.root),     std::move(document.inputs),
+          std::move(document.notes),  std::move(document.left_out), std::move(document.warnings),
+          std::move(document.remarks)};
 }
 
 }  // namespace tamp::tools

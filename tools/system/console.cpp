@@ -80,4 +80,9 @@ void print_notes(const std::vector<std::string>& notes)
   for (const std::string& note : notes) print_err("tamp: note: {}\n", note);
 }
 
+void print_warnings(const std::vector<std::string>& warnings)
+{
+  for (const std::string& warning : warnings) print_err("tamp: warning: {}\n", warning);
+}
+
 }  // namespace tamp::tools

@@ -28,6 +28,8 @@ std::string without_controls(std::string_view text);
 
 /// Writes notes on stderr, a line each.
 void print_notes(const std::vector<std::string>& notes);
+/// The same of what is allowed and hardly ever meant.
+void print_warnings(const std::vector<std::string>& warnings);
 
 template <class... Args>
 void print_out(fmt::format_string<Args...> format, Args&&... args)
