@@ -65,6 +65,8 @@ class Document
   std::vector<std::string> left_out;
   /// Dimension of the scene, 2 or 3, when it has been read; 0 before, and where there is no scene.
   int dimension = 0;
+  /// Whether the plane of the scene is turned about x = 0, when that has been read.
+  bool axisymmetric = false;
   /// Solids that have been read so far.
   std::size_t n_solids = 0;
 

@@ -74,7 +74,7 @@ class SceneReader
   void read_dimension()
   {
     document_.dimension = scene_.grid.dimension = root_.whole_number("dimension");
-    scene_.axisymmetric = root_.flag("axisymmetric");
+    document_.axisymmetric = scene_.axisymmetric = root_.flag("axisymmetric");
     if (scene_.axisymmetric && dimension() != 2) {
       root_.add_problem("axisymmetric", "a scene of dimension 3", "expected one of dimension 2, the plane of r and z");
     }

@@ -3,6 +3,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <cmath>
 #include <functional>
 #include <numbers>
 #include <sstream>
@@ -19,6 +20,7 @@
 #include "components/geometry/section.hpp"
 #include "components/geometry/set_operations.hpp"
 #include "components/geometry/transformed.hpp"
+#include "components/geometry/turned_section.hpp"
 #include "tools/scene/input_file.hpp"
 
 namespace tamp::tools
@@ -215,6 +217,25 @@ Make<D> read_ring(JsonReader& reader)
   };
 }
 
+/// Turned about the axis of its scene, the section of what is round about that makes it again. Anything else has
+/// another mass there than it has.
+void expect_round(const Solid<3>& solid, const std::string& pointer, std::vector<std::string>& warnings)
+{
+  // The many facets of a mesh count as round. Equal volumes alone do not: a cylinder across the line may have them.
+  const auto [own, turned, apart] = components::volumes_of_turning(solid);
+  const double off = std::abs(turned - own);
+  if (off <= 0.005 * own && apart <= 0.05 * own) return;
+  // A simple shape knows its volume.
+  const std::string found =
+      fmt::format("a solid of {:.3g} m3, whose section holds {:.3g} m3 when it is turned about x = z = 0",
+                  solid.n_shapes() == 1 ? solid.volume().value : own, turned);
+  if (off > 0.05 * own || apart > 0.2 * own) {
+    throw components::BadValue(fmt::format("{}, {:.3g} m3 in one of them alone", found, apart),
+                               "a solid that is round about that line");
+  }
+  warnings.push_back(fmt::format("{}: {}: it is not quite round about that line", pointer, found));
+}
+
 /// The plane of a solid that is read as those of scenes in space are.
 Make<2> read_section(JsonReader& reader)
 {
@@ -222,7 +243,10 @@ Make<2> read_section(JsonReader& reader)
   const int of_scene = std::exchange(document.dimension, 3);
   const auto solid = read_solid<3>(reader, "of");
   document.dimension = of_scene;
-  return [solid] { return Solid<2>(components::Section{*solid}); };
+  return [solid, &document, pointer = reader.pointer("of").to_string()] {
+    if (document.axisymmetric) expect_round(*solid, pointer, document.warnings);
+    return Solid<2>(components::Section{*solid});
+  };
 }
 
 template <int D>

@@ -50,9 +50,9 @@ const ObjectKeys& solid_keys()
            {"polygon", {corners}, "within straight edges that do not cross or touch", 2},
            {"section",
             {{"of", Object{solid_keys}, "", compulsory, "a solid of three dimensions"}},
-            "what a solid of three dimensions, whose places have three coordinates, holds of the plane z = 0; of a "
-            "body "
-            "of revolution about x = z = 0 what an axisymmetric scene turns",
+            "what a solid of three dimensions, whose places have three coordinates, holds of the plane z = 0. An "
+            "axisymmetric scene turns it about x = z = 0, and refuses a solid that is not round about that line: whose "
+            "volume is more than 5 % from that of the turned section",
             2},
            {"cylinder",
             {place_key("first_end"), place_key("second_end"), length_key("radius", above_zero)},

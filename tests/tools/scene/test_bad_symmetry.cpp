@@ -78,4 +78,23 @@ TEST_CASE("what cannot be turned about the axis of an axisymmetric scene is refu
                "/axisymmetric: a scene of dimension 3; expected one of dimension 2, the plane of r and z"}});
 }
 
+TEST_CASE("the section of a solid that is not round about the axis is not turned, and both volumes are given")
+{
+  const std::string geometry = "/bodies/block/geometry";
+  const std::string section = geometry + "={'type':'section','of':", not_round = geometry + ": a solid of ";
+  check_rows(
+      problems_with, "/axisymmetric=true",
+      {{section + "{'type':'cylinder','first_end':[0,0.5,0],'second_end':[0,1.5,0],'radius':0.5}}", ""},
+       {section + "{'type':'cylinder','first_end':[-0.75,1,0],'second_end':[0.75,1,0],'radius':0.5}}",
+        not_round +
+            "1.18 m3, whose section holds 1.77 m3 when it is turned about x = z = 0, *; expected a solid that is "
+            "round about that line"},
+       {section + "{'type':'cylinder','first_end':[-0.5,1,0],'second_end':[0.5,1,0],'radius':0.5}}", not_round + "*"},
+       {section + "{'type':'box','lower':[-0.5,0,-0.5],'upper':[0.5,1,0.5]}}", not_round + "1 m3*0.78* m3*"},
+       {section + "{'type':'ball','centre':[0,1,0.5],'radius':0.75}}", not_round + "1.7* m3*0.73* m3*"},
+       {section + "{'type':'ball','centre':[1,1,0],'radius':0.5}}", not_round + "0.52* m3*4.9* m3*"},
+       {geometry + "={'type':'union','of':[{'type':'section','of':{'type':'ball','centre':[1,1,0],'radius':0.5}}]}",
+        geometry + "/of/0: a solid of *"}});
+}
+
 }  // namespace test_bad_symmetry

@@ -87,6 +87,24 @@ TEST_CASE("a section is what a solid of space holds of the plane")
   CHECK_FALSE(disk.contains({1.41, 1}));
 }
 
+TEST_CASE("the section of what is not quite round is turned with a warning of both volumes")
+{
+  const auto warnings = [](const std::string& of) {
+    const TemporaryFolder folder;
+    return read_scene(folder.write("small.json", small_scene),
+                      {"/axisymmetric=true", R"(/bodies/block/geometry={"type":"section","of":)" + of + "}"})
+        .warnings;
+  };
+
+  const auto moved = warnings(R"({"type":"cylinder","first_end":[0,0.5,0.05],"second_end":[0,1.5,0.05],"radius":0.5})");
+  const auto round = warnings(R"({"type":"cylinder","first_end":[0,0.5,0],"second_end":[0,1.5,0],"radius":0.5})");
+
+  REQUIRE(moved.size() == 1);
+  CHECK_THAT(moved.front(), Catch::StartsWith("/bodies/block/geometry/of: a solid of 0.78") &&
+                                Catch::Contains(" m3, whose section holds 0.77"));
+  CHECK(round.empty());
+}
+
 TEST_CASE("sets of solids nest")
 {
   const auto drilled = solid(R"({"type":"difference","of":[
