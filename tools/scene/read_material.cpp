@@ -7,6 +7,7 @@
 
 #include "components/errors.hpp"
 #include "components/materials/tabular_cap.hpp"
+#include "tools/scene/compare_modulus.hpp"
 #include "tools/scene/parameter_keys.hpp"
 #include "tools/scene/read_modulus.hpp"
 #include "tools/scene/strain_measure.hpp"
@@ -74,24 +75,35 @@ std::optional<CrushCurve> read_tabulated_crush_curve(JsonReader& reader, StrainM
   });
 }
 
+/// The tables of a loading that compacts the sand.
+struct LoadingTables {
+  std::optional<components::PiecewiseLinear> hydrostat;
+  std::optional<CrushCurve> crush_curve;
+
+  LoadingCurves curves() const { return {hydrostat, crush_curve ? std::optional(crush_curve->curve) : std::nullopt}; }
+};
+
 /// In the state form the crush curve follows from the modulus and the hydrostat. In the rate form it is tabulated. The
 /// table that is not needed may be left out; it is read only to be checked.
-std::optional<CrushCurve> read_crush_curve(JsonReader& reader, components::ElasticUpdate update, StrainMeasure measure,
-                                           const std::optional<components::Modulus>& modulus)
+LoadingTables read_loading(JsonReader& reader, components::ElasticUpdate update, StrainMeasure measure)
 {
   const bool state_form = update == components::ElasticUpdate::state;
-  std::optional<components::PiecewiseLinear> hydrostat;
+  LoadingTables loading;
   if (state_form || reader.has("hydrostat")) {
-    hydrostat = from_table(reader, "hydrostat", {"total_volumetric[-]", "pressure[Pa]"},
-                           [&](Table& table) { return curve_of_strain(table, measure); });
+    loading.hydrostat = from_table(reader, "hydrostat", {"total_volumetric[-]", "pressure[Pa]"},
+                                   [&](Table& table) { return curve_of_strain(table, measure); });
   }
-  std::optional<CrushCurve> tabulated;
-  if (!state_form || reader.has("crush_curve")) tabulated = read_tabulated_crush_curve(reader, measure);
+  if (!state_form || reader.has("crush_curve")) loading.crush_curve = read_tabulated_crush_curve(reader, measure);
+  return loading;
+}
 
-  if (!state_form) return tabulated;
-  if (!modulus || !hydrostat) return std::nullopt;
+std::optional<CrushCurve> crush_curve_of(const LoadingTables& loading, components::ElasticUpdate update,
+                                         const std::optional<components::Modulus>& modulus, const JsonReader& reader)
+{
+  if (update != components::ElasticUpdate::state) return loading.crush_curve;
+  if (!modulus || !loading.hydrostat) return std::nullopt;
   try {
-    return CrushCurve{components::consistent_crush_curve(*modulus, *hydrostat), std::nullopt};
+    return CrushCurve{components::consistent_crush_curve(*modulus, *loading.hydrostat), std::nullopt};
   } catch (const BadValue& bad) {
     reader.add_problem("hydrostat", bad.found, "expected " + bad.expected);
     return std::nullopt;
@@ -119,8 +131,10 @@ std::optional<tasks::MaterialModel> read_tabular_cap(JsonReader& reader)
   check_tests(reader);
   const auto modulus = read_modulus(reader, measure);
   const auto yield = read_yield(reader);
-  const auto crush = read_crush_curve(reader, update, measure, modulus);
+  const LoadingTables loading = read_loading(reader, update, measure);
+  const auto crush = crush_curve_of(loading, update, modulus, reader);
   if (problems.size() > n_before || !modulus || !yield || !crush) return std::nullopt;
+  compare_with_tables(reader, *modulus, measure, loading.curves());
   try {
     return components::TabularCap({poisson_ratio, update, *modulus, crush->curve, *yield, tolerance, max_substeps,
                                    separates ? std::optional(separation_density) : std::nullopt});
