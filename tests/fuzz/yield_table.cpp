@@ -6,9 +6,9 @@
 
 void tamp::fuzz::yield_table(const std::filesystem::path& file)
 {
-  const tools::Table table = tools::read_yield_table(file, tools::YieldMeasure::q, "measure");
+  const tools::YieldTable yield = tools::read_yield_table(file, tools::YieldMeasure::q, "measure");
   try {
-    components::YieldSurface(table.columns[0], table.columns[1], 0.7);
+    yield.lifted_by(components::YieldSurface(yield.table.columns[0], yield.table.columns[1], 0.7));
   } catch (const components::BadValue&) {
   }
 }

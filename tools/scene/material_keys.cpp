@@ -84,7 +84,8 @@ const ObjectKeys& yield_keys()
   static const ObjectKeys keys{
       "",
       {{"file", File{}, "", compulsory,
-        "table `pressure[Pa]` and either `q[Pa]` = sqrt(3 J2) or `sqrt_J2[Pa]`; its first row is the tension vertex"},
+        "table `pressure[Pa]` and either `q[Pa]` = sqrt(3 J2) or `sqrt_J2[Pa]`; its first row is the tension "
+        "vertex. The surface is the upper concave hull of the rows, see [method.md](method.md#sand)"},
        std::move(measure),
        {"cap_ellipticity", Number{within_one}, "", compulsory,
         "where the cap starts, between the tension vertex (0) and the crush pressure (1)"}}};

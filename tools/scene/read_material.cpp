@@ -55,9 +55,11 @@ std::optional<components::YieldSurface> read_yield(JsonReader& material)
   if (reader.document().problems.size() > before) ellipticity = any_ellipticity;
   reader.finish();
   return noting_problems(reader.document(), [&] {
-    Table table = read_yield_table(file, measure, reader.place("measure"));
-    return made_from(table,
-                     [&](Table& t) { return components::YieldSurface(t.columns[0], t.columns[1], ellipticity); });
+    YieldTable yield = read_yield_table(file, measure, reader.place("measure"));
+    components::YieldSurface surface = made_from(
+        yield.table, [&](Table& t) { return components::YieldSurface(t.columns[0], t.columns[1], ellipticity); });
+    for (std::string& line : yield.lifted_by(surface)) reader.document().remarks.push_back(std::move(line));
+    return surface;
   });
 }
 

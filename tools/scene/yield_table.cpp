@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "tools/scene/csv_table.hpp"
+#include "tools/scene/digits.hpp"
 #include "tools/scene/file_kind.hpp"
 #include "tools/scene/published_table.hpp"
 
@@ -20,10 +21,34 @@ void convert_to_sqrt_j2(Table& table, YieldMeasure measure)
   for (double& strength : table.columns[1]) strength /= std::sqrt(3.0);
 }
 
+/// What is multiplied with sqrt(J2).
+double unit_of(YieldMeasure measure)
+{
+  return measure == YieldMeasure::q ? std::sqrt(3.0) : 1;
+}
+
 }  // namespace
 
-Table read_yield_table(const std::filesystem::path& file, std::optional<YieldMeasure> stated,
-                       const std::string& place_of_measure)
+std::vector<std::string> YieldTable::lifted_by(const components::YieldSurface& surface) const
+{
+  constexpr double noted = 0.02;
+  std::vector<std::string> lines;
+  for (std::size_t i = 0; i < table.n_rows(); ++i) {
+    const double pressure = table.columns[0][i], measured = table.columns[1][i];
+    const double used = surface.strength(pressure).value;
+    if (used <= (1 + noted) * measured) continue;
+    const std::string by = measured > 0 ? fmt::format(" by {} %", two_digits(100 * (used / measured - 1))) : "";
+    lines.push_back(
+        fmt::format("{}: lifted{} to the concave hull of the table: at {:.6g} Pa {} is {:.6g} Pa as "
+                    "measured, {:.6g} Pa as used",
+                    table.place_of_row[i], by, pressure, measure == YieldMeasure::q ? "q" : "sqrt(J2)",
+                    unit_of(measure) * measured, unit_of(measure) * used));
+  }
+  return lines;
+}
+
+YieldTable read_yield_table(const std::filesystem::path& file, std::optional<YieldMeasure> stated,
+                            const std::string& place_of_measure)
 {
   if (file_kind(file) == FileKind::json) {
     if (!stated) {
@@ -32,7 +57,7 @@ Table read_yield_table(const std::filesystem::path& file, std::optional<YieldMea
     }
     Table table = read_published_curve(file, {"pressure[Pa]", "sqrt_J2[Pa]"});
     convert_to_sqrt_j2(table, *stated);
-    return table;
+    return {std::move(table), *stated};
   }
   // In the order of YieldMeasure.
   const std::vector<std::vector<std::string>> headings{{"pressure[Pa]", "q[Pa]"}, {"pressure[Pa]", "sqrt_J2[Pa]"}};
@@ -44,7 +69,7 @@ Table read_yield_table(const std::filesystem::path& file, std::optional<YieldMea
                                   headings[heading][1])});
   }
   convert_to_sqrt_j2(table, measure);
-  return std::move(table);
+  return {std::move(table), measure};
 }
 
 }  // namespace tamp::tools

@@ -84,4 +84,26 @@ TEST_CASE("a measure that is none is reported once")
         "--set#/yield/measure: \"tau\"; expected one of q, sqrt_J2");
 }
 
+TEST_CASE("rows of a yield table that its concave hull lifts by more than 2 % are remarked, as the file has them")
+{
+  const TemporaryFolder folder;
+  const auto scene = write_scene_with_sand(folder);
+  const auto remarks = [&](const std::string& table) {
+    folder.write("tables/yield.csv", table);
+    return tools::read_scene(scene).remarks;
+  };
+
+  // On the straight line from the vertex to the last row strength is 0.5 of the pressure beyond the vertex.
+  const auto of_q = remarks("pressure[Pa],q[Pa]\n-2e4,0\n2e4,1e4\n4e4,2.95e4\n8e4,5e4\n");
+  const auto of_sqrt_j2 = remarks("pressure[Pa],sqrt_J2[Pa]\n-2e4,0\n2e4,0\n8e4,5e4\n");
+
+  REQUIRE(of_q.size() == 1);
+  CHECK_THAT(of_q.front(),
+             Contains("tables/yield.csv:3: lifted by 100 % to the concave hull of the table: at 20000 Pa q "
+                      "is 10000 Pa as measured, 20000 Pa as used"));
+  REQUIRE(of_sqrt_j2.size() == 1);
+  CHECK_THAT(of_sqrt_j2.front(), Contains("tables/yield.csv:3: lifted to the concave hull of the table: at 20000 Pa "
+                                          "sqrt(J2) is 0 Pa as measured, 20000 Pa as used"));
+}
+
 }  // namespace test_yield_table
