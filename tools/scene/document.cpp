@@ -120,6 +120,7 @@ void Document::merge_file_named_at(const JsonPointer& pointer, const ObjectKeys&
     patch.erase("file");
     const std::vector<Origin> renamed = replace_old_words_in(base, keys, pointer, path.string());
     note_merge(base, patch, pointer, path.string(), renamed);
+    note_type(base, patch, pointer, path.string());
     if (base.contains("file")) {
       lay_over(base, patch);
     } else {
@@ -175,6 +176,20 @@ void Document::note_merge(const Json& base, const Json& patch, const JsonPointer
     if (!(is_object(base, below) && is_object(patch, below))) kept.push_back(o);
   }
   origins_ = std::move(kept);
+}
+
+void Document::note_type(const Json& base, const Json& patch, const JsonPointer& pointer, const std::string& path)
+{
+  if (!base.contains("type") || !patch.contains("type") || !base["type"].is_string()) return;
+  if (base["type"] == patch["type"] || overridden_type(pointer) != nullptr) return;
+  overridden_types_.push_back({pointer.to_string(), base["type"].get<std::string>(), path});
+}
+
+const Document::OverriddenType* Document::overridden_type(const JsonPointer& pointer) const
+{
+  const auto at = std::find_if(overridden_types_.begin(), overridden_types_.end(),
+                               [&](const OverriddenType& one) { return one.pointer == pointer.to_string(); });
+  return at == overridden_types_.end() ? nullptr : &*at;
 }
 
 void Document::keep_origins(const Json& base, const Json& patch, const JsonPointer& pointer,

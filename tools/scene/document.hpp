@@ -42,6 +42,15 @@ class Document
   /// The folder that a relative path at `pointer` starts from.
   std::filesystem::path folder(const JsonPointer& pointer) const;
 
+  /// A "type" of a file that the object which names the file has another of.
+  struct OverriddenType {
+    std::string pointer;  ///< of the object
+    std::string type;     ///< the file's
+    std::string file;
+  };
+  /// That of the object at `pointer`; null where there is none.
+  const OverriddenType* overridden_type(const JsonPointer& pointer) const;
+
   void add_problem(const JsonPointer& pointer, std::string found, std::string expected);
 
   /// Notes that `file`, named at `pointer` (none for the scene itself and what is merged into it), is read for it.
@@ -91,11 +100,13 @@ class Document
   /// from where it was.
   void note_merge(const Json& base, const Json& patch, const JsonPointer& pointer, const std::string& path,
                   const std::vector<Origin>& renamed);
+  void note_type(const Json& base, const Json& patch, const JsonPointer& pointer, const std::string& path);
   void keep_origins(const Json& base, const Json& patch, const JsonPointer& pointer, std::vector<Origin>& kept) const;
 
   std::filesystem::path file_;
   const ObjectKeys* keys_;
   std::vector<Origin> origins_;
+  std::vector<OverriddenType> overridden_types_;
 };
 
 /// The files that were read, each with its key (none for the scene itself and what is merged into it) and its hash.

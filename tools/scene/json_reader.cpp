@@ -317,7 +317,30 @@ std::string JsonReader::type()
   for (const TypeKeys& type : object_->types) {
     if (type.word == word) type_ = &type;
   }
-  return word;
+  return is_over_type_of_file(word) ? "" : word;
+}
+
+bool JsonReader::is_over_type_of_file(const std::string& type) const
+{
+  const auto* const overridden = exists_ ? document_->overridden_type(pointer_) : nullptr;
+  if (overridden == nullptr || type_ == nullptr) return false;
+  const auto has = [](const std::vector<Key>& keys, const std::string& name) {
+    return std::any_of(keys.begin(), keys.end(), [&](const Key& key) { return key.name == name; });
+  };
+  const auto of_file = std::find_if(object_->types.begin(), object_->types.end(),
+                                    [&](const TypeKeys& t) { return t.word == overridden->type; });
+  if (of_file == object_->types.end()) return false;
+  bool is_mixed = false;
+  for (const auto& [name, value] : document_->root.at(pointer_).items()) {
+    if (has(of_file->keys, name) && !has(type_->keys, name) && !has(object_->keys, name)) is_mixed = true;
+  }
+  if (!is_mixed) return false;
+  add_problem(
+      "type",
+      fmt::format("\"{}\" over the \"{}\" of {}, whose keys it has not", type, overridden->type, overridden->file),
+      fmt::format("expected the type of the file; --set '{}={{\"file\":\"{}\"}}' takes all of it", pointer_.to_string(),
+                  overridden->file));
+  return true;
 }
 
 std::string JsonReader::name(const std::string& key, const std::vector<std::string>& names)

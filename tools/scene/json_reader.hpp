@@ -51,7 +51,8 @@ class JsonReader
   {
     return static_cast<Enum>(value_of_word(key));
   }
-  /// The word at "type", whose keys are keys from now on; empty if it is none.
+  /// The word at "type", whose keys are keys from now on; empty if it is none, or stands over another type of the file
+  /// that the object names, with keys that go with that type alone.
   std::string type();
   /// One of `names`, or of the words that may stand there instead; empty if it is none.
   std::string name(const std::string& key, const std::vector<std::string>& names);
@@ -89,6 +90,8 @@ class JsonReader
  private:
   std::vector<const std::vector<Key>*> declared() const;
   const Key& declared(const std::string& key) const;
+  /// Notes a type that is not that of the file from which keys come; whether there is one.
+  bool is_over_type_of_file(const std::string& type) const;
   template <class Kind>
   const Kind& declared_as(const std::string& key) const
   {

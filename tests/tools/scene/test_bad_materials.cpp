@@ -24,6 +24,26 @@ TEST_CASE("a material of no type, or whose numbers do not go together, is refuse
   }
 }
 
+TEST_CASE("a type over that of the file named beside it is one problem, with what to set instead")
+{
+  const std::string sand = TAMP_SOURCE_DIR "/inputs/materials/concrete-sand/table.json";
+
+  check_rows(problems_with,
+             {{"/materials/steel/file=" + sand,
+               "scene.json#/materials/steel/type: \"hypoelastic\" over the \"tabular_cap\" of " + sand +
+                   ", whose keys it has not; expected the type of the file; --set '/materials/steel={\"file\":\"" +
+                   sand + "\"}' takes all of it"},
+              {"/materials/steel={'file':'" + sand + "'}", ""}});
+}
+
+TEST_CASE("a type over that of a file whose keys it has is taken")
+{
+  const TemporaryFolder folder;
+  const auto file = folder.write("steel.json", R"({"type": "neo_hookean", "density": 1, "bulk_modulus": 1})");
+
+  CHECK(problems_with({"/materials/steel/file=" + file.string()}).empty());
+}
+
 TEST_CASE("soil whose numbers do not go together is refused, with the one that does not")
 {
   const std::string soil = "/materials/steel", friction = soil + "/friction_angle=30 ";
