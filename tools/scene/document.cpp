@@ -207,6 +207,16 @@ void Document::keep_origins(const Json& base, const Json& patch, const JsonPoint
   }
 }
 
+const Json* find_value(const Json& root, const std::string& pointer)
+{
+  try {
+    const JsonPointer at(pointer);
+    return root.contains(at) ? &root.at(at) : nullptr;
+  } catch (const Json::exception&) {  // as of an item of twenty digits
+    return nullptr;
+  }
+}
+
 Json to_json(const std::vector<InputFile>& inputs)
 {
   Json all = Json::array();

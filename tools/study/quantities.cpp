@@ -167,8 +167,8 @@ double number_of_summary(const Study& study, const Quantity& quantity, const Poi
 {
   const Json summary = Json::parse(std::ifstream(result.folder / "summary.json"), nullptr, false);
   if (summary.is_discarded()) throw runtime::FileError((result.folder / "summary.json").string(), "cannot be read");
-  const JsonPointer place(quantity.summary);
-  if (summary.contains(place) && summary[place].is_number()) return summary[place];
+  if (const Json* number = find_value(summary, quantity.summary); number != nullptr && number->is_number())
+    return *number;
   throw InputError({study.file.string() + "#/quantities",
                     fmt::format("\"{}\": there is no number at {}", quantity.name, quantity.summary),
                     "expected a JSON pointer to a number of summary.json"});

@@ -48,8 +48,9 @@ TEST_CASE("numbers are taken of a column")
 TEST_CASE("a number of the summary is taken where a pointer says, and missed where there is none")
 {
   const TemporaryFolder folder;
-  folder.write("summary.json",
-               R"({"energy_error": 0.25, "monitors": {"null_space": {"share": 0.5}}, "status": "done"})");
+  folder.write(
+      "summary.json",
+      R"({"energy_error": 0.25, "monitors": {"null_space": {"share": 0.5}}, "status": "done", "inputs": [1]})");
   const auto taken_at = [&](const std::string& pointer) {
     Quantity quantity{"number", Take::last, ""};
     quantity.summary = pointer;
@@ -60,6 +61,7 @@ TEST_CASE("a number of the summary is taken where a pointer says, and missed whe
   CHECK(taken_at("/monitors/null_space/share") == 0.5);
   CHECK_THROWS_WITH(taken_at("/monitors/fracture/share"),
                     Catch::Contains("#/quantities: \"number\": there is no number at /monitors/fracture/share"));
+  CHECK_THROWS_WITH(taken_at("/inputs/99999999999999999999"), Catch::Contains("there is no number at /inputs/999"));
   CHECK_THROWS_WITH(taken_at("/status"), Catch::Contains("there is no number at /status"));
 }
 

@@ -80,14 +80,12 @@ double value_as_written(const Study& study, const Point& point, const std::strin
 {
   const Json scene = resolved(study.measure, point.settings);
   const std::string expected = "expected a JSON pointer to a number above 0 of " + study.measure.file.string();
-  if (!is_pointer(pointer) || !scene.contains(JsonPointer(pointer))) {
-    throw InputError({"--limit", fmt::format("{}: there is no such place", pointer), expected});
+  const Json* const value = find_value(scene, pointer);
+  if (value == nullptr) throw InputError({"--limit", fmt::format("{}: there is no such place", pointer), expected});
+  if (!value->is_number() || !(value->get<double>() > 0)) {
+    throw InputError({"--limit", fmt::format("{} is {}", pointer, value->dump()), expected});
   }
-  const Json& value = scene.at(JsonPointer(pointer));
-  if (!value.is_number() || !(value.get<double>() > 0)) {
-    throw InputError({"--limit", fmt::format("{} is {}", pointer, value.dump()), expected});
-  }
-  return value.get<double>();
+  return value->get<double>();
 }
 
 Point with_value(Point point, const std::string& pointer, double value)

@@ -198,6 +198,8 @@ TEST_CASE("a limit of what is no number of the scene, and ends in the wrong orde
   };
 
   refused("bar.json", "--limit /time/multiplyer", "--limit: /time/multiplyer: there is no such place");
+  refused("bar.json", "--limit /grid/upper/99999999999999999999",
+          "--limit: /grid/upper/99999999999999999999: there is no such place");
   refused("bar.json", "--limit multiplier", "--limit: multiplier: there is no such place");
   refused("bar.json", "--limit /interpolator",
           "--limit: /interpolator is \"gimp\"; expected a JSON pointer to a number");
