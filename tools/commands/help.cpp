@@ -23,10 +23,7 @@ CLI::App* add_help_command(CLI::App& app)
   command->add_option("COMMAND", *names, "as in tamp help run");
   command->footer(examples({{"tamp help run", "all that tamp run takes"}}));
   command->callback([&app, names] {
-    if (!names->empty()) expect_known_words(app, *names);
-    const CLI::App* asked = &app;
-    for (const std::string& name : *names) asked = asked->get_subcommand(name);
-    print_out("{}", HelpFormatter().make_help(asked, "", CLI::AppFormatMode::Normal));
+    print_out("{}", HelpFormatter().make_help(&command_named(app, *names), "", CLI::AppFormatMode::Normal));
   });
   return command;
 }

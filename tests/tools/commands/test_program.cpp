@@ -94,6 +94,21 @@ TEST_CASE("help is given for the program and for its commands")
 {
   CHECK(tamp_with("--help").exit_code == 0);
   CHECK_THAT(tamp_with("check --help").out, Catch::Contains("--set"));
+  CHECK_THAT(tamp_with("help check").out, Catch::Contains("--set"));
+}
+
+TEST_CASE("help of what is no command ends with 2 and names the word")
+{
+  const std::vector<std::array<std::string, 2>> all{{"help run x", "x: no command of run; expected none"},
+                                                    {"help run run", "run: no command of run; expected none"},
+                                                    {"help chekc", "chekc: no command of tamp; did you mean check?"}};
+  for (const auto& [arguments, said] : all) {
+    const Outcome outcome = tamp_with(arguments);
+    INFO(arguments);
+    CHECK(outcome.exit_code == 2);
+    CHECK(outcome.out.empty());
+    CHECK_THAT(outcome.err, Catch::StartsWith("tamp: " + said));
+  }
 }
 
 TEST_CASE("a command that no ranks share is the first rank's alone", "[mpiexec]")

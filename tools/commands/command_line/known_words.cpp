@@ -31,6 +31,17 @@ const CLI::App* find_command(const CLI::App& app, const std::string& name)
   return nullptr;
 }
 
+/// Of those below another command.
+const CLI::App& command_below(const CLI::App& above, const std::string& name)
+{
+  if (const CLI::App* command = find_command(above, name)) return *command;
+  const std::vector<std::string> known = names_of(commands_of(above));
+  throw InputError(
+      {name, fmt::format("no command of {}", above.get_name()),
+       meant_or(name, known,
+                known.empty() ? "expected none" : fmt::format("expected one of {}", fmt::join(known, ", ")))});
+}
+
 void expect_known_option(const CLI::App& command, const std::string& word)
 {
   const std::string name = word.substr(0, word.find('='));
@@ -55,21 +66,25 @@ bool is_value(const CLI::App& command, const std::string& before)
 
 void expect_known_words(const CLI::App& app, const std::vector<std::string>& words)
 {
-  const auto commands = commands_of(app);
-  const std::string all = fmt::format("expected one of {}", fmt::join(names_of(commands), ", "));
-  if (words.empty()) throw InputError({"no command", "nothing to do", all});
-  if (words.front().starts_with("-")) return expect_known_option(app, words.front());
-  const CLI::App* command = find_command(app, words.front());
-  if (command == nullptr) {
-    throw InputError({words.front(), "no command of tamp", meant_or(words.front(), names_of(commands), all)});
+  if (words.empty()) {
+    throw InputError({"no command", "nothing to do",
+                      fmt::format("expected one of {}", fmt::join(names_of(commands_of(app)), ", "))});
   }
-
+  if (words.front().starts_with("-")) return expect_known_option(app, words.front());
+  const CLI::App* command = &command_below(app, words.front());
   for (std::size_t i = 1; i < words.size(); ++i) {
     if (words[i] == "--") return;
     if (is_value(*command, words[i - 1])) continue;
     if (const CLI::App* below = find_command(*command, words[i])) command = below;
     if (words[i].starts_with("--")) expect_known_option(*command, words[i]);
   }
+}
+
+const CLI::App& command_named(const CLI::App& app, const std::vector<std::string>& words)
+{
+  const CLI::App* command = &app;
+  for (const std::string& word : words) command = &command_below(*command, word);
+  return *command;
 }
 
 }  // namespace tamp::tools
