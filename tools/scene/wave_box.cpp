@@ -28,8 +28,9 @@ struct Side {
   double room;
   /// What the ground's end need be away, so that no wave from there is at the body in time [m].
   double needed;
-  /// When a wave is there, and when it is back [s].
+  /// When a wave is there, and when it is back [s]; of a body that is as fast as waves, when that itself is there.
   double there, back;
+  bool is_outrun;
 
   std::string name() const { return fmt::format("{}{}", "xyz"[axis], is_upper ? '+' : '-'); }
   Eigen::Vector3d direction() const { return (is_upper ? 1 : -1) * Eigen::Vector3d::Unit(axis); }
@@ -44,14 +45,15 @@ double start_of_waves(const tasks::SceneBody& body, const Eigen::Vector3d& direc
 Side side_of(const tasks::Scene& scene, const tasks::SceneBody& body, const tasks::SceneBody& ground, int axis,
              bool is_upper)
 {
-  Side side{.axis = axis, .is_upper = is_upper, .room = 0, .needed = 0, .there = 0, .back = 0};
+  Side side{.axis = axis, .is_upper = is_upper, .room = 0, .needed = 0, .there = 0, .back = 0, .is_outrun = false};
   const Eigen::Vector3d direction = side.direction();
   const double T = scene.time.end, c = waves_in(scene, ground);
   const double speed = std::max(0.0, way_of(scene, body).dot(direction) / T);
   side.room = reach(ground, direction) - start_of_waves(body, direction);
   side.needed = std::max(speed, 0.5 * (c + speed)) * T;
-  side.there = side.room / c;
-  side.back = 2 * side.room / (c + speed);
+  side.is_outrun = speed >= c;
+  side.there = side.room / std::max(c, speed);
+  side.back = side.is_outrun ? side.there : 2 * side.room / (c + speed);
   return side;
 }
 
@@ -148,7 +150,10 @@ std::string advice_on_box(const tasks::Scene& scene, const tasks::SceneBody& bod
   const Side& first = *std::min_element(sides.begin(), sides.end(), sooner);
   const double T = scene.time.end, c = waves_in(scene, ground);
   std::string line = fmt::format("box: waves in {} ({:.0f} m/s) ", ground.name, c);
-  if (first.back < T) {
+  if (first.is_outrun && first.back < T) {
+    line += fmt::format("are outrun by {}, which is at its side {} after {} ms, of {} ms", body.name, first.name(),
+                        two_digits(1e3 * first.there), two_digits(1e3 * T));
+  } else if (first.back < T) {
     line += fmt::format("are at its side {} after {} ms and back at {} after {} ms, of {} ms", first.name(),
                         two_digits(1e3 * first.there), body.name, two_digits(1e3 * first.back), two_digits(1e3 * T));
   } else {

@@ -46,6 +46,13 @@ TEST_CASE("for a short time a smaller box and a rigid punch would do")
                                    "/bodies/sand/geometry/upper=[0.8,0.5]\n"));
 }
 
+TEST_CASE("of a punch that is faster than waves it is said when it is at a side itself, not when they are back")
+{
+  CHECK_THAT(check_of("punch/quick.json", "--set /bodies/punch/velocity=[0,-1500]"),
+             Catch::Contains("box: waves in sand (909 m/s) are outrun by punch, which is at its side y- after 0.33 ms, "
+                             "of 7 ms\n"));
+}
+
 TEST_CASE("a punch of real steel bounds the step, and one of rubber is too soft to be rigid")
 {
   const std::string steel = "--set /materials/steel/bulk_modulus=160e9 --set /materials/steel/shear_modulus=80e9";
