@@ -19,6 +19,13 @@ namespace
 
 constexpr char within_or_cut[] = "expected it to lie within the grid, or to be cut in halves by a \"symmetry\" face";
 
+template <int D>
+void add_problem_of_reach(const components::Box<D>& box, const JsonReader& reader)
+{
+  reader.add_problem("geometry", fmt::format("reaches from {} to {}", text<D>(box.lower), text<D>(box.upper)),
+                     within_or_cut);
+}
+
 /// Faces beyond which a solid reaches. Lengths that are equal but for rounding are equal.
 template <int D>
 tasks::Sides faces_crossed(const components::Box<D>& box, const runtime::Grid& grid)
@@ -55,8 +62,8 @@ components::Solid<D> part_of(const components::Solid<D>& whole, const components
 
 /// Whether the whole is its own image in a face; if not, that is noted.
 template <int D>
-bool is_mirrored(const components::Solid<D>& whole, const tasks::Scene& scene, int material, std::size_t axis,
-                 std::size_t side, const JsonReader& reader)
+bool is_mirrored_at(const components::Solid<D>& whole, const tasks::Scene& scene, int material, std::size_t axis,
+                    std::size_t side, const JsonReader& reader)
 {
   const int k = static_cast<int>(axis);
   const double plane = scene.grid.coordinate(k, side == 0 ? 0 : scene.grid.n_cells[axis]);
@@ -82,8 +89,7 @@ std::optional<tasks::Sides> mirrors_crossed(const components::Solid<D>& solid, c
   for (std::size_t axis = 0; axis < D; ++axis) {
     for (std::size_t side = 0; side < 2; ++side) {
       if (!crossed[axis][side] || scene.faces[axis][side] == tasks::Face::symmetry) continue;
-      reader.add_problem("geometry", fmt::format("reaches from {} to {}", text<D>(box.lower), text<D>(box.upper)),
-                         within_or_cut);
+      add_problem_of_reach<D>(box, reader);
       return std::nullopt;
     }
   }
@@ -97,10 +103,15 @@ std::optional<components::Solid<D>> cut_at_mirrors(const components::Solid<D>& w
   if (mirrors == tasks::Sides{}) return whole;
   for (std::size_t axis = 0; axis < D; ++axis) {
     for (std::size_t side = 0; side < 2; ++side) {
-      if (mirrors[axis][side] && !is_mirrored<D>(whole, scene, material, axis, side, reader)) return std::nullopt;
+      if (mirrors[axis][side] && !is_mirrored_at<D>(whole, scene, material, axis, side, reader)) return std::nullopt;
     }
   }
-  return part_of<D>(whole, box_within<D>(whole.bounding_box(), mirrors, scene.grid));
+  const components::Box<D> box = whole.bounding_box(), within = box_within<D>(box, mirrors, scene.grid);
+  if (!(within.lower.array() < within.upper.array()).all()) {
+    add_problem_of_reach<D>(box, reader);
+    return std::nullopt;
+  }
+  return part_of<D>(whole, within);
 }
 
 template std::optional<tasks::Sides> mirrors_crossed(const components::Solid<2>&, const tasks::Scene&,

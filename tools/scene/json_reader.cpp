@@ -25,6 +25,14 @@ std::string shown(const Json& value)
   return text.size() <= 60 ? text : text.substr(0, 57) + "...";
 }
 
+constexpr double largest_factor = 1e50;
+
+bool is_too_large(const Json& value)
+{
+  if (value.is_array()) return std::any_of(value.begin(), value.end(), is_too_large);
+  return value.is_number() && std::abs(value.get<double>()) > largest_factor;
+}
+
 std::string joined(const std::vector<std::string>& words)
 {
   return fmt::format("{}", fmt::join(words, ", "));
@@ -96,6 +104,18 @@ bool JsonReader::is_in_scene(int only_in) const
 std::size_t JsonReader::count(Length length) const
 {
   return static_cast<std::size_t>(document_->dimension == 3 ? length.in_space : length.in_plane);
+}
+
+void JsonReader::expect_numbers_to_multiply() const
+{
+  if (!exists_) return;
+  for (const auto& [key, value] : document_->root.at(pointer_).items()) {
+    if (is_too_large(value)) {
+      add_problem(
+          key, shown(value),
+          fmt::format("expected {} of at most {:g}", value.is_array() ? "numbers" : "a number", largest_factor));
+    }
+  }
 }
 
 void JsonReader::add_problem(const std::string& key, const std::string& found, const std::string& expected) const

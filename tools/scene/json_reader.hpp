@@ -77,6 +77,9 @@ class JsonReader
   /// The objects of a list.
   std::vector<JsonReader> objects(const std::string& key);
 
+  /// Notes numbers of the object, alone or in its lists, that are too large for a few of them to be multiplied.
+  void expect_numbers_to_multiply() const;
+
   /// The key's value has a meaning, but a wrong one.
   void add_problem(const std::string& key, const std::string& found, const std::string& expected) const;
 

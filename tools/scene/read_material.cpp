@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 
 #include "components/errors.hpp"
 #include "components/materials/tabular_cap.hpp"
@@ -188,26 +187,9 @@ std::optional<tasks::MaterialModel> read_model(const std::string& type, JsonRead
 
 }  // namespace
 
-namespace
-{
-
-/// A few of them multiplied must still be a number.
-constexpr double largest_constant = 1e50;
-
-void check_sizes(JsonReader& reader)
-{
-  const Json material = reader.document().root[reader.pointer("density").parent_pointer()];
-  for (const auto& [key, value] : material.items()) {
-    if (!value.is_number() || std::abs(value.get<double>()) <= largest_constant) continue;
-    reader.add_problem(key, value.dump(), fmt::format("expected a number of at most {:g}", largest_constant));
-  }
-}
-
-}  // namespace
-
 std::optional<tasks::SceneMaterial> read_material(const std::string& name, JsonReader reader)
 {
-  check_sizes(reader);
+  reader.expect_numbers_to_multiply();
   const std::string type = reader.type();
   if (type.empty()) return std::nullopt;
   const double density = reader.number("density");

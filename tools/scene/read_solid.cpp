@@ -298,6 +298,7 @@ std::optional<Solid<D>> read_at(Document& document, const JsonPointer& pointer)
   const std::size_t n_before = document.problems.size();
   document.merge_file_named_at(pointer, solid_keys());
   JsonReader reader(document, solid_keys(), pointer);
+  reader.expect_numbers_to_multiply();
   const std::string type = reader.type();
   if (type.empty()) return std::nullopt;
 

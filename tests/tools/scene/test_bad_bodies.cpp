@@ -42,6 +42,21 @@ TEST_CASE("bodies that hold nothing, leave the grid or overlap are refused")
         overlap + "[0.875, 0.875]; expected bodies that share no particle"}});
 }
 
+TEST_CASE("lengths that are too large to multiply, and a body beyond a mirror, are refused at their place")
+{
+  const std::string geometry = "/bodies/block/geometry", moved = geometry + "={'type':'transform','translation':";
+  const std::string ball = "'of':{'type':'ball','centre':[1,1],'radius':0.5}}";
+
+  check_rows(problems_with,
+             {{geometry + "={'type':'ball','centre':[1,1],'radius':1e308}",
+               geometry + "/radius: 1e+308; expected a number of at most 1e+50"},
+              {geometry + "={'type':'polygon','corners':[[0,0],[1,0],[-1e300,1]]}",
+               geometry + "/corners: [[0,0],[1,0],[-1e+300,1]]; expected numbers of at most 1e+50"},
+              {moved + "[0,1e308]," + ball, geometry + "/translation: [0,1e+308]; expected numbers of at most 1e+50"},
+              {moved + "[0,1e49]," + ball,
+               geometry + ": reaches from [0.5, 1e+49] to [1.5, 1e+49]; expected it to lie within *"}});
+}
+
 TEST_CASE("more bodies than a step has room for are refused")
 {
   std::string bodies;
