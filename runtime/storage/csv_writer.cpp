@@ -105,6 +105,7 @@ CsvWriter CsvWriter::continued(const std::filesystem::path& file, const std::vec
 CsvWriter CsvWriter::continued(const std::filesystem::path& file, const std::vector<std::string>& columns,
                                std::int64_t last_step, const CsvExtent* expected)
 {
+  expect_no_stream(file);
   const bool missing = !std::filesystem::exists(file);
   std::string kept = line_of(columns);
   CsvExtent extent{0, hash_of(kept)};

@@ -4,6 +4,7 @@
 
 #include "runtime/file_error.hpp"
 #include "runtime/ranks/on_all_ranks.hpp"
+#include "runtime/storage/whole_file.hpp"
 
 namespace tamp::runtime::hdf5
 {
@@ -260,6 +261,7 @@ OpenFile::OpenFile(const fs::path& file, Access access, std::string doing, const
   file_->communicator = communicator;
   file_->transfer = collective_transfer(file, communicator);
   on_all_ranks(communicator, [&] {
+    expect_no_stream(file);
     const Properties how = file_access(file, communicator);
     const unsigned flags = access == Access::read ? H5F_ACC_RDONLY : H5F_ACC_RDWR;
     file_->id = File(hdf5::checked(H5Fopen(file.c_str(), flags, how), file, "cannot be opened"));
@@ -297,6 +299,7 @@ void OpenFile::close() const
 void create_file(const fs::path& file, std::size_t n_front)
 {
   const std::string doing = "cannot be created";
+  expect_no_stream(file);
   const Quiet quiet;
   const Properties access = file_access(file, {});
   const Properties creation(checked(H5Pcreate(H5P_FILE_CREATE), file, doing));

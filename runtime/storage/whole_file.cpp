@@ -56,13 +56,21 @@ bool is_stream(const fs::path& file)
   return !fs::is_regular_file(status) || is_of_process(file);
 }
 
+/// Opens a file that is not there yet, and so no pipe and no link to another file.
+std::FILE* open_part(const fs::path& part)
+{
+  expect_no_stream(part);
+  ::unlink(part.c_str());
+  return std::fopen(part.c_str(), "wbx");
+}
+
 }  // namespace
 
 WholeFile::WholeFile(fs::path file) : file_(std::move(file)), target_(end_of_links(file_))
 {
   if (!is_stream(target_)) (part_ = target_) += ".part";
   // To append leaves alone what others have written to the same open file.
-  stream_.reset(std::fopen((is_direct() ? target_ : part_).c_str(), is_direct() ? "ab" : "wb"));
+  stream_.reset(is_direct() ? std::fopen(target_.c_str(), "ab") : open_part(part_));
   if (!stream_) fail(errno);
 }
 
@@ -97,6 +105,14 @@ void write_whole_file(const fs::path& file, std::string_view content)
   whole.publish();
 }
 
+void expect_no_stream(const fs::path& file)
+{
+  std::error_code error;
+  const fs::file_status status = fs::status(file, error);
+  if (!fs::exists(status) || fs::is_regular_file(status) || fs::is_directory(status)) return;
+  throw FileError(file.string(), "a pipe, a device or a socket; expected a file");
+}
+
 void expect_writable(const fs::path& file)
 {
   std::error_code none;
@@ -125,6 +141,7 @@ void publish_file(const std::filesystem::path& part, const std::filesystem::path
 
 void reserve_room(const std::filesystem::path& file, std::int64_t n_bytes)
 {
+  expect_no_stream(file);
   const int descriptor = ::open(file.c_str(), O_WRONLY | O_CLOEXEC);
   if (descriptor < 0) throw FileError(file.string(), std::strerror(errno));
   const off_t size = lseek(descriptor, 0, SEEK_END);

@@ -13,6 +13,8 @@ namespace tamp::runtime
 /// A file that is written whole or not at all: a reader sees the old content or the new, whenever it looks and however
 /// the program ends. A link stays one, and what it points to is replaced. What is no regular file, such as a pipe or a
 /// device, stays what it is: it is written to directly. All throw FileError; an old file is then left as it was.
+///
+/// Until it is published it is FILE.part. What a program that was killed has left under that name is removed.
 class WholeFile
 {
  public:
@@ -43,6 +45,10 @@ class WholeFile
 
 /// Writes a whole file at once.
 void write_whole_file(const std::filesystem::path& file, std::string_view content);
+
+/// Throws FileError for a pipe, a device or a socket. Whoever opens a pipe waits for its other end, and signals that
+/// are handled go unheard meanwhile.
+void expect_no_stream(const std::filesystem::path& file);
 
 /// Throws FileError where a file cannot be written whole: what takes long to find out asks before.
 void expect_writable(const std::filesystem::path& file);

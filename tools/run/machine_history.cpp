@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "runtime/ranks/on_all_ranks.hpp"
+#include "runtime/storage/whole_file.hpp"
 #include "tools/scene/csv_table.hpp"
 #include "tools/system/capacity.hpp"
 #include "tools/system/processor_time.hpp"
@@ -55,6 +56,7 @@ void MachineHistory::resume(const std::filesystem::path& folder, long kept_until
 {
   runtime::on_first_rank(communicator_, [&] {
     const std::filesystem::path file = folder / "machine.csv";
+    runtime::expect_no_stream(file);
     std::vector<std::string> columns = machine_columns();
     if (is_of_earlier_version(file)) columns.pop_back();
     n_columns_ = columns.size();

@@ -37,6 +37,7 @@ std::string write_trace(const runtime::Engine& engine, const runtime::TraceChoic
   const runtime::Trace trace = engine.trace();
   std::string line;
   runtime::on_first_rank(engine.communicator(), [&] {
+    runtime::expect_no_stream(folder / "trace.json");
     runtime::WholeFile file(folder / "trace.json");
     runtime::write_trace(
         trace, [&](std::string_view text) { file.write(text); }, machine);

@@ -13,6 +13,7 @@
 #include "runtime/file_error.hpp"
 #include "runtime/ranks/on_all_ranks.hpp"
 #include "runtime/storage/checksum.hpp"
+#include "runtime/storage/whole_file.hpp"
 
 namespace tamp::runtime
 {
@@ -24,8 +25,10 @@ namespace
 class ByteFile
 {
  public:
-  ByteFile(const std::filesystem::path& file, const char* mode) : file_(file), stream_(std::fopen(file.c_str(), mode))
+  ByteFile(const std::filesystem::path& file, const char* mode) : file_(file)
   {
+    expect_no_stream(file);
+    stream_.reset(std::fopen(file.c_str(), mode));
     if (!stream_) fail();
   }
 

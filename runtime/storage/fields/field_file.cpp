@@ -74,11 +74,18 @@ FieldFile FieldFile::continued(const std::filesystem::path& folder, std::int64_t
 void FieldFile::begin() const
 {
   hdf5::create_file(hdf5_file_);
-  write_whole_file(xdmf_file_, xdmf_text({}));
+  write_xdmf();
+}
+
+void FieldFile::write_xdmf() const
+{
+  expect_no_stream(xdmf_file_);
+  write_whole_file(xdmf_file_, xdmf_text(steps_));
 }
 
 void FieldFile::begin_or_continue(std::int64_t last_step, std::size_t n_expected)
 {
+  expect_no_stream(hdf5_file_);
   const bool missing = !std::filesystem::exists(hdf5_file_);
   // HDF5 takes a file of no length for a new one.
   if (missing || std::filesystem::file_size(hdf5_file_) == 0) {
@@ -92,7 +99,7 @@ void FieldFile::begin_or_continue(std::int64_t last_step, std::size_t n_expected
   }
   try {
     steps_ = cut_to_step(hdf5_file_, last_step);
-    write_whole_file(xdmf_file_, xdmf_text(steps_));
+    write_xdmf();
     if (steps_.size() != n_expected) {
       notice_ = fmt::format("{}: has {} outputs until step {}, of {} that were written; they were kept",
                             hdf5_file_.string(), steps_.size(), last_step, n_expected);
@@ -121,7 +128,7 @@ void FieldFile::write_step(std::int64_t step, double time, std::span<const Parti
   on_first_rank(communicator_, [&] {
     give_back_room(hdf5_file_, hdf5::used_size(hdf5_file_));
     steps_.push_back(std::move(written));
-    write_whole_file(xdmf_file_, xdmf_text(steps_));
+    write_xdmf();
   });
 }
 

@@ -55,6 +55,7 @@ class FieldFile
   };
   FieldFile(Unopened, const std::filesystem::path& folder, const Communicator& communicator);
   void begin() const;
+  void write_xdmf() const;
   void begin_or_continue(std::int64_t last_step, std::size_t n_expected);
 
   std::filesystem::path hdf5_file_;

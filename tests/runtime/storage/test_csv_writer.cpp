@@ -148,6 +148,34 @@ TEST_CASE("of a damaged table the rows that can be read are kept, the file is se
   CHECK(read_text(folder.path() / "history.csv.damaged") == damage.text);
 }
 
+TEST_CASE("a pipe in the place of a table or of a part of a file is refused unopened")
+{
+  const TemporaryFolder folder;
+  const fs::path table = folder.path() / "history.csv", part = folder.path() / "summary.json.part";
+  REQUIRE(mkfifo(table.c_str(), 0600) == 0);
+  REQUIRE(mkfifo(part.c_str(), 0600) == 0);
+
+  CHECK_THROWS_WITH(CsvWriter::continued(table, step_and_time, 20),
+                    Catch::EndsWith("history.csv: a pipe, a device or a socket; expected a file"));
+  CHECK_THROWS_WITH(write_whole_file(folder.path() / "summary.json", "new"),
+                    Catch::EndsWith("summary.json.part: a pipe, a device or a socket; expected a file"));
+  CHECK(fs::is_fifo(table));
+}
+
+TEST_CASE("what lies under the name of a part is not written into")
+{
+  const TemporaryFolder folder;
+  write_text(folder.path() / "mine", "mine");
+  fs::create_symlink("mine", folder.path() / "a.json.part");
+  fs::create_hard_link(folder.path() / "mine", folder.path() / "b.json.part");
+
+  write_whole_file(folder.path() / "a.json", "new");
+  write_whole_file(folder.path() / "b.json", "new");
+
+  CHECK(read_text(folder.path() / "mine") == "mine");
+  CHECK(read_text(folder.path() / "b.json") == "new");
+}
+
 TEST_CASE("a file written whole replaces the old one and leaves nothing beside it")
 {
   const TemporaryFolder folder;

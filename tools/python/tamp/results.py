@@ -69,6 +69,7 @@ def particles(folder, material, time):
     """At the output nearest to a time, in the order of their numbers, so that two runs can be compared one by one."""
     import h5py
 
+    files.check_file(folder / "fields.h5")
     with h5py.File(folder / "fields.h5", "r") as file:
         steps = [name for name in file if name.startswith("step_")]
         times = {name: float(np.ravel(file[name].attrs["time"])[0]) for name in steps}

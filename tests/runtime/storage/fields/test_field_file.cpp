@@ -1,4 +1,5 @@
 #include <hdf5.h>
+#include <sys/stat.h>
 
 #include <array>
 #include <catch2/catch.hpp>
@@ -217,6 +218,15 @@ TEST_CASE("a file that may not grow ends a step with an error that says so, and 
   CHECK_THAT(message, Catch::Contains("fields.h5") && Catch::Contains("File too large"));
   CHECK(read_dataset(folder.path() / "fields.h5", "/step_00000001/particles/sand/mass").values == particles.mass);
   CHECK(count(read_text(folder.path() / "fields.xdmf"), "<Time Value=") == 1);
+}
+
+TEST_CASE("a pipe in the place of a field file is refused unopened")
+{
+  const TemporaryFolder folder;
+  REQUIRE(mkfifo((folder.path() / "fields.h5").c_str(), 0600) == 0);
+
+  CHECK_THROWS_AS(FieldFile(folder.path()), FileError);
+  CHECK_THROWS_AS(FieldFile::continued(folder.path(), 1, 1), FileError);
 }
 
 }  // namespace test_field_file
