@@ -16,7 +16,7 @@ set(included_by_them
   profile/profile.hpp profile/profiler.hpp profile/replay.hpp profile/task_rows.hpp profile/trace.hpp
   profile/trace_choice.hpp profile/trace_recorder.hpp profile/worker_waits.hpp ranks/communicator.hpp
   ranks/load_balance.hpp storage/checkpoints/checkpoint.hpp storage/checkpoints/state_tables.hpp
-  storage/fields/field_columns.hpp storage/fields/xdmf.hpp storage/row_share.hpp warehouse/warehouse.hpp)
+  storage/fields/field_columns.hpp storage/fields/xdmf.hpp storage/file_state.hpp storage/row_share.hpp warehouse/warehouse.hpp)
 target_sources(tamp_runtime PUBLIC FILE_SET HEADERS BASE_DIRS ${PROJECT_SOURCE_DIR} FILES ${for_programs}
                                                                                         ${included_by_them})
 

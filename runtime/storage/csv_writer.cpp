@@ -76,18 +76,21 @@ std::filesystem::path set_aside(const std::filesystem::path& file)
 
 }  // namespace
 
-CsvWriter::CsvWriter(const std::filesystem::path& file, std::size_t n_columns, const char* mode)
-    : file_(file), n_columns_(n_columns), stream_(std::fopen(file.c_str(), mode))
+CsvWriter::CsvWriter(const std::filesystem::path& file, const std::string& lines, std::size_t n_columns,
+                     const CsvExtent& extent)
+    : file_(file), n_columns_(n_columns), extent_(extent)
 {
-  if (!stream_) throw FileError(file_.string(), std::strerror(errno));
+  write_whole_file(file, lines);
+  // To append leaves no gap where someone else has emptied the file.
+  stream_.reset(std::fopen(file.c_str(), "ab"));
+  const auto state = stream_ ? state_of(fileno(stream_.get())) : std::nullopt;
+  if (!state) throw FileError(file_.string(), std::strerror(errno));
+  state_ = *state;
 }
 
 CsvWriter::CsvWriter(const std::filesystem::path& file, const std::vector<std::string>& columns)
-    : CsvWriter(file, columns.size(), "wb")
+    : CsvWriter(file, line_of(columns), columns.size(), {0, hash_of(line_of(columns))})
 {
-  const std::string header = line_of(columns);
-  write_line(header);
-  extent_.hash = hash_of(header);
 }
 
 CsvWriter CsvWriter::continued(const std::filesystem::path& file, const std::vector<std::string>& columns,
@@ -119,9 +122,7 @@ CsvWriter CsvWriter::continued(const std::filesystem::path& file, const std::vec
     notice = fmt::format("{}: is damaged: of {} rows until step {}, {} can be read and were kept; as it was it is {}",
                          file.string(), expected->n_rows, last_step, extent.n_rows, set_aside(file).string());
   }
-  write_whole_file(file, kept);
-  CsvWriter table(file, columns.size(), "ab");
-  table.extent_ = extent;
+  CsvWriter table(file, kept, columns.size(), extent);
   table.notice_ = notice;
   return table;
 }
@@ -140,6 +141,12 @@ void CsvWriter::write_line(const std::string& line)
 {
   const bool written = std::fwrite(line.data(), 1, line.size(), stream_.get()) == line.size();
   if (!written || std::fflush(stream_.get()) != 0) throw FileError(file_.string(), std::strerror(errno));
+  state_.n_bytes += line.size();
+}
+
+void CsvWriter::expect_as_written() const
+{
+  expect_as_left(file_, state_);
 }
 
 }  // namespace tamp::runtime

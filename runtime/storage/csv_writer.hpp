@@ -8,6 +8,8 @@
 #include <string>
 #include <vector>
 
+#include "runtime/storage/file_state.hpp"
+
 namespace tamp::runtime
 {
 
@@ -40,6 +42,8 @@ class CsvWriter
   void write_row(std::span<const double> values);
 
   std::size_t n_columns() const { return n_columns_; }
+  /// Throws FileError if the file is no longer there as it was written: removed, replaced or emptied by someone else.
+  void expect_as_written() const;
   /// The extent of the file now.
   const CsvExtent& extent() const { return extent_; }
   /// A notice for the user on the table that was to be continued; empty if all was well.
@@ -50,7 +54,9 @@ class CsvWriter
     void operator()(std::FILE* stream) const { std::fclose(stream); }
   };
 
-  CsvWriter(const std::filesystem::path& file, std::size_t n_columns, const char* mode);
+  /// Replaces the file by lines with so many columns, of this extent.
+  CsvWriter(const std::filesystem::path& file, const std::string& lines, std::size_t n_columns,
+            const CsvExtent& extent);
   static CsvWriter continued(const std::filesystem::path& file, const std::vector<std::string>& columns,
                              std::int64_t last_step, const CsvExtent* expected);
   void write_line(const std::string& line);
@@ -59,6 +65,8 @@ class CsvWriter
   std::size_t n_columns_;
   std::unique_ptr<std::FILE, Close> stream_;
   CsvExtent extent_;
+  /// As the last row left it.
+  FileState state_;
   std::string notice_;
 };
 

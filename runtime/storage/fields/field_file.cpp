@@ -60,14 +60,20 @@ FieldFile::FieldFile(Unopened, const std::filesystem::path& folder, const Commun
 FieldFile::FieldFile(const std::filesystem::path& folder, const Communicator& communicator)
     : FieldFile(Unopened{}, folder, communicator)
 {
-  on_first_rank(communicator_, [&] { begin(); });
+  on_first_rank(communicator_, [&] {
+    begin();
+    state_ = state_of(hdf5_file_);
+  });
 }
 
 FieldFile FieldFile::continued(const std::filesystem::path& folder, std::int64_t last_step, std::size_t n_expected,
                                const Communicator& communicator)
 {
   FieldFile file(Unopened{}, folder, communicator);
-  on_first_rank(communicator, [&] { file.begin_or_continue(last_step, n_expected); });
+  on_first_rank(communicator, [&] {
+    file.begin_or_continue(last_step, n_expected);
+    file.state_ = state_of(file.hdf5_file_);
+  });
   return file;
 }
 
@@ -120,16 +126,25 @@ void FieldFile::write_step(std::int64_t step, double time, std::span<const Parti
 {
   on_all_ranks(communicator_, [&] {
     const std::int64_t n_bytes = checked_size(particles, nodes);
-    if (communicator_.is_first()) reserve_room(hdf5_file_, n_bytes);
+    if (!communicator_.is_first()) return;
+    expect_as_written();
+    state_.reset();  // of one that was written in part nothing is known
+    reserve_room(hdf5_file_, n_bytes);
   });
   // Only the first rank knows the steps.
   const std::size_t n = communicator_.sum(n_listed(steps_));
   XdmfStep written = add_step(hdf5_file_, step, time, particles, nodes, n, communicator_);
   on_first_rank(communicator_, [&] {
     give_back_room(hdf5_file_, hdf5::used_size(hdf5_file_));
+    state_ = state_of(hdf5_file_);
     steps_.push_back(std::move(written));
     write_xdmf();
   });
+}
+
+void FieldFile::expect_as_written() const
+{
+  if (state_) expect_as_left(hdf5_file_, *state_);
 }
 
 }  // namespace tamp::runtime

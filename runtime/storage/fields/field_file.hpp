@@ -9,6 +9,7 @@
 #include "runtime/ranks/communicator.hpp"
 #include "runtime/storage/fields/field_columns.hpp"
 #include "runtime/storage/fields/xdmf.hpp"
+#include "runtime/storage/file_state.hpp"
 
 namespace tamp::runtime
 {
@@ -44,6 +45,10 @@ class FieldFile
   void write_step(std::int64_t step, double time, std::span<const ParticleBlock> particles,
                   const std::optional<NodeBlock>& nodes = std::nullopt);
 
+  /// Throws FileError if `fields.h5` is no longer there as it was written: removed, replaced or emptied by someone
+  /// else. On the first rank.
+  void expect_as_written() const;
+
   /// Output times in the file. On the first rank.
   std::size_t n_steps() const { return steps_.size(); }
 
@@ -61,8 +66,9 @@ class FieldFile
   std::filesystem::path hdf5_file_;
   std::filesystem::path xdmf_file_;
   Communicator communicator_;
-  /// The steps in the file; on the first rank.
+  /// The steps in the file, and as the last one left it; on the first rank.
   std::vector<XdmfStep> steps_;
+  std::optional<FileState> state_;
   std::string notice_;
 };
 

@@ -148,6 +148,37 @@ TEST_CASE("of a damaged table the rows that can be read are kept, the file is se
   CHECK(read_text(folder.path() / "history.csv.damaged") == damage.text);
 }
 
+TEST_CASE("a table that was removed, replaced or emptied while it was written is told of, and one that was not is not")
+{
+  const TemporaryFolder folder;
+  const fs::path file = folder.path() / "history.csv";
+  CsvWriter table(file, step_and_time);
+  const auto write = [&](double step) { table.write_row(std::array{step, 0.5}); };
+  write(0);
+  write(10);
+  CHECK_NOTHROW(table.expect_as_written());
+
+  SECTION("removed")
+  {
+    fs::remove(file);
+    write(20);
+    CHECK_THROWS_WITH(table.expect_as_written(), Catch::Contains("history.csv: was removed"));
+  }
+  SECTION("replaced by a copy")
+  {
+    fs::copy_file(file, folder.path() / "copy.csv");
+    fs::rename(folder.path() / "copy.csv", file);
+    CHECK_THROWS_WITH(table.expect_as_written(), Catch::Contains("history.csv: was replaced"));
+  }
+  SECTION("emptied: the rows after it follow without a gap")
+  {
+    fs::resize_file(file, 0);
+    write(20);
+    CHECK_THROWS_WITH(table.expect_as_written(), Catch::Contains("it has 7 bytes of 33"));
+    CHECK(read_text(file) == "20,0.5\n");
+  }
+}
+
 TEST_CASE("a pipe in the place of a table or of a part of a file is refused unopened")
 {
   const TemporaryFolder folder;

@@ -220,6 +220,35 @@ TEST_CASE("a file that may not grow ends a step with an error that says so, and 
   CHECK(count(read_text(folder.path() / "fields.xdmf"), "<Time Value=") == 1);
 }
 
+TEST_CASE("fields that were removed, replaced or cut after they were written are told of")
+{
+  const TemporaryFolder folder;
+  const fs::path h5 = folder.path() / "fields.h5";
+  const TwoParticles particles;
+  const std::vector blocks{particles.block("sand")};
+  FieldFile file(folder.path());
+  file.write_step(1, 0.1, blocks);
+  CHECK_NOTHROW(file.expect_as_written());
+
+  SECTION("removed")
+  {
+    fs::remove(h5);
+    CHECK_THROWS_WITH(file.expect_as_written(), Catch::Contains("fields.h5: was removed"));
+  }
+  SECTION("replaced")
+  {
+    fs::copy_file(h5, folder.path() / "copy.h5");
+    fs::rename(folder.path() / "copy.h5", h5);
+    CHECK_THROWS_WITH(file.expect_as_written(), Catch::Contains("fields.h5: was replaced"));
+    CHECK_THROWS_AS(file.write_step(2, 0.2, blocks), FileError);
+  }
+  SECTION("cut")
+  {
+    fs::resize_file(h5, 100);
+    CHECK_THROWS_WITH(file.expect_as_written(), Catch::Contains("it has 100 bytes of "));
+  }
+}
+
 TEST_CASE("a pipe in the place of a field file is refused unopened")
 {
   const TemporaryFolder folder;
