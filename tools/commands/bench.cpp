@@ -9,13 +9,13 @@
 #include <memory>
 
 #include "runtime/ranks/communicator.hpp"
-#include "runtime/storage/whole_file.hpp"
 #include "tools/commands/command_line/help_text.hpp"
 #include "tools/commands/command_line/option_checks.hpp"
 #include "tools/commands/commands.hpp"
 #include "tools/scene/input_file.hpp"
 #include "tools/scene/output_file.hpp"
 #include "tools/scene/print_json.hpp"
+#include "tools/scene/read_scene.hpp"
 #include "tools/system/console.hpp"
 #include "tools/system/errors.hpp"
 #include "tools/system/shipped_inputs.hpp"
@@ -113,7 +113,8 @@ void run_benchmarks(const BenchArguments& options)
   const auto ranks = runtime::Communicator::world();
   const std::vector<std::string> names = names_of(options, ranks.size());
   expect_used(options, names);
-  if (!options.windows.scene.empty()) expect_input_file(options.windows.scene);
+  note_shipped_inputs();
+  if (!options.windows.scene.empty()) read_scene(options.windows.scene, {});
   if (ranks.is_first()) expect_outputs({{"--json", options.json}});
   nlohmann::ordered_json json;
   for (const std::string& name : names) {
@@ -121,7 +122,7 @@ void run_benchmarks(const BenchArguments& options)
     if (ranks.is_first()) print_out("{}", result.text);
     json[name] = result.json;
   }
-  if (ranks.is_first() && !options.json.empty()) runtime::write_whole_file(options.json, json_text(json, 2) + "\n");
+  if (ranks.is_first() && !options.json.empty()) write_output({"--json", options.json}, json_text(json, 2) + "\n");
 }
 
 /// Refuses a number of bytes that does not hold whole values.

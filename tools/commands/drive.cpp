@@ -7,7 +7,6 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
-#include "runtime/storage/csv_writer.hpp"
 #include "runtime/storage/whole_file.hpp"
 #include "tools/commands/command_line/assignments.hpp"
 #include "tools/commands/command_line/help_text.hpp"
@@ -48,7 +47,7 @@ void write_summary(const DriveCosts& costs, const std::filesystem::path& file)
                                        {"modulus_evaluations", costs.counts.modulus_evaluations},
                                        {"evaluations_per_update", per_update(costs.counts.modulus_evaluations)},
                                        {"ns_per_update", costs.ns_per_update}};
-  runtime::write_whole_file(file, json_text(summary, 2) + "\n");
+  write_output({"--summary", file}, json_text(summary, 2) + "\n");
 }
 
 void check_finite(const DriveArguments& options, const tasks::MaterialModel& model, const std::vector<double>& values)
@@ -68,23 +67,21 @@ void drive_point(const DriveArguments& options)
   const tasks::SceneMaterial& material = checked.material;
   const DeformationPath path = read_path(options.path);
   expect_outputs({{"--out", options.out}, {"--summary", options.summary}});
-  std::optional<runtime::CsvWriter> file;
-  if (options.out.empty()) {
-    print_out("{}\n", fmt::join(drive_columns(material.model), ","));
-  } else {
-    file.emplace(options.out, drive_columns(material.model));
-  }
+  std::optional<runtime::WholeFile> file;
+  if (!options.out.empty()) file.emplace(options.out);
+  const auto write_line = [&](const auto& values) {
+    const std::string line = fmt::format("{}\n", fmt::join(values, ","));
+    file ? file->write(line) : print_out("{}", line);
+  };
+  write_line(drive_columns(material.model));
   std::vector<MaterialPoint> points;
   drive(material, path, options.increment, [&](double time, const MaterialPoint& point) {
     if (!options.summary.empty()) points.push_back(point);
     const std::vector<double> values = drive_values(material.model, time, point);
     check_finite(options, material.model, values);
-    if (file) {
-      file->write_row(values);
-    } else {
-      print_out("{}\n", fmt::join(values, ","));
-    }
+    write_line(values);
   });
+  if (file) file->publish();
   if (points.empty()) return;
   write_summary(drive_costs(material.model, points, options.repeat), options.summary);
 }

@@ -9,7 +9,6 @@
 #include "runtime/profile/dealt_step.hpp"
 #include "runtime/profile/mean_step.hpp"
 #include "runtime/profile/table.hpp"
-#include "runtime/storage/whole_file.hpp"
 #include "tasks/forecast/demand.hpp"
 #include "tasks/step_graph.hpp"
 #include "tools/commands/command_line/assignments.hpp"
@@ -141,7 +140,7 @@ void dump_graph(const GraphArguments& options)
   if (options.out.empty()) {
     print_out("{}", text);
   } else {
-    runtime::write_whole_file(options.out, text);
+    write_output({"--out", options.out}, text);
   }
 }
 

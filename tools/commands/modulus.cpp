@@ -6,7 +6,6 @@
 #include <nlohmann/json.hpp>
 
 #include "components/materials/tabular_cap.hpp"
-#include "runtime/storage/whole_file.hpp"
 #include "tools/commands/command_line/assignments.hpp"
 #include "tools/commands/command_line/help_text.hpp"
 #include "tools/commands/commands.hpp"
@@ -146,7 +145,7 @@ void write_costs(const AskedModel& model, const ModulusStates& states, const std
   const ModulusCosts costs = modulus_costs(model.modulus, model.form, states, n_rounds);
   const nlohmann::ordered_json summary{
       {"evaluations", costs.n_evaluations}, {"ns_per_evaluation", costs.ns_per_evaluation}, {"bytes", costs.bytes}};
-  runtime::write_whole_file(file, json_text(summary, 2) + "\n");
+  write_output({"--summary", file}, json_text(summary, 2) + "\n");
 }
 
 void answer_states(const ModulusArguments& options)
@@ -158,7 +157,7 @@ void answer_states(const ModulusArguments& options)
   if (options.out.empty()) {
     print_out("{}", table);
   } else {
-    runtime::write_whole_file(options.out, table);
+    write_output({"--out", options.out}, table);
   }
   if (!options.summary.empty()) write_costs(model, states, options.summary);
 }

@@ -63,6 +63,7 @@ void show_profile(ProfileArguments& options)
     print_out("{}", text);
     return;
   }
+  expect_page(folder);
   write_page_data(folder);
   draw_page(folder);
   print_out("written to {}\n", (folder / "report.html").string());

@@ -2,12 +2,20 @@
 
 #include "runtime/storage/whole_file.hpp"
 #include "tools/run/run_document.hpp"
+#include "tools/run/run_folder.hpp"
 #include "tools/run/scene_pictures.hpp"
 #include "tools/scene/chosen_words.hpp"
+#include "tools/scene/output_file.hpp"
 #include "tools/scene/print_json.hpp"
 
 namespace tamp::tools
 {
+
+void expect_page(const std::filesystem::path& run)
+{
+  note_files_of_run(run);  // of which Python reads some
+  expect_results(run, {"page.json", "report.html"});
+}
 
 void write_page_data(const std::filesystem::path& run)
 {

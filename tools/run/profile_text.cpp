@@ -87,6 +87,7 @@ std::string with_profile(const fs::path& run, const std::function<std::string(co
   if (!fs::exists(file) && !fs::exists(run / run_mark)) {
     throw InputError({run.string(), "no run", "expected the folder of a run"});
   }
+  note_files_of_run(run);
   std::string text;
   with_run_document(file, [&](const nlohmann::json& profile) {
     runtime::check_profile(profile);

@@ -3,13 +3,17 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <chrono>
 #include <regex>
+#include <set>
 #include <thread>
 #include <vector>
 
 #include "runtime/file_error.hpp"
 #include "runtime/storage/whole_file.hpp"
+#include "tools/scene/input_file.hpp"
+#include "tools/scene/output_file.hpp"
 #include "tools/system/errors.hpp"
 
 namespace tamp::tools
@@ -20,14 +24,21 @@ namespace
 
 namespace fs = std::filesystem;
 
+const std::vector<std::string>& written_by_run()
+{
+  static const std::vector<std::string> names{"scene.json", "history.csv", "machine.csv",  "summary.json",
+                                              "fields.h5",  "fields.xdmf", "profile.json", "trace.json"};
+  return names;
+}
+
 /// All that a run or a comparison writes into its folder. `.part` files are left by one that was killed while it wrote,
 /// `.damaged` ones by one that found them so.
 bool is_of_run(const fs::path& file)
 {
-  static const std::regex name(
-      "(scene\\.json|history\\.csv|machine\\.csv|summary\\.json|fields\\.h5|fields\\.xdmf|profile\\.json|trace\\.json|"
-      "page\\.json|compare\\.csv|compare\\.json|report\\.html)(\\.part|\\.damaged(\\.[0-9]+)?)?");
-  return std::regex_match(file.filename().string(), name);
+  static const std::regex ending("(\\.part|\\.damaged(\\.[0-9]+)?)$");
+  static const std::set<std::string> later{"page.json", "compare.csv", "compare.json", "report.html"};
+  const std::string name = std::regex_replace(file.filename().string(), ending, "");
+  return later.contains(name) || std::ranges::find(written_by_run(), name) != written_by_run().end();
 }
 
 bool is_checkpoint(const fs::path& file)
@@ -87,6 +98,22 @@ void expect_no_input_in(const fs::path& folder, std::span<const fs::path> inputs
   }
 }
 
+/// A run may go on from the scene that it wrote itself.
+bool is_own_scene(const fs::path& file)
+{
+  std::error_code none;
+  return file.filename() == "scene.json" && fs::is_regular_file(fs::symlink_status(file, none));
+}
+
+void expect_own_files(const fs::path& folder)
+{
+  std::vector<std::string> names{run_mark};
+  for (const std::string& name : written_by_run()) {
+    if (!is_own_scene(folder / name)) names.push_back(name);
+  }
+  expect_results(folder, names);
+}
+
 /// Ranks whose launcher was killed end by themselves, but only in a second or so: a restart waits for them.
 std::unique_ptr<runtime::FolderLock> lock_of(const fs::path& folder, RunFolder::Use use)
 {
@@ -106,6 +133,11 @@ std::unique_ptr<runtime::FolderLock> lock_of(const fs::path& folder, RunFolder::
 
 }  // namespace
 
+void note_files_of_run(const fs::path& folder)
+{
+  for (const std::string& name : written_by_run()) note_input(folder / name);
+}
+
 RunFolder::RunFolder(const fs::path& folder, Use use, std::span<const fs::path> inputs) : folder_(folder)
 {
   try {
@@ -123,6 +155,7 @@ RunFolder::RunFolder(const fs::path& folder, Use use, std::span<const fs::path> 
     lock_ = lock_of(folder, use);
     expect_free(folder, use);
     if (use == Use::replace) remove_run(folder);
+    expect_own_files(folder);
     if (use != Use::go_on) {
       runtime::write_whole_file(folder / run_mark,
                                 "Written by tamp. With --force, what a run writes is replaced here.\n");
@@ -141,6 +174,7 @@ void RunFolder::expect_own() const
   if (!lock_->is_own()) {
     throw runtime::FileError(folder_.string(), "was taken over by another program while this one was stopped");
   }
+  for (const std::string& name : written_by_run()) runtime::expect_no_stream(folder_ / name);
 }
 
 }  // namespace tamp::tools

@@ -13,6 +13,9 @@ namespace tamp::tools
 /// The file that marks a folder as a run's.
 inline constexpr const char* run_mark = ".tamp-run";
 
+/// Notes what a run has left as inputs, for those who draw from it.
+void note_files_of_run(const std::filesystem::path& folder);
+
 /// A run's folder, which is that run's alone while this lives. The first run in it marks it with the file `.tamp-run`;
 /// only what is marked is ever replaced, and of that only files that a run or a comparison writes.
 class RunFolder
@@ -28,13 +31,15 @@ class RunFolder
   };
 
   /// Makes the folder and all above it. Throws InputError for a folder that is in use by another program, that may not
-  /// be used in this way, or that would be replaced although one of `inputs`, the files that the run reads, is in it;
-  /// FileError for one that cannot be made, emptied or written to.
+  /// be used in this way, that would be replaced although one of `inputs`, the files that the run reads, is in it, or
+  /// in which a file of the run is a link to one of them; FileError for one that cannot be made, emptied or written to,
+  /// or with a pipe, a device or a socket in the place of a file.
   RunFolder(const std::filesystem::path& folder, Use use, std::span<const std::filesystem::path> inputs);
 
   /// A notice for the user; may be empty.
   const std::string& notice() const { return notice_; }
-  /// Throws FileError if another program has taken the folder over, while this one was stopped.
+  /// Throws FileError if another program has taken the folder over, while this one was stopped, and for a pipe that now
+  /// stands where a file of the run should be: to open it might take for ever.
   void expect_own() const;
 
  private:

@@ -2,8 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <sys/stat.h>
-
 #include <cstddef>
 #include <fstream>
 #include <mutex>
@@ -13,7 +11,9 @@
 
 #include "runtime/file_error.hpp"
 #include "runtime/storage/checksum.hpp"
+#include "runtime/storage/file_state.hpp"
 #include "tools/system/errors.hpp"
+#include "tools/system/shipped_inputs.hpp"
 
 namespace tamp::tools
 {
@@ -21,13 +21,10 @@ namespace tamp::tools
 namespace
 {
 
-/// A file whatever its names: its device and its number there.
-using Identity = std::pair<dev_t, ino_t>;
-
 /// Those that the program has read. A reader is so free to be called from anywhere, and none can be forgotten.
 struct FilesRead {
   std::mutex mutex;
-  std::set<Identity> identities;
+  std::set<std::pair<dev_t, ino_t>> identities;
 };
 
 FilesRead& files_read()
@@ -36,31 +33,32 @@ FilesRead& files_read()
   return files;
 }
 
-bool identify(const std::filesystem::path& file, Identity& identity)
-{
-  struct stat status {
-  };
-  if (stat(file.c_str(), &status) != 0) return false;
-  identity = {status.st_dev, status.st_ino};
-  return true;
-}
+}  // namespace
 
 void note_input(const std::filesystem::path& file)
 {
-  Identity identity;
-  if (!identify(file, identity)) return;
+  const auto state = runtime::state_of(file);
+  if (!state) return;
   const std::scoped_lock lock(files_read().mutex);
-  files_read().identities.insert(identity);
+  files_read().identities.emplace(state->device, state->number);
 }
 
-}  // namespace
+void note_shipped_inputs()
+{
+  std::error_code unreadable;
+  for (const std::filesystem::path& folder : input_folders()) {
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(folder, unreadable)) {
+      note_input(entry.path());
+    }
+  }
+}
 
 bool is_input(const std::filesystem::path& file)
 {
-  Identity identity;
-  if (!identify(file, identity)) return false;
+  const auto state = runtime::state_of(file);
+  if (!state) return false;
   const std::scoped_lock lock(files_read().mutex);
-  return files_read().identities.contains(identity);
+  return files_read().identities.contains({state->device, state->number});
 }
 
 void expect_input_file(const std::filesystem::path& file)

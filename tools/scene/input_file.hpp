@@ -24,7 +24,13 @@ std::string read_input_text(const std::filesystem::path& file);
 /// The text behind that mark, if it is there.
 std::string_view without_byte_order_mark(std::string_view text);
 
-/// Whether this is a file that the program has read by the functions above, under whatever name.
+/// Notes a file that is read by other means, if it is there.
+void note_input(const std::filesystem::path& file);
+
+/// Notes all that comes with the program: of this its benchmarks and its catalogues of studies are made.
+void note_shipped_inputs();
+
+/// Whether this is a file that the program has read by the functions above or noted, under whatever name.
 bool is_input(const std::filesystem::path& file);
 
 /// A file that a scene names.

@@ -6,6 +6,7 @@
 
 #include "runtime/storage/whole_file.hpp"
 #include "tasks/simulation_error.hpp"
+#include "tools/scene/output_file.hpp"
 #include "tools/scene/print_json.hpp"
 #include "tools/study/run_points.hpp"
 #include "tools/study/study_folder.hpp"
@@ -47,24 +48,21 @@ void print_notes_of(const std::vector<Measurement>& measurements)
   print_notes({notes.begin(), notes.end()});
 }
 
-StudyResults measure_all(const Study& study, const StudyOptions& options, const std::filesystem::path& cache)
+StudyResults measure_all(const Study& study, const StudyOptions& options, const std::filesystem::path& folder,
+                         const std::filesystem::path& cache)
 {
   const std::vector<Point> points = points_of(study);
   StudyResults results{study, command_of(options), {}, measurements_of(study, points), {}, {}};
   print_notes_of(results.measurements);
   expect_sound_reference(study, points, results.measurements);
+  // Before hours of runs, not after them; all that the study reads has been read.
+  expect_results(folder, {"points.csv", "study.json", "gates.csv", "map.csv", "index.html"});
   const auto measured = run_points(study, points, results.measurements, cache, options.quiet);
   for (std::size_t i = 0; i < points.size(); ++i) results.points.push_back({points[i], measured[i]});
   results.findings = findings_of(study, results.points);
   results.map = map_of(study, results.points, results.findings);
   results.expectations = judge_expectations(study, results.points, results.findings);
   return results;
-}
-
-/// Before hours of runs, not after them.
-void expect_writable_results(const std::filesystem::path& folder)
-{
-  for (const char* name : {"points.csv", "study.json", "gates.csv", "map.csv"}) runtime::expect_writable(folder / name);
 }
 
 void write(const StudyResults& results, const std::filesystem::path& folder)
@@ -107,8 +105,7 @@ void run_study(const StudyOptions& options)
   const std::filesystem::path folder =
       options.folder.empty() ? std::filesystem::path("studies") / study.file.stem() : options.folder;
   const StudyFolder own(folder, options.force);
-  expect_writable_results(folder);
-  const StudyResults results = measure_all(study, options, own.points());
+  const StudyResults results = measure_all(study, options, folder, own.points());
   write(results, folder);
   if (!options.quiet) print_out("{}", to_text(results));
   draw_page(folder);

@@ -7,7 +7,7 @@
 #include <fstream>
 
 #include "runtime/file_error.hpp"
-#include "runtime/storage/whole_file.hpp"
+#include "tools/scene/output_file.hpp"
 #include "tools/system/child_process.hpp"
 #include "tools/system/console.hpp"
 #include "tools/system/errors.hpp"
@@ -84,7 +84,7 @@ void make_folder(const StudyBatch& batch, const std::vector<std::string>& output
   std::error_code error;
   fs::create_directories(batch.folder, error);
   if (error) throw runtime::FileError(batch.folder.string(), error.message());
-  for (const std::string& name : outputs) runtime::expect_writable(batch.folder / name);
+  expect_results(batch.folder, outputs);
 }
 
 std::vector<std::string> run_studies(const StudyBatch& batch, const std::vector<fs::path>& files)

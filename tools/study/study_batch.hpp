@@ -31,8 +31,8 @@ struct StudyBatch {
 /// that is no study's.
 std::vector<std::filesystem::path> chosen_studies(const StudyBatch& batch);
 
-/// Makes the batch's folder, and throws FileError where one of the files that are to be written there could not be:
-/// before the studies run, not after them.
+/// Makes the batch's folder, and throws as expect_results does where one of the files that are to be written there
+/// could not be: before the studies run, not after them.
 void make_folder(const StudyBatch& batch, const std::vector<std::string>& outputs);
 
 /// Runs the studies as `tamp study` does, in processes of their own, as HDF5 works on one thread at a time. Returns a

@@ -1,7 +1,5 @@
 #include "tools/system/shipped_inputs.hpp"
 
-#include <vector>
-
 #include "runtime/file_error.hpp"
 
 namespace tamp::tools
@@ -29,10 +27,15 @@ fs::path first_with(const fs::path& file, const std::vector<fs::path>& folders)
 
 }  // namespace
 
-fs::path shipped_input(const fs::path& file)
+std::vector<fs::path> input_folders()
 {
   const fs::path program = folder_of_program();
-  const fs::path found = first_with(file, {"inputs", program / "../../inputs", program / "../share/tamp/inputs"});
+  return {"inputs", program / "../../inputs", program / "../share/tamp/inputs"};
+}
+
+fs::path shipped_input(const fs::path& file)
+{
+  const fs::path found = first_with(file, input_folders());
   if (!found.empty()) return found;
   throw runtime::FileError("inputs" / file, "not found here, beside the program's sources, or where it is installed");
 }

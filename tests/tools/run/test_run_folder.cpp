@@ -6,6 +6,7 @@
 #include "runtime/file_error.hpp"
 #include "tests/tools/temporary_folder.hpp"
 #include "tools/run/run_folder.hpp"
+#include "tools/scene/input_file.hpp"
 #include "tools/system/errors.hpp"
 
 namespace test_run_folder
@@ -141,6 +142,41 @@ TEST_CASE("a file in the place of a run's folder is refused")
 TEST_CASE("a folder that cannot be made is an error of files")
 {
   CHECK_THROWS_AS(use("/proc/no/such", begin), runtime::FileError);
+}
+
+TEST_CASE("a file of a run that is a link to what the run reads is refused, and what is read stays")
+{
+  const std::string name = GENERATE("history.csv", "fields.h5", "summary.json", "scene.json", ".tamp-run");
+  const TemporaryFolder folder;
+  const fs::path scene = folder.write("mine.json", "{}");
+  tools::read_input_file(scene);
+  use(folder.path() / "run", begin);
+  fs::remove(folder.path() / "run" / name);
+  fs::create_symlink("../mine.json", folder.path() / "run" / name);
+
+  CHECK_THROWS_WITH(use(folder.path() / "run", go_on), Catch::Contains(name + ": one of the files that are read"));
+  CHECK(test::read_text(scene) == "{}");
+}
+
+TEST_CASE("a folder whose mark is a link to what the run reads is not marked")
+{
+  const TemporaryFolder folder;
+  const fs::path scene = folder.write("mine.json", "{}");
+  tools::read_input_file(scene);
+  fs::create_directory(folder.path() / "run");
+  fs::create_symlink("../mine.json", folder.path() / "run/.tamp-run");
+
+  CHECK_THROWS_AS(use(folder.path() / "run", begin), tools::InputError);
+  CHECK(test::read_text(scene) == "{}");
+}
+
+TEST_CASE("a run goes on from the scene that it wrote itself")
+{
+  const TemporaryFolder folder;
+  use(folder.path(), begin);
+  tools::read_input_file(folder.write("scene.json", "{}"));
+
+  CHECK_NOTHROW(use(folder.path(), go_on));
 }
 
 }  // namespace test_run_folder

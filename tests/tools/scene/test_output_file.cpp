@@ -103,4 +103,67 @@ TEST_CASE("a device that is written to stays one")
   CHECK(fs::is_character_file(link));
 }
 
+TEST_CASE("what a run has left is not replaced by what is drawn from it")
+{
+  const TemporaryFolder folder;
+  const fs::path run = folder.path() / "run", page = run / "report.html";
+  const std::string scene = TAMP_SOURCE_DIR "/inputs/punch/quick.json";
+  REQUIRE(tamp_with("run " + scene + " --quiet --steps 2 --out " + run.string()).exit_code == 0);
+  fs::create_symlink("history.csv", folder.path() / "soft.csv");
+  const auto is_refused = [&](const std::string& command, const fs::path& file) {
+    const std::string before = read_text(file);
+    const Outcome outcome = tamp_with(command);
+    INFO(command << "\n" << outcome.err);
+    CHECK(outcome.exit_code == 2);
+    CHECK_THAT(outcome.err, Catch::Contains("one of the files that are read; expected another file"));
+    CHECK(read_text(file) == before);
+  };
+
+  const std::string graph = "graph " + scene + " --run " + run.string();
+  is_refused(graph + " --format html --out " + (run / "profile.json").string(), run / "profile.json");
+  is_refused(graph + " --format html --out " + (run / "scene.json").string(), run / "scene.json");
+  is_refused(graph + " --threads 2 --out " + (run / "profile.json").string(), run / "profile.json");
+  fs::create_symlink("profile.json", page);
+  is_refused("profile --format html " + run.string(), run / "profile.json");
+  fs::remove(page);
+  fs::create_hard_link(run / "summary.json", page);
+  is_refused("profile --format html " + run.string(), run / "summary.json");
+  fs::remove(page);
+  fs::create_symlink("history.csv", run / "page.json");
+  is_refused("profile --format html " + run.string(), run / "history.csv");
+}
+
+TEST_CASE("a list of results is not written over a study, a scene or data that come with the program")
+{
+  const TemporaryFolder folder;
+  fs::copy(TAMP_SOURCE_DIR "/inputs", folder.path() / "inputs", fs::copy_options::recursive);
+  const std::string inside = "cd " + folder.path().string() + " && timeout 100 " TAMP_PROGRAM " ";
+  const auto [command, file] = GENERATE(
+      table<std::string, std::string>({{"verify bar --short --quiet", "inputs/verification/scenes/bar.json"},
+                                       {"stability null_space --quiet", "inputs/stability/scenes/null_space.json"},
+                                       {"bench moduli", "inputs/materials/concrete-sand/table.json"},
+                                       {"bench tasks --threads 1", "inputs/punch/quick.json"}}));
+  const std::string before = read_text(folder.path() / file);
+  REQUIRE_FALSE(before.empty());
+
+  const Outcome outcome = outcome_of(inside + command + " --json " + file);
+
+  INFO(command);
+  CHECK(outcome.exit_code == 2);
+  CHECK_THAT(outcome.err, Catch::Contains("--json " + file + ": one of the files that are read"));
+  CHECK(read_text(folder.path() / file) == before);
+}
+
+TEST_CASE("a path that cannot be driven to its end leaves no table that looks whole")
+{
+  const TemporaryFolder folder;
+  const auto own_path = folder.write("path.csv", std::string(path) + "2,1e200,0,0,0,1e200,0,0,0,1e200\n");
+  const fs::path out = folder.path() / "out.csv";
+
+  const Outcome outcome = tamp_with("drive " + sand + "/table.json " + own_path.string() + " --out " + out.string());
+
+  REQUIRE(outcome.exit_code != 0);
+  CHECK_FALSE(fs::exists(out));
+}
+
 }  // namespace test_output_file

@@ -598,4 +598,35 @@ TEST_CASE("a reference that would be refused ends a study before anything runs")
   CHECK(study.n_kept() == 0);
 }
 
+TEST_CASE("a result that is a link to what the study reads, or to another result, is refused, and both stay")
+{
+  const FlightStudy study;
+  REQUIRE(study.run().exit_code == 0);
+  const auto [name, target] = GENERATE(table<std::string, std::string>(
+      {{"points.csv", "../flight.json"}, {"study.json", "../study.json"}, {"index.html", "study.json"}}));
+  const std::filesystem::path link = study.out() / name;
+  std::filesystem::remove(link);
+  std::filesystem::create_symlink(target, link);
+  const std::string before = read_text(link);
+
+  const Outcome outcome = study.run();
+
+  INFO(outcome.err);
+  CHECK(outcome.exit_code == 2);
+  CHECK_THAT(outcome.err, Contains(name) && Contains("expected another file"));
+  CHECK(read_text(link) == before);
+}
+
+TEST_CASE("a pipe in the place of a result of a study is refused before anything runs")
+{
+  const FlightStudy study;
+  REQUIRE(study.run().exit_code == 0);
+  a_pipe(study.out() / "points.csv");
+
+  const Outcome outcome = outcome_of("timeout --signal=KILL 60 " TAMP_PROGRAM " " + study.arguments("{}"));
+
+  CHECK(outcome.exit_code == 4);
+  CHECK_THAT(outcome.err, Contains("points.csv: a pipe, a device or a socket; expected a file"));
+}
+
 }  // namespace test_study_command

@@ -3,6 +3,7 @@
 import copy
 import json
 import math
+import os
 import pathlib
 import re
 import subprocess
@@ -169,6 +170,21 @@ class ThePage(unittest.TestCase):
                 pages.append((pathlib.Path(folder) / "report.html").read_bytes())
 
         self.assertEqual(*pages)
+
+    def test_a_page_that_is_a_link_to_what_it_is_drawn_from_is_refused_and_so_is_a_pipe(self):
+        with tempfile.TemporaryDirectory() as name:
+            document, page = pathlib.Path(name, "compare.json"), pathlib.Path(name, "report.html")
+            document.write_text(json.dumps(comparison()))
+            page.symlink_to(document.name)
+            linked = subprocess.run([*DRAW, name], capture_output=True, text=True, timeout=60)
+            page.unlink()
+            os.mkfifo(page)
+            piped = subprocess.run([*DRAW, name], capture_output=True, text=True, timeout=60)
+
+            self.assertEqual((linked.returncode, piped.returncode), (2, 4))
+            self.assertIn("report.html: an input; expected another file to write to", linked.stderr)
+            self.assertIn("report.html: a folder, a pipe or a device", piped.stderr)
+            self.assertEqual(json.loads(document.read_text()), comparison())
 
 
 class Lines(unittest.TestCase):

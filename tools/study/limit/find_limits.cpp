@@ -7,6 +7,7 @@
 
 #include "runtime/file_error.hpp"
 #include "runtime/storage/whole_file.hpp"
+#include "tools/scene/output_file.hpp"
 #include "tools/scene/parse_json.hpp"
 #include "tools/scene/print_json.hpp"
 #include "tools/study/limit/limit_report.hpp"
@@ -203,7 +204,7 @@ void find_limits(const StudyOptions& options, const LimitOptions& limit)
   const fs::path folder =
       options.folder.empty() ? fs::path("studies") / (study.file.stem().string() + "-limit") : options.folder;
   const StudyFolder own(folder, options.force);
-  for (const char* name : {"limit.json", "limit.csv"}) runtime::expect_writable(folder / name);
+  expect_results(folder, {"limit.json", "limit.csv"});
   const Prober prober(study, limit.pointer, own.points(), options.quiet);
   LimitResults results{study, command_of(options, limit), limit.pointer, limit.search, {}};
   for (std::size_t i = 0; i < points.size(); ++i) {

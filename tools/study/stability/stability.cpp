@@ -5,6 +5,7 @@
 
 #include "runtime/storage/whole_file.hpp"
 #include "tasks/simulation_error.hpp"
+#include "tools/scene/input_file.hpp"
 #include "tools/scene/output_file.hpp"
 #include "tools/scene/print_json.hpp"
 #include "tools/study/stability/catalogue.hpp"
@@ -62,6 +63,7 @@ void run_catalogue(const study::StudyBatch& batch)
 {
   const std::vector<fs::path> files = chosen_studies(batch);
   const std::vector<study::Study> studies = read_entries(files);
+  note_shipped_inputs();
   expect_outputs({{"--json", batch.json}});
   make_folder(batch, {"stability.json", "stability.md"});
   std::vector<std::string> failures = run_studies(batch, files);

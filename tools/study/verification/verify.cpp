@@ -22,6 +22,7 @@ void verify(const study::StudyBatch& options)
 {
   const std::vector<fs::path> files = chosen_studies(options);
   for (const fs::path& file : files) expect_input_file(file);
+  note_shipped_inputs();
   expect_outputs({{"--json", options.json}});
   make_folder(options, {"verification.json", "verification.md"});
   std::vector<std::string> failures = run_studies(options, files), known_misses, held_misses;

@@ -8,8 +8,8 @@ import os
 import pathlib
 
 from tamp.charts import compare_page, run_page, study, study_page
-from tamp.failure import Refusal
-from tamp.files import written_by_tamp
+from tamp.failure import Failure, Refusal
+from tamp.files import keep_inputs, written_by_tamp
 
 
 def add_arguments(parser):
@@ -24,6 +24,16 @@ def main(options):
     written = [(path, draw) for path, draw in pages if os.path.exists(path)]
     if not written:
         raise Refusal(folder, "no study.json, compare.json or profile.json", "the folder of a study, comparison or run")
+    check_places(folder)
     for path, draw in written:
         with written_by_tamp(path):
             draw()
+
+
+def check_places(folder):
+    """That pages and charts are no links to what they are drawn from, and no pipes, which would wait for a reader."""
+    pages = [folder / "index.html", folder / "report.html"]
+    keep_inputs([path for path in folder.iterdir() if path not in pages], [*pages, *(folder / "charts").glob("*")])
+    for page in pages:
+        if page.exists() and not page.is_file():
+            raise Failure(page, "a folder, a pipe or a device", "a place for a file")
