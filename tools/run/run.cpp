@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <utility>
 #include <vector>
 
 #include "runtime/data/byte_stream.hpp"
@@ -44,18 +45,21 @@ namespace
 
 using Clock = std::chrono::steady_clock;
 
+constexpr const char* summary_file = "summary.json";
+
 double seconds_since(Clock::time_point start)
 {
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-/// Of the files in a folder and below [bytes]; what cannot be read counts nothing.
+/// Of the files in a folder and below [bytes]; what cannot be read counts nothing, nor what is held for later.
 double bytes_in(const std::filesystem::path& folder)
 {
   double bytes = 0;
   std::error_code unreadable;
   for (const auto& entry : std::filesystem::recursive_directory_iterator(folder, unreadable)) {
-    const auto size = entry.is_regular_file(unreadable) ? entry.file_size(unreadable) : 0;
+    const bool counts = entry.is_regular_file(unreadable) && entry.path().extension() != ".part";
+    const auto size = counts ? entry.file_size(unreadable) : 0;
     if (!unreadable) bytes += static_cast<double>(size);
   }
   return bytes;
@@ -117,8 +121,8 @@ class Runner
       history_.begin(options.folder);
       machine_history_.begin(options.folder);
     }
-    on_first_rank(
-        [&] { runtime::write_whole_file(options_.folder / "scene.json", json_text(checked_.resolved, 2) + "\n"); });
+    write("scene.json", json_text(checked_.resolved, 2));
+    on_first_rank([&] { folder_->hold_room_for(summary_file); });
   }
 
   void run()
@@ -127,6 +131,7 @@ class Runner
       run_to_end();
     } catch (const runtime::FileError& error) {
       output_.settle();
+      leave_summary(error.what());
       throw runtime::FileError(error.file, error.cause + way_on());
     }
   }
@@ -314,6 +319,15 @@ class Runner
     on_first_rank([&] { folder_->expect_own(); });
   }
 
+  /// Writes a text into the folder.
+  void write(const std::string& name, const std::string& text) const
+  {
+    on_first_rank([&] {
+      folder_->expect_own();
+      runtime::write_whole_file(options_.folder / name, text + "\n");
+    });
+  }
+
   void keep_state()
   {
     const bool due = checkpoint_clock_.due(simulation_->n_steps(), simulation_->time());
@@ -381,11 +395,11 @@ class Runner
   /// Keeps what is good, and passes the error on with where in the run it happened.
   [[noreturn]] void fail(const tasks::SimulationError& error)
   {
+    instability_ = fmt::format("step {}, time {:.6g} s: {}", simulation_->n_steps(), simulation_->time(), error.what());
     if (state_is_good_) write_checkpoint_now();
     write_last_state();
     const std::string reason =
-        fmt::format("step {}, time {:.6g} s: {}; the last state is kept in {}", simulation_->n_steps(),
-                    simulation_->time(), error.what(), (options_.folder / "fields.h5").string());
+        fmt::format("{}; the last state is kept in {}", instability_, (options_.folder / "fields.h5").string());
     finish("unstable", reason);
     // From a good state shorter steps may lead further.
     const std::string shorter =
@@ -402,9 +416,35 @@ class Runner
     return fmt::format("\nto go on from step {}: {}{}", *step, options_.command_to_go_on, settings);
   }
 
+  /// After an output has failed, where there is none yet, as far as one can be written.
+  void leave_summary(const std::string& failure)
+  {
+    if (has_summary_) return;
+    try {
+      if (instability_.empty()) {
+        summarise("interrupted", failure);
+      } else {
+        summarise("unstable", instability_ + "; " + failure);
+      }
+    } catch (const runtime::FileError&) {
+      return;  // what failed first is what the run tells
+    }
+  }
+
   void finish(const std::string& status, const std::string& reason)
   {
     output_.finish();
+    const auto [summary, profile] = summarise(status, reason);
+    // Last, as it may be large, and a run can do without.
+    if (options_.traced_steps.kind != runtime::TraceChoice::Kind::none) write_trace();
+    if (options_.quiet || !is_first()) return;
+    print_out("{}\n{}  written to {}\n", runtime::to_text(profile, {.n_rows = 10}), summary_text(summary),
+              options_.folder.string());
+  }
+
+  /// Writes `summary.json` and `profile.json`, and gives what they hold.
+  std::pair<nlohmann::ordered_json, nlohmann::json> summarise(const std::string& status, const std::string& reason)
+  {
     OutputTime output_time = output_.time();
     output_time.history = history_seconds_;
     parts_.output = output_time.history + output_time.fields + output_time.checkpoints + output_time.waited;
@@ -419,15 +459,10 @@ class Runner
                     {status, reason, seconds_since(start_), median({step_seconds_.begin(), step_seconds_.end()}),
                      parts_, resident_at_start_, restarted_at_, output_.in_background(), output_time, forecast_,
                      missed_, checked_.inputs, checked_.left_out, warnings_});
-    on_first_rank([&] {
-      runtime::write_whole_file(options_.folder / "summary.json", json_text(summary, 2) + "\n");
-      runtime::write_whole_file(options_.folder / "profile.json", json.dump(1) + "\n");
-    });
-    // Last, as it may be large, and a run can do without.
-    if (options_.traced_steps.kind != runtime::TraceChoice::Kind::none) write_trace();
-    if (options_.quiet || !is_first()) return;
-    print_out("{}\n{}  written to {}\n", runtime::to_text(json, {.n_rows = 10}), summary_text(summary),
-              options_.folder.string());
+    write(summary_file, json_text(summary, 2));
+    has_summary_ = true;
+    write("profile.json", json.dump(1));
+    return {summary, json};
   }
 
   nlohmann::ordered_json machine() const { return run_machine(options_.communicator.size(), simulation_->n_threads()); }
@@ -461,6 +496,9 @@ class Runner
   Outputs written_;
   long restarted_at_ = -1;
   bool state_is_good_ = true;
+  /// What went wrong in the simulation; empty: nothing.
+  std::string instability_;
+  bool has_summary_ = false;
   ForecastMiss missed_;
   double history_seconds_ = 0;
   WallParts parts_;

@@ -1,10 +1,12 @@
 #include "tools/run/run_folder.hpp"
 
+#include <fcntl.h>
 #include <fmt/format.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <chrono>
+#include <cstdint>
 #include <regex>
 #include <set>
 #include <thread>
@@ -167,6 +169,21 @@ RunFolder::RunFolder(const fs::path& folder, Use use, std::span<const fs::path> 
     notice_ = fmt::format("{}: the lock of a run that has ended was taken over: {}", folder.string(),
                           lock_->former_holder()->description());
   }
+}
+
+RunFolder::~RunFolder()
+{
+  if (!held_.empty() && lock_->is_own()) ::unlink(held_.c_str());
+}
+
+void RunFolder::hold_room_for(const std::string& name)
+{
+  constexpr std::int64_t n_bytes = 1 << 16;
+  held_ = folder_ / (name + ".part");
+  const int made = ::open(held_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0644);
+  if (made < 0) return;
+  static_cast<void>(posix_fallocate(made, 0, n_bytes));
+  ::close(made);
 }
 
 void RunFolder::expect_own() const

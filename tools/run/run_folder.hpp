@@ -35,6 +35,13 @@ class RunFolder
   /// in which a file of the run is a link to one of them; FileError for one that cannot be made, emptied or written to,
   /// or with a pipe, a device or a socket in the place of a file.
   RunFolder(const std::filesystem::path& folder, Use use, std::span<const std::filesystem::path> inputs);
+  ~RunFolder();
+  RunFolder(const RunFolder&) = delete;
+  RunFolder& operator=(const RunFolder&) = delete;
+
+  /// Takes the room that a small file needs, such as a summary, for when the disk will be full: it is given back as
+  /// that file is written, see runtime::WholeFile. Nothing where there is no such room.
+  void hold_room_for(const std::string& name);
 
   /// A notice for the user; may be empty.
   const std::string& notice() const { return notice_; }
@@ -46,6 +53,8 @@ class RunFolder
   std::filesystem::path folder_;
   std::unique_ptr<runtime::FolderLock> lock_;
   std::string notice_;
+  /// Empty: none.
+  std::filesystem::path held_;
 };
 
 }  // namespace tamp::tools

@@ -179,4 +179,17 @@ TEST_CASE("a run goes on from the scene that it wrote itself")
   CHECK_NOTHROW(use(folder.path(), go_on));
 }
 
+TEST_CASE("room that is held for a file is there while the folder is, and no longer")
+{
+  const TemporaryFolder folder;
+  const fs::path held = folder.path() / "summary.json.part";
+  {
+    RunFolder run(folder.path(), begin, {});
+    run.hold_room_for("summary.json");
+    CHECK(fs::file_size(held) >= 1 << 15);
+  }
+
+  CHECK_FALSE(fs::exists(held));
+}
+
 }  // namespace test_run_folder
