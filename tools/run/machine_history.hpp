@@ -26,6 +26,8 @@ class MachineHistory
   void add_step(double seconds);
   /// Takes in what all ranks have taken until now, at this step and simulated time [s]. Collective.
   void write_row(long step, double time, std::size_t ledger_bytes);
+  /// Throws FileError if the table is no longer there as it was written. On the first rank.
+  void expect_as_written() const { csv_->expect_as_written(); }
 
  private:
   using Clock = std::chrono::steady_clock;

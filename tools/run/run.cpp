@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -134,6 +135,7 @@ class Runner
       leave_summary(error.what());
       throw runtime::FileError(error.file, error.cause + way_on());
     }
+    if (lost_output_) throw runtime::FileError(*lost_output_);
   }
 
  private:
@@ -350,6 +352,7 @@ class Runner
   [[noreturn]] void leave(const StopReason& stop)
   {
     write_last_state();
+    look_for_lost_output();
     const std::string reason = fmt::format("{}, after step {}, time {:.6g} s; to go on: {}", stop.words,
                                            simulation_->n_steps(), simulation_->time(), options_.command_to_go_on);
     finish("interrupted", reason);
@@ -361,14 +364,14 @@ class Runner
     const components::UpdateCounts& updates = simulation_->updates();
     if (updates.failures > 0) warn(fmt::format("{} stress updates have failed", updates.failures));
     history_.measure();
-    output_.finish();
+    look_for_lost_output();
     missed_ = miss_of_forecast();
     for (const Monitor& monitor : monitors_of(*simulation_, history_, missed_)) {
       if (monitor.warns()) warn(warning_of(monitor, checked_.scene));
     }
     const bool warned = common_warnings() > 0;
     finish(warned ? "completed with warnings" : "completed", "");
-    if (!warned || !options_.strict) return;
+    if (!warned || !options_.strict || lost_output_) return;
     const std::string reason = "completed with warnings, which --strict does not take";
     throw tasks::SimulationError(reason, "", -1, {});
   }
@@ -398,6 +401,7 @@ class Runner
     instability_ = fmt::format("step {}, time {:.6g} s: {}", simulation_->n_steps(), simulation_->time(), error.what());
     if (state_is_good_) write_checkpoint_now();
     write_last_state();
+    look_for_lost_output();
     const std::string reason =
         fmt::format("{}; the last state is kept in {}", instability_, (options_.folder / "fields.h5").string());
     finish("unstable", reason);
@@ -414,6 +418,22 @@ class Runner
     const auto step = newest_step(options_.folder);
     if (!step || options_.command_to_go_on.empty()) return "";
     return fmt::format("\nto go on from step {}: {}{}", *step, options_.command_to_go_on, settings);
+  }
+
+  /// What others have removed, replaced or emptied since it was written is told at the end.
+  void look_for_lost_output()
+  {
+    output_.finish();
+    try {
+      on_first_rank([&] {
+        history_.expect_as_written();
+        machine_history_.expect_as_written();
+        output_.expect_as_written();
+      });
+    } catch (const runtime::FileError& lost) {
+      lost_output_ = lost;
+      warn(lost.what());
+    }
   }
 
   /// After an output has failed, where there is none yet, as far as one can be written.
@@ -499,6 +519,7 @@ class Runner
   /// What went wrong in the simulation; empty: nothing.
   std::string instability_;
   bool has_summary_ = false;
+  std::optional<runtime::FileError> lost_output_;
   ForecastMiss missed_;
   double history_seconds_ = 0;
   WallParts parts_;

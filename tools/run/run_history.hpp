@@ -101,6 +101,9 @@ class RunHistory
   const tasks::ParticleReport& report() const { return report_; }
   const tasks::NoseReport& nose_report() const { return nose_report_; }
 
+  /// Throws FileError if `history.csv` is no longer there as it was written. On the first rank.
+  void expect_as_written() const { csv_->expect_as_written(); }
+
   /// Bodies that move at the start, are rigid or under a pressure load; the others are what they move into.
   const std::vector<std::size_t>& tracked_bodies() const { return tracked_; }
   /// How far a body's centre of mass has moved along its initial velocity; of one that starts at rest, how far it is

@@ -56,6 +56,8 @@ class RunOutput
 
   void write_fields(bool with_nodes);
   void write_checkpoint(const std::string& fingerprint, std::span<const std::byte> host);
+  /// Throws FileError if `fields.h5` is no longer there as it was written. When all is; on the first rank.
+  void expect_as_written() const { fields_->expect_as_written(); }
   /// Waits until all is written.
   void finish();
   /// Finishes the output of a run that has failed already, without throwing.
