@@ -26,8 +26,6 @@ namespace tamp::tools
 namespace
 {
 
-constexpr int most_threads = 1024;
-
 struct BenchArguments {
   std::vector<std::string> names;
   std::string json;
@@ -184,7 +182,7 @@ CLI::App* add_bench_command(CLI::App& app)
         {"tasks", "gains"})
       ->delimiter(',')
       ->allow_extra_args(false)
-      ->check(is_whole_from_to(1, most_threads));
+      ->check(is_whole_from_to(1, 1024));
   is_of(command->add_option("--message-bytes", options->tasks.message_bytes,
                             "of tasks on several ranks: data that one sends to the next in a step, a multiple of 8"),
         {"tasks"})

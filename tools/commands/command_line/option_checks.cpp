@@ -29,7 +29,7 @@ CLI::Validator number_check(const std::string& expected, const IsRight& is_right
 }
 
 /// Nothing for what is none, or does not fit.
-std::optional<std::int64_t> whole_number(const std::string& text)
+std::optional<std::int64_t> signed_whole_number(const std::string& text)
 {
   std::int64_t value = 0;
   const char* const end = text.data() + text.size();
@@ -43,7 +43,7 @@ CLI::Validator is_whole_from(std::int64_t least)
 {
   const std::string expected = fmt::format("a whole number, at least {}", least);
   const auto problem = [expected, least](const std::string& text) {
-    const std::optional<std::int64_t> value = whole_number(text);
+    const std::optional<std::int64_t> value = signed_whole_number(text);
     return value && *value >= least ? "" : fmt::format("{}; expected {}", text, expected);
   };
   return CLI::Validator(problem, expected);
@@ -53,9 +53,10 @@ CLI::Validator is_whole_from_to(std::int64_t least, std::int64_t most)
 {
   const std::string range = fmt::format("{} to {}", least, most);
   const auto problem = [range, least, most](const std::string& text) {
-    const std::optional<std::int64_t> value = whole_number(text);
+    const std::optional<std::int64_t> value = signed_whole_number(text);
     if (value && *value >= least && *value <= most) return std::string();
-    return fmt::format("{}; expected {}{}", text, value ? "" : "a whole number, ", range);
+    const bool is_within = is_from_to(static_cast<double>(least), static_cast<double>(most))(text).empty();
+    return fmt::format("{}; expected {}{}", text, is_within ? "a whole number, " : "", range);
   };
   return CLI::Validator(problem, range);
 }
