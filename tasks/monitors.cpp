@@ -13,6 +13,13 @@ void SampledShare::add(const Share& share, double limit, std::int64_t n_steps, d
   if (share.value() > limit) above.add(n_steps, time, place);
 }
 
+void BorneShare::add(const Share& sample, double limit, std::int64_t n_steps, double time, const ParticlePlace& place)
+{
+  greatest.part = std::max(greatest.part, sample.part);
+  greatest.whole = std::max(greatest.whole, sample.whole);
+  if (Share{sample.part, greatest.whole}.value() > limit) above.add(n_steps, time, place);
+}
+
 void ContactSample::add(double gap, double impulse, const ParticlePlace& place)
 {
   // An edge that cuts through the lattice of particles makes a gap seem up to a quarter of a cell smaller.
@@ -36,10 +43,15 @@ double missed_substeps(const components::UpdateCounts& updates, std::size_t n_pa
   return static_cast<double>(updates.limited_substeps) / static_cast<double>(updates.substeps);
 }
 
+std::size_t n_out_of_range(const components::UpdateCounts& updates)
+{
+  return updates.extrapolated - updates.pulled_out - updates.looser;
+}
+
 double out_of_range(const components::UpdateCounts& updates)
 {
-  const std::size_t squeezed_out = updates.extrapolated - updates.pulled_out;
-  return updates.with_range > 0 ? static_cast<double>(squeezed_out) / static_cast<double>(updates.with_range) : 0;
+  if (updates.with_range == 0) return 0;
+  return static_cast<double>(n_out_of_range(updates)) / static_cast<double>(updates.with_range);
 }
 
 }  // namespace tamp::tasks

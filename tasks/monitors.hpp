@@ -27,12 +27,16 @@ struct StateSample {
   Share uneven_pressure;
   /// Particles of elastic materials: those whose neighbours are more than 1.2 cells away, and that hold tension; all.
   Share torn_apart;
-  /// Of the torn ones, and of those whose modulus is out of its range in compression, that with the lowest id.
-  ParticlePlace torn, out_of_range;
+  /// Sums of V p over sand in compression: that which is looser than any test, and all [Pa m^3].
+  Share borne_by_looser;
+  /// Of those that are torn, looser than any test, and in compression beyond the largest strain that was tested, that
+  /// with the lowest id.
+  ParticlePlace torn, looser, out_of_range;
 
   static constexpr auto fields =
-      std::tuple{&StateSample::uneven_pressure, &StateSample::torn_apart, runtime::Least{&StateSample::torn},
-                 runtime::Least{&StateSample::out_of_range}};
+      std::tuple{&StateSample::uneven_pressure,        &StateSample::torn_apart,
+                 &StateSample::borne_by_looser,        runtime::Least{&StateSample::torn},
+                 runtime::Least{&StateSample::looser}, runtime::Least{&StateSample::out_of_range}};
 };
 
 /// Sums over the nodes at which two materials push each other.
@@ -60,16 +64,29 @@ struct SampledShare {
   void add(const Share& share, double limit, std::int64_t n_steps, double time, const ParticlePlace& place = {});
 };
 
+/// What a part of the matter bears at most in the samples of a run so far, over the most that all of it bears in any:
+/// beside the blow that a run is about, what is left after it is nothing.
+struct BorneShare {
+  Share greatest;
+  /// Of samples in which the part bears more than the scene's limit of the most so far.
+  Sightings above;
+
+  void add(const Share& sample, double limit, std::int64_t n_steps, double time, const ParticlePlace& place);
+};
+
 /// The part of the materials' substeps that missed their tolerance, once there are many of them for each of
 /// `n_particles`: in its first steps sand has no stress yet beside which an error could be small. Before that 0.
 double missed_substeps(const components::UpdateCounts& updates, std::size_t n_particles);
 
-/// The part of the updates that ended in compression beyond the range of their modulus. In tension sand has next to no
-/// stress, whatever its modulus.
+/// The updates that ended in compression beyond the largest strains that their modulus was made for: not those of sand
+/// that is looser than any test, nor those in tension, where sand has next to no stress, whatever its modulus.
+std::size_t n_out_of_range(const components::UpdateCounts& updates);
+/// The part of the updates that these are.
 double out_of_range(const components::UpdateCounts& updates);
 
 struct MonitorRecords {
   SampledShare null_space, uneven_pressure, torn_apart, early_contact, interpenetration;
+  BorneShare looser_than_tested;
   /// Samples in which the share since the start was above its limit.
   Sightings missed_substeps, out_of_range;
 };

@@ -219,6 +219,7 @@ struct SceneLimits {
   double courant_number = 1;
   double redone_steps = 0.1;
   double missed_substeps = 0.05;
+  double looser_than_tested = 0.2;
   double out_of_range = 0.2;
   double energy_drift = 0.02;
   double momentum_error = 0.01;
@@ -235,10 +236,10 @@ struct SceneLimits {
 
   bool samples_after(long n_steps) const { return n_steps % sampled_every == 0; }
   /// All but the first.
-  static constexpr std::array<components::Parameter<SceneLimits>, 16> parameters();
+  static constexpr std::array<components::Parameter<SceneLimits>, 17> parameters();
 };
 
-constexpr std::array<components::Parameter<SceneLimits>, 16> SceneLimits::parameters()
+constexpr std::array<components::Parameter<SceneLimits>, 17> SceneLimits::parameters()
 {
   using components::above_zero, components::zero_or_above;
   using L = SceneLimits;
@@ -254,9 +255,14 @@ constexpr std::array<components::Parameter<SceneLimits>, 16> SceneLimits::parame
         "warns beyond: the part of the materials' substeps that missed their tolerance, from 100 substeps a particle "
         "on",
         true},
+       {"looser_than_tested", "", part, &L::looser_than_tested,
+        "warns beyond: the most that sand bears (the sum of V p) which has dilated until it is looser than any that "
+        "was "
+        "tested, over the most that all sand bears in a sample",
+        true},
        {"out_of_range", "", part, &L::out_of_range,
-        "warns beyond: the part of the updates that ended in compression outside the strains that the modulus was made "
-        "for",
+        "warns beyond: the part of the updates that ended in compression beyond the largest strains that the modulus "
+        "was made for",
         true},
        {"energy_drift", "", zero_or_above, &L::energy_drift,
         "warns beyond: the error of the energy at the end, over what the run has been given", true},
@@ -299,8 +305,9 @@ constexpr std::array<components::Parameter<SceneLimits>, 16> SceneLimits::parame
         "",
         {.lower = 1, .upper = 1e6},
         &L::sampled_every,
-        "steps between the samples of `null_space`, `uneven_pressure`, `torn_apart`, `early_contact` and "
-        "`interpenetration`",
+        "steps between the samples of `null_space`, `uneven_pressure`, `torn_apart`, `looser_than_tested`, "
+        "`early_contact` "
+        "and `interpenetration`",
         true}}};
 }
 

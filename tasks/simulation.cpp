@@ -135,6 +135,7 @@ void Simulation::sample_state()
   records.null_space.add(unseen, limits.null_space, n_steps(), time());
   records.uneven_pressure.add(sample.uneven_pressure, limits.uneven_pressure, n_steps(), time());
   records.torn_apart.add(sample.torn_apart, limits.torn_apart, n_steps(), time(), sample.torn);
+  records.looser_than_tested.add(sample.borne_by_looser, limits.looser_than_tested, n_steps(), time(), sample.looser);
   if (missed_substeps(updates(), scene_.n_particles()) > limits.missed_substeps) {
     records.missed_substeps.add(n_steps(), time());
   }

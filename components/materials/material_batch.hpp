@@ -79,15 +79,22 @@ struct UpdateCounts {
   std::size_t with_range = 0;           ///< updates by an elastic model that is made for a range of strains
   std::size_t extrapolated = 0;         ///< of those, the ones that ended outside that range
   std::size_t pulled_out = 0;           ///< of those, the ones in tension, where sand has next to no stress
+  std::size_t looser = 0;               ///< of the others, the ones looser than any test
   std::size_t failures = 0;             ///< updates that found no stress
   std::size_t separations = 0;          ///< particles that came apart
   std::size_t apart = 0;                ///< updates of particles that were apart and stay so, which are no work
 
-  static constexpr auto fields = std::tuple{&UpdateCounts::substeps,         &UpdateCounts::split_updates,
-                                            &UpdateCounts::limited_substeps, &UpdateCounts::modulus_evaluations,
-                                            &UpdateCounts::with_range,       &UpdateCounts::extrapolated,
-                                            &UpdateCounts::pulled_out,       &UpdateCounts::failures,
-                                            &UpdateCounts::separations,      &UpdateCounts::apart};
+  static constexpr auto fields = std::tuple{&UpdateCounts::substeps,
+                                            &UpdateCounts::split_updates,
+                                            &UpdateCounts::limited_substeps,
+                                            &UpdateCounts::modulus_evaluations,
+                                            &UpdateCounts::with_range,
+                                            &UpdateCounts::extrapolated,
+                                            &UpdateCounts::pulled_out,
+                                            &UpdateCounts::looser,
+                                            &UpdateCounts::failures,
+                                            &UpdateCounts::separations,
+                                            &UpdateCounts::apart};
 
   void add(const UpdateCounts& other)
   {

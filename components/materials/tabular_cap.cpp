@@ -16,6 +16,7 @@ TabularCap::TabularCap(TabularCapParameters parameters) : parameters_(std::move(
   const double nu = parameters_.poisson_ratio;
   if (!(nu > -1 && nu < 0.5)) throw BadValue("Poisson's ratio " + std::to_string(nu), "a number between -1 and 0.5");
   shear_ratio_ = 1.5 * (1 - 2 * nu) / (1 + nu);
+  least_plastic_ = std::visit([](const auto& model) { return model.range().least_plastic; }, parameters_.modulus);
 
   const std::span<const double> crush = parameters_.crush_curve.y();
   for (std::size_t i = 0; i < crush.size(); ++i) {
@@ -57,16 +58,18 @@ TangentModuli TabularCap::initial_moduli() const
   return {bulk, shear_ratio_ * bulk};
 }
 
-bool TabularCap::is_out_of_range(const CapState& state, double pressure) const
+Tested TabularCap::tested(const CapState& state, double pressure) const
 {
-  if (pressure < 0 || state.separation_volume > 0) return false;
+  if (pressure < 0 || state.separation_volume > 0) return Tested::within;
   const double elastic = state.elastic_volumetric, plastic = state.plastic_volumetric;
   const bool rate = parameters_.elastic_update == ElasticUpdate::rate;
-  return std::visit(
+  const bool is_within = std::visit(
       [&](const auto& model) {
-        return !(rate ? model.rate_in_range(pressure, elastic, plastic) : model.in_range(elastic, plastic));
+        return rate ? model.rate_in_range(pressure, elastic, plastic) : model.in_range(elastic, plastic);
       },
       parameters_.modulus);
+  if (is_within) return Tested::within;
+  return plastic < least_plastic_ ? Tested::looser : Tested::beyond;
 }
 
 double TabularCap::pressure(const CapState& state) const
@@ -271,8 +274,7 @@ class CapBatch
     set_lanes(batch_.shear_modulus, begin, sand_.shear_ratio() * now.bulk_modulus);
     set_lanes(batch_.plastic_work, begin, now.plastic_work);
     counts_.with_range += n;
-    counts_.extrapolated += count(!within && first_lanes(n));
-    counts_.pulled_out += count(!within && now.pressure < 0.0 && first_lanes(n));
+    if (!all_of(within)) count_extrapolated(now, !within && first_lanes(n));
     if (!may_part_ && all_of(found)) return set_states(begin, n, now);
     for (std::size_t l = 0; l < n; ++l) {
       if (found[l]) {
@@ -345,6 +347,14 @@ class CapBatch
     return sand_.parameters().elastic_update == ElasticUpdate::state
                ? in_range(model_, at.elastic_volumetric, at.plastic_volumetric)
                : rate_in_range(model_, at.pressure, at.elastic_volumetric, at.plastic_volumetric);
+  }
+
+  void count_extrapolated(const CapParticleOf<Lanes>& now, const Mask<Lanes>& outside)
+  {
+    const Mask<Lanes> pulled = now.pressure < 0.0;
+    counts_.extrapolated += count(outside);
+    counts_.pulled_out += count(outside && pulled);
+    counts_.looser += count(outside && !pulled && now.plastic_volumetric < sand_.least_plastic());
   }
 
   /// Leaves the particle as it was, and marks it.

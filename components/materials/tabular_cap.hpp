@@ -26,6 +26,11 @@ namespace tamp::components
 /// dp = K d(elastic), as published, which loses the pressure that goes with a change of plastic strain.
 enum class ElasticUpdate { rate, state };
 
+/// Where a state in compression lies beside the strains that the modulus was made for: `looser` has less plastic
+/// volumetric strain than any of them, as sand that has dilated, `beyond` is past the largest. In tension sand has next
+/// to no stress, and lies `within`.
+enum class Tested { within, looser, beyond };
+
 struct CapState {
   double elastic_volumetric = 0;  ///< compression positive
   double plastic_volumetric = 0;  ///< compression positive
@@ -84,8 +89,11 @@ class TabularCap
   double bulk_modulus(const CapState& state, double pressure) const;
   TangentModuli initial_moduli() const;
 
-  /// Whether a state under `pressure`, which is no tension, lies beyond the strains that the modulus was made for.
-  bool is_out_of_range(const CapState& state, double pressure) const;
+  /// Of a state under `pressure`.
+  Tested tested(const CapState& state, double pressure) const;
+
+  /// Sand with less plastic volumetric strain is looser than any that was tested.
+  double least_plastic() const { return least_plastic_; }
 
   /// The pressure that the state form gives a state: what the stress of a particle must have before its first update.
   double pressure(const CapState& state) const;
@@ -100,6 +108,7 @@ class TabularCap
  private:
   TabularCapParameters parameters_;
   double shear_ratio_;
+  double least_plastic_;
 };
 
 /// Advances each particle of a batch by its strain increment.

@@ -112,12 +112,16 @@ void add_flaws(const Scene& scene, int material, std::vector<ParticleField>& fie
   std::visit(
       [&]<class Model>(const Model& model) {
         if constexpr (HasRange<Model>) {
-          fields.emplace_back(
-              "out_of_range", ColumnKind::scalar,
-              [&model](const typename Model::State& state, const Stress& stress) {
-                return model.is_out_of_range(state, pressure_of<D>(stress)) ? 1.0 : 0.0;
-              },
-              particle::state<Model>, particle::stress<D>);
+          const auto add = [&](const char* name, components::Tested where) {
+            fields.emplace_back(
+                name, ColumnKind::scalar,
+                [&model, where](const typename Model::State& state, const Stress& stress) {
+                  return model.tested(state, pressure_of<D>(stress)) == where ? 1.0 : 0.0;
+                },
+                particle::state<Model>, particle::stress<D>);
+          };
+          add("looser_than_tested", components::Tested::looser);
+          add("out_of_range", components::Tested::beyond);
         }
       },
       scene.materials[static_cast<std::size_t>(material)].model);

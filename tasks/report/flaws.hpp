@@ -57,14 +57,14 @@ inline bool may_tear(const Scene& scene, int material)
   return !stretches && std::visit([]<class Model>(const Model&) { return !components::has_state<Model>; }, model);
 }
 
-/// Materials that tell whether a state in compression is beyond what they were made for.
+/// Materials that tell where a state lies beside what was tested.
 template <class Model>
 concept HasRange = components::has_state<Model> &&
     requires(const Model& model, const typename Model::State& state, double pressure)
 {
   {
-    model.is_out_of_range(state, pressure)
-    } -> std::same_as<bool>;
+    model.tested(state, pressure)
+    } -> std::same_as<components::Tested>;
 };
 
 }  // namespace tamp::tasks

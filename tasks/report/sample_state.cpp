@@ -54,16 +54,24 @@ void sample_torn(const TaskContext& at, const Tearing& is_torn, const Data& data
   }
 }
 
+/// How much of the pressure is borne by sand that is looser than any test, and which sand is beyond the largest strain.
 template <int D, class Model, class Data>
 void sample_range(const TaskContext& at, const Model& model, const Data& data)
 {
   const auto id = data[particle::id.previous()];
   const auto position = data[particle::position<D>.previous()];
   const auto stress = data[particle::stress<D>.previous()];
+  const auto volume = data[particle::volume.previous()];
   const auto state = data[particle::state<Model>.previous()];
-  ParticlePlace& first = data[state_sample].out_of_range;
+  StateSample& sample = data[state_sample];
   for (std::size_t p = 0; p < id.size(); ++p) {
-    if (!model.is_out_of_range(state[p], pressure_of<D>(stress[p]))) continue;
+    const double pressure = pressure_of<D>(stress[p]), borne = volume[p] * std::max(pressure, 0.0);
+    const components::Tested tested = model.tested(state[p], pressure);
+    sample.borne_by_looser.whole += borne;
+    if (tested == components::Tested::within) continue;
+    const bool is_looser = tested == components::Tested::looser;
+    if (is_looser) sample.borne_by_looser.part += borne;
+    ParticlePlace& first = is_looser ? sample.looser : sample.out_of_range;
     first = std::min(first, place_of<D>(id[p], at.group, position[p]));
   }
 }

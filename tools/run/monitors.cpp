@@ -37,10 +37,11 @@ std::vector<Monitor> of_steps(const tasks::Simulation& simulation)
        tasks::missed_substeps(updates, simulation.scene().n_particles()), limits.missed_substeps, seen.missed_substeps,
        "of the substeps of the materials missed their tolerance: stress is less exact than it was asked for; a "
        "smaller /time/multiplier makes the strains of a step smaller"},
-      {"out_of_range", number(updates.extrapolated - updates.pulled_out), tasks::out_of_range(updates),
-       limits.out_of_range, seen.out_of_range,
-       "of the updates ended in compression beyond the strains that the modulus was made for, where it is a guess: "
-       "results rest on that as far as such sand carries load; measurements to larger strains would settle it"}};
+      {"out_of_range", number(tasks::n_out_of_range(updates)), tasks::out_of_range(updates), limits.out_of_range,
+       seen.out_of_range,
+       "of the updates ended in compression beyond the largest strains that the modulus was made for, where it is a "
+       "guess: results rest on that as far as such sand carries load; measurements to larger strains would settle "
+       "it"}};
 }
 
 std::vector<Monitor> of_balances(const tasks::Simulation& simulation, const RunHistory& history)
@@ -100,6 +101,11 @@ std::vector<Monitor> of_samples(const tasks::Simulation& simulation)
       monitor("torn_apart", seen.torn_apart, seen.torn_apart.greatest, limits.torn_apart,
               "of the elastic particles hold tension across more than 1.2 cells, where no node joins them: they break "
               "without a cause; cpdi, or more particles a cell, keep them together"),
+      {"looser_than_tested", number(seen.looser_than_tested.above.count), seen.looser_than_tested.greatest.value(),
+       limits.looser_than_tested, seen.looser_than_tested.above,
+       "of the most that the sand has borne was borne by sand which has dilated until it is looser than any that was "
+       "tested, where its stiffness is a guess: tests of looser samples would settle it; the material's separation "
+       "lets light sand come apart"},
       monitor("early_contact", seen.early_contact, seen.early_contact.all.value(), limits.early_contact,
               "of the contact impulses push bodies that are more than a quarter of a cell apart: a normal by "
               "\"regression\" lets them push only where they touch"),

@@ -178,6 +178,7 @@ Json monitors(const tasks::Simulation& simulation, const RunHistory& history, co
                     {"modulus_evaluations", updates.modulus_evaluations},
                     {"modulus_extrapolations", updates.extrapolated},
                     {"modulus_extrapolations_in_tension", updates.pulled_out},
+                    {"modulus_extrapolations_looser", updates.looser},
                     {"failed_updates", updates.failures},
                     {"separations", updates.separations},
                     {"updates_apart", updates.apart}};

@@ -450,6 +450,35 @@ TEST_CASE("sand pulled apart carries no shear and the vertex's tension, and take
   CHECK(sample.pressure() > 1e6);
 }
 
+TEST_CASE("sand in compression is looser than tested below the first plastic strain, and beyond it past the last")
+{
+  const TabularCap sand = GENERATE_REF(state_sand(), rate_sand());
+
+  CHECK(sand.tested({.elastic_volumetric = 1e-3, .plastic_volumetric = 0.1}, 1e6) == Tested::within);
+  CHECK(sand.tested({.elastic_volumetric = 1e-3, .plastic_volumetric = -0.1}, 1e6) == Tested::looser);
+  CHECK(sand.tested({.elastic_volumetric = 1e-3, .plastic_volumetric = 0.5}, 1e6) == Tested::beyond);
+  CHECK(sand.tested({.elastic_volumetric = 0.3, .plastic_volumetric = 0.1}, 1e12) == Tested::beyond);
+  CHECK(sand.tested({.elastic_volumetric = -0.1, .plastic_volumetric = -0.1}, -1) == Tested::within);
+}
+
+TEST_CASE("an update that ends looser than tested is counted as that, and one beyond the largest strain is not")
+{
+  const TabularCap& sand = state_sand();
+  const auto counted = [&](double plastic) {
+    test::OneParticle<3, TabularCap> particle;
+    particle.state = {.elastic_volumetric = 1e-3, .plastic_volumetric = plastic};
+    particle.stress.head<3>().setConstant(-sand.pressure(particle.state));
+    particle.strain(sand, SymmetricTensor<3>::Zero());
+    return particle.counts;
+  };
+
+  CHECK(counted(0.1).extrapolated == 0);
+  CHECK(counted(-0.1).extrapolated == 1);
+  CHECK(counted(-0.1).looser == 1);
+  CHECK(counted(0.5).extrapolated == 1);
+  CHECK(counted(0.5).looser == 0);
+}
+
 TEST_CASE("the update turns with its axes")
 {
   const double a = 0.7, b = 0.4;

@@ -15,14 +15,14 @@ namespace
 {
 
 const std::string inputs = TAMP_SOURCE_DIR "/inputs/";
-/// What is out of range in the first steps is not asked about.
-const std::string punch = TAMP_SOURCE_DIR "/inputs/punch/quick.json --quiet --steps 200 --set /limits/out_of_range=1";
+const std::string punch = TAMP_SOURCE_DIR "/inputs/punch/quick.json --quiet --steps 200";
 
 }  // namespace
 
 TEST_CASE("each monitor warns beyond the limit that the scene sets, and --strict ends with 3")
 {
-  const std::string name = GENERATE("out_of_range", "filtered_energy", "energy_drift", "null_space", "uneven_pressure");
+  const std::string name =
+      GENERATE("looser_than_tested", "filtered_energy", "energy_drift", "null_space", "uneven_pressure");
   const std::string limit = " --set /limits/" + name + "=";
 
   const Run beyond = run_with(punch + limit + "0"), within = run_with(punch + limit + "1"),
@@ -40,6 +40,22 @@ TEST_CASE("each monitor warns beyond the limit that the scene sets, and --strict
   CHECK(within.summary["monitors"][name]["share"] == monitor["share"]);
   CHECK(within.summary["status"] == "completed");
   CHECK(strict.outcome.exit_code == 3);
+}
+
+TEST_CASE("sand that has dilated is told as looser than tested, and crushed sand as beyond the largest strain")
+{
+  const std::string limits = " --set /limits/looser_than_tested=0.005 --set /limits/out_of_range=0.005";
+  const Run loose = run_with(punch + limits),
+            crushed = run_with(punch + limits + " --set /bodies/punch/velocity=[0,-1500]");
+
+  const auto warns = [](const Run& run, const char* name) { return run.summary["monitors"][name]["warns"] == true; };
+  INFO(loose.outcome.err << crushed.outcome.err);
+  CHECK(warns(loose, "looser_than_tested"));
+  CHECK_FALSE(warns(loose, "out_of_range"));
+  CHECK_THAT(loose.outcome.err, Catch::Contains("tests of looser samples") && !Catch::Contains("larger strains"));
+  CHECK(warns(crushed, "out_of_range"));
+  CHECK_FALSE(warns(crushed, "looser_than_tested"));
+  CHECK_THAT(crushed.outcome.err, Catch::Contains("measurements to larger strains") && !Catch::Contains("looser"));
 }
 
 TEST_CASE("local damping of what falls is told, and what comes to rest or is pressed slowly is left alone")
@@ -144,7 +160,8 @@ TEST_CASE("what samples and rows of the history saw goes on after a restart")
   const auto straight = folder.path() / "straight", halves = folder.path() / "halves";
   const std::string scene = std::string("run ") + TAMP_SOURCE_DIR + "/inputs/punch/quick.json --quiet ";
   const std::string limit =
-      " --set /limits/null_space=1e-9 --set /limits/out_of_range=1e-9 --set /limits/filtered_energy=1e-9 --steps ";
+      " --set /limits/null_space=1e-9 --set /limits/looser_than_tested=1e-9 --set /limits/filtered_energy=1e-9 "
+      "--steps ";
   REQUIRE(tamp_with(scene + "--out " + straight.string() + limit + "200").exit_code == 0);
   REQUIRE(tamp_with(scene + "--out " + halves.string() + limit + "120 --checkpoint-steps 120").exit_code == 0);
 
@@ -155,11 +172,11 @@ TEST_CASE("what samples and rows of the history saw goes on after a restart")
   };
   CHECK(seen_in(straight, "null_space")["count"] == 4);
   CHECK(seen_in(straight, "null_space")["first"]["after_step"] == 50);
-  CHECK(seen_in(straight, "out_of_range")["first"]["after_step"] == 50);
+  CHECK(seen_in(straight, "looser_than_tested")["first"]["after_step"] == 50);
   // From the first row of the history after the start.
   CHECK(seen_in(straight, "filtered_energy")["first"]["after_step"].get<long>() > 0);
   CHECK(seen_in(straight, "filtered_energy")["first"]["after_step"].get<long>() < 50);
-  for (const char* monitor : {"null_space", "out_of_range", "filtered_energy"}) {
+  for (const char* monitor : {"null_space", "looser_than_tested", "filtered_energy"}) {
     CHECK(seen_in(halves, monitor) == seen_in(straight, monitor));
   }
 }

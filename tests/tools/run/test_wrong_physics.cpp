@@ -112,9 +112,7 @@ TEST_CASE("the check says on how many cells a body goes into another one, and th
 
 TEST_CASE("a run whose substeps miss their tolerance ends with a warning that says how many do")
 {
-  const std::string rough =
-      "--steps 200 --set /materials/sand/tolerance=1e-9 --set /materials/sand/max_substeps=1 "
-      "--set /limits/out_of_range=1";
+  const std::string rough = "--steps 200 --set /materials/sand/tolerance=1e-9 --set /materials/sand/max_substeps=1";
 
   const Run warned = run_with(quiet_punch + rough),
             allowed = run_with(quiet_punch + rough + " --set /limits/missed_substeps=1");
