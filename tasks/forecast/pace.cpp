@@ -1,6 +1,7 @@
 #include "tasks/forecast/pace.hpp"
 
 #include <algorithm>
+#include <cstdint>
 #include <ctime>
 #include <exception>
 #include <utility>
@@ -8,6 +9,7 @@
 
 #include "components/portable_math.hpp"
 #include "tasks/forecast/demand.hpp"
+#include "tasks/forecast/own_steps.hpp"
 #include "tasks/simulation.hpp"
 
 namespace tamp::tasks
@@ -36,6 +38,8 @@ std::optional<Scene> coarsened(const Scene& scene, int factor)
 struct Progress {
   double part = 0;
   double n_steps = 0;
+  /// That the scene takes on its own cells for the same.
+  double own_steps = 0;
   double seconds = 0;
 };
 
@@ -59,22 +63,36 @@ double processor_seconds()
   return static_cast<double>(std::clock()) / CLOCKS_PER_SEC;
 }
 
-/// Runs a scene as far as it comes in so much processor time; nothing if it has not all the bodies.
-std::optional<Trial> tried(const Scene& scene, int factor, double seconds)
+/// Runs `coarse`, the scene on coarser cells, as far as it comes in so much processor time; nothing if it has not all
+/// the bodies.
+std::optional<Trial> tried(const Scene& scene, const Scene& coarse, int factor, double seconds)
 {
-  const auto simulation = Simulation::make(scene, 1);
-  for (const SceneBody& body : scene.bodies) {
+  const auto simulation = Simulation::make(coarse, 1);
+  for (const SceneBody& body : coarse.bodies) {
     if (simulation->n_particles(body.material) == 0) return std::nullopt;
   }
   simulation->engine().record(false);
   const double start = processor_seconds();
   Trial trial{factor, {{}}};
+  OwnSteps own(scene, factor);
   while (!trial.complete() && trial.end().seconds < seconds) {
+    own.before(*simulation);
     simulation->advance(scene.time.end);
-    trial.progress.push_back(
-        {simulation->time() / scene.time.end, static_cast<double>(simulation->n_steps()), processor_seconds() - start});
+    own.after(*simulation);
+    trial.progress.push_back({simulation->time() / scene.time.end, static_cast<double>(simulation->n_steps()),
+                              own.count(), processor_seconds() - start});
   }
   return trial;
+}
+
+/// How many times the steps so far a trial takes until its end, by its last tenth: what has been compacted stays so,
+/// and keeps its faster waves.
+double until_end(const Trial& trial)
+{
+  const Progress &reached = trial.end(), &late = trial.at(0.9 * reached.part);
+  if (trial.complete() || !(reached.part > late.part)) return 1 / reached.part;
+  const double rate = (reached.own_steps - late.own_steps) / (reached.part - late.part);
+  return 1 + rate * (1 - reached.part) / reached.own_steps;
 }
 
 /// To the end on the scene's own cells. A coarser trial that was complete tells how the finer one would have gone on,
@@ -83,10 +101,13 @@ std::optional<Trial> tried(const Scene& scene, int factor, double seconds)
 Pace extrapolated(const Trial& fine, const Trial* coarse, int dimension)
 {
   const Progress& reached = fine.end();
-  double more_steps = 1 / reached.part, more_seconds = 1 / reached.part, power = 0;
+  const double more = until_end(fine);
+  double own_steps = reached.own_steps * more, more_steps = more, more_seconds = more, power = 0;
   if (coarse != nullptr) {
     constexpr double greatest_power = 0.35;  // chosen by the runs in docs/failures.md
     const Progress &there = coarse->at(reached.part), &end = coarse->end();
+    // What is to come, and no more times what was: bodies touch a little sooner or later on other cells.
+    own_steps = reached.own_steps + end.own_steps - there.own_steps;
     more_steps = end.n_steps / there.n_steps;
     more_seconds = end.seconds / there.seconds;
     const double coarser = static_cast<double>(coarse->factor) / fine.factor;
@@ -94,21 +115,37 @@ Pace extrapolated(const Trial& fine, const Trial* coarse, int dimension)
         there.seconds / there.n_steps * portable::pow(coarser, dimension) / (reached.seconds / reached.n_steps);
     power = std::clamp(portable::log(dearer) / portable::log(coarser), 0.0, greatest_power);
   }
-  return {reached.n_steps * more_steps * fine.factor,
-          reached.seconds * more_seconds * portable::pow(fine.factor, dimension + 1 - power)};
+  const double seconds_of_step = reached.seconds * more_seconds / (reached.n_steps * more_steps);
+  return {own_steps, own_steps * seconds_of_step * portable::pow(fine.factor, dimension - power)};
 }
 
 Pace extrapolated(const std::vector<Trial>& trials, int dimension)
 {
-  return extrapolated(trials.back(), trials.size() > 1 ? &trials[trials.size() - 2] : nullptr, dimension);
+  // On cells that are larger still a body of some cells is another one.
+  constexpr int coarsest = 4;
+  const Trial& fine = trials.back();
+  const Trial* const coarse = trials.size() > 1 ? &trials[trials.size() - 2] : nullptr;
+  const bool tells = coarse != nullptr && coarse->factor < coarsest * fine.factor;
+  return extrapolated(fine, tells ? coarse : nullptr, dimension);
+}
+
+/// Whether its fields would take more than is laid out within the time. To know that takes a while itself, and a small
+/// grid has none.
+bool is_too_large(const Scene& scene)
+{
+  constexpr std::int64_t small = 100'000;
+  constexpr double most_bytes = 3e8;
+  return scene.grid.cells().size() > small && demand_of(scene).fields > most_bytes;
 }
 
 /// From coarse cells to fine ones, until the time is up or one did not come to its end.
 std::vector<Trial> trials_of(const Scene& scene, const Effort& effort)
 {
   // More are not laid out and begun within the time.
-  constexpr double most_particles = 150'000, most_bytes = 3e8;
+  constexpr double most_particles = 150'000;
   constexpr int greatest_factor = 32;
+  // However short the run: nobody notices it [s].
+  constexpr double unnoticed = 0.1;
   double n_particles = 0;
   for (const SceneBody& body : scene.bodies) n_particles += static_cast<double>(body.n_particles);
   const double start = processor_seconds();
@@ -117,16 +154,20 @@ std::vector<Trial> trials_of(const Scene& scene, const Effort& effort)
   for (int factor = greatest_factor; factor >= 1; --factor) {
     const double left = start + seconds - processor_seconds();
     if (n_particles / portable::pow(factor, scene.grid.dimension) > most_particles || left <= 0) break;
-    const auto coarse = coarsened(scene, factor);
-    if (!coarse || demand_of(*coarse).fields > most_bytes) continue;
+    // Cells that are nearly as large as the last tell little more.
+    const bool is_worth_it = trials.empty() || factor == 1 || 2 * factor <= trials.back().factor;
+    const auto coarse = is_worth_it ? coarsened(scene, factor) : std::nullopt;
+    if (!coarse || is_too_large(*coarse)) continue;
     try {
-      if (auto trial = tried(*coarse, factor, left)) trials.push_back(std::move(*trial));
+      if (auto trial = tried(scene, *coarse, factor, left)) trials.push_back(std::move(*trial));
     } catch (const std::exception&) {
       continue;  // too coarse for something; what is wrong with the scene itself shows in its run
     }
     if (trials.empty()) continue;
     if (!trials.back().complete()) break;
-    seconds = std::min(seconds, effort.part_of_run * extrapolated(trials, scene.grid.dimension).core_seconds);
+    if (!(effort.part_of_run < 1)) continue;
+    const double of_run = effort.part_of_run * extrapolated(trials, scene.grid.dimension).core_seconds;
+    seconds = std::min(seconds, std::max(of_run, unnoticed));
   }
   return trials;
 }

@@ -39,15 +39,46 @@ TEST_CASE("the memory of fields that is forecast from labels is what a simulatio
   CHECK(demand.checkpoint_file == Approx(copied).epsilon(0.03));
 }
 
-TEST_CASE("the steps of the quick punch are forecast within a factor of two, from trials of less than a second")
+TEST_CASE(
+    "the steps of shipped scenes are forecast within a factor of 1.5, in the time that a run and the check take for it")
 {
-  const std::optional<tasks::Pace> pace = tasks::pace_of(shipped("punch/quick.json"), {});
+  const auto [name, taken] = GENERATE(table<std::string, double>({{"punch/quick.json", 5197},
+                                                                  {"punch/half.json", 6024},
+                                                                  {"cone/axisymmetric.json", 3890},
+                                                                  {"footing/quick.json", 1334},
+                                                                  {"peers/block.json", 10000},
+                                                                  {"savings/ball.json", 956},
+                                                                  {"savings/projectile_straight_down.json", 762},
+                                                                  {"savings/rod.json", 430},
+                                                                  {"stability/scenes/approach.json", 185},
+                                                                  {"verification/scenes/column_collapse.json", 23518},
+                                                                  {"verification/scenes/rotating_frame.json", 40},
+                                                                  {"verification/vortex/quick.json", 188}}));
+  const tasks::Scene scene = shipped(name);
 
-  constexpr double taken = 5200;
+  const std::optional<tasks::Pace> of_run = tasks::pace_of(scene, {.part_of_run = 0.02}),
+                                   of_check = tasks::pace_of(scene, {});
+
+  REQUIRE(of_run);
+  REQUIRE(of_check);
+  CAPTURE(name, taken, of_run->n_steps, of_check->n_steps);
+  constexpr double factor = 1.5;
+  for (const double forecast : {of_run->n_steps, of_check->n_steps}) {
+    CHECK(forecast > taken / factor);
+    CHECK(forecast < taken * factor);
+  }
+  CHECK(of_check->core_seconds > 0);
+}
+
+TEST_CASE("a scene whose longest step is given takes as many steps as that allows, on whatever cells it is tried")
+{
+  tasks::Scene scene = shipped("stability/scenes/approach.json");
+  scene.time.maximum_step = scene.time.end / 1000;
+
+  const std::optional<tasks::Pace> pace = tasks::pace_of(scene, {.seconds = 0.01});
+
   REQUIRE(pace);
-  CHECK(pace->n_steps > taken / 2);
-  CHECK(pace->n_steps < taken * 2);
-  CHECK(pace->core_seconds > 0);
+  CHECK(pace->n_steps == Approx(1000).epsilon(0.01));
 }
 
 }  // namespace test_demand
