@@ -76,6 +76,18 @@ double fastest_wave_speed(const tasks::Scene& scene)
   return fastest;
 }
 
+/// In which waves of the slowest deformable material cross the cells over which a grid spreads a blow; 0 without waves.
+double time_over_cells(const tasks::Scene& scene)
+{
+  constexpr double n_cells = 4;
+  double slowest = std::numeric_limits<double>::infinity();
+  for (const tasks::SceneBody& body : scene.bodies) {
+    if (body.rigid) continue;
+    slowest = std::min(slowest, tasks::initial_wave_speed(scene.materials[static_cast<std::size_t>(body.material)]));
+  }
+  return slowest > 0 ? n_cells * scene.grid.cell_size / slowest : 0;
+}
+
 double mass_of(const tasks::ParticleReport& report)
 {
   double mass = 0;
@@ -98,6 +110,7 @@ RunHistory::RunHistory(tasks::Simulation& simulation)
       mass_(mass_of(initial_)),
       wave_speed_(fastest_wave_speed(simulation.scene())),
       acceleration_(greatest_acceleration(simulation.scene())),
+      time_over_cells_(time_over_cells(simulation.scene())),
       elastic_at_start_(simulation.energies().elastic),
       report_(initial_)
 {
@@ -265,11 +278,11 @@ std::string RunHistory::energy_problem(double limit)
   largest_.given_from_outside = std::max(largest_.given_from_outside, std::abs(since_start.external()));
   if (!std::isfinite(limit) || !knows_energy()) return "";
   const double error = wrong_energy();
-  if (error <= limit * given_energy() || error <= negligible_energy()) return "";
+  if (error <= limit * energy_scale() || error <= negligible_energy()) return "";
   return fmt::format(
-      "the energy is wrong by {:.3g} J, {:.3g} times the {:.3g} J that the run has been given, more than "
+      "the energy is wrong by {:.3g} J, {:.3g} times the {:.3g} J that it is judged by, more than "
       "/limits/energy_error, {:.3g}",
-      error, energy_error(), given_energy(), limit);
+      error, energy_error(), energy_scale(), limit);
 }
 
 bool RunHistory::knows_energy() const
@@ -285,7 +298,14 @@ double RunHistory::known_energy_error() const
 
 double RunHistory::energy_error() const
 {
-  return given_energy() > 0 ? wrong_energy() / given_energy() : 0;
+  return energy_scale() > 0 ? wrong_energy() / energy_scale() : 0;
+}
+
+double RunHistory::energy_scale() const
+{
+  const double time = simulation_.time();
+  const double soon = time > 0 ? largest_.given_from_outside * time_over_cells_ / time : 0;
+  return given_energy() + soon;
 }
 
 double RunHistory::wrong_energy() const

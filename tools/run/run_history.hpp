@@ -77,13 +77,17 @@ class RunHistory
   /// times what the run has been given, see `energy_error`; empty otherwise. Where a centrifuge speeds up the balance
   /// is not known, and nothing is said.
   std::string energy_problem(double limit);
-  /// Energy that has come or gone without a cause, or that particles have added where that is more, over the energy
-  /// given to the run so far: its initial energy and the largest work from outside. Energy that particles filter out of
-  /// the motion of the nodes is no error; energy that they add is. After the last step; it needs no `measure`.
+  /// Energy that has come or gone without a cause, or that particles have added where that is more, over what it is
+  /// judged by, see `energy_scale`. Energy that particles filter out of the motion of the nodes is no error; energy
+  /// that they add is. After the last step; it needs no `measure`.
   double energy_error() const;
+  /// The energy given to the run so far, and until then as much more as work from outside, at its mean power so far,
+  /// gives in the time in which waves cross the four cells over which a grid spreads a blow: sooner it cannot tell what
+  /// that work goes into, and a run from rest would be judged by next to nothing in its first steps [J].
+  double energy_scale() const;
   /// The same; 0 where it is not known, as a centrifuge speeds up, and what is negligible beside the energy of waves.
   double known_energy_error() const;
-  /// Energy given to the run so far [J].
+  /// Energy given to the run so far: its initial energy and the largest work from outside [J].
   double given_energy() const;
   /// Change of momentum that the grid has not given to the particles, over the largest sum of m |v| so far.
   double momentum_error() const { return momentum_error_; }
@@ -152,6 +156,7 @@ class RunHistory
   double mass_;              ///< kg
   double wave_speed_;        ///< of the fastest material [m/s]
   double acceleration_;      ///< the greatest by gravity and centrifuge [m/s^2]
+  double time_over_cells_;   ///< in which the slowest waves cross four cells [s]
   double elastic_at_start_;  ///< J
   tasks::ParticleReport report_;
   tasks::NoseReport nose_report_;

@@ -63,6 +63,23 @@ TEST_CASE("a comparison judges the energy of every step too")
   CHECK_THAT(outcome.err, Catch::Contains("the energy is wrong by"));
 }
 
+TEST_CASE("a run from rest is not ended in its first steps by an error that is nothing of what it is given")
+{
+  // Widened from rest, it is given 4 J in two steps and 188 kJ in the end.
+  const Run slow = run_with(TAMP_SOURCE_DIR
+                            "/inputs/verification/scenes/cavity.json --quiet "
+                            "--set /limits/energy_error=0.02");
+  const Run unstable = run_with(TAMP_SOURCE_DIR
+                                "/inputs/stability/scenes/grain.json --quiet "
+                                "--set /limits/energy_error=0.2");
+
+  INFO(slow.outcome.err << unstable.outcome.err);
+  CHECK(slow.outcome.exit_code == 0);
+  CHECK(slow.summary["energy_error"].get<double>() < 0.002);
+  CHECK(unstable.outcome.exit_code == 3);
+  CHECK_THAT(unstable.outcome.err, Catch::Contains("the energy is wrong by"));
+}
+
 TEST_CASE("free fall from rest, whose first velocities are half a step late, has its energy right")
 {
   const TemporaryFolder folder;
