@@ -4,6 +4,7 @@
 #include <memory>
 #include <variant>
 
+#include "runtime/storage/whole_file.hpp"
 #include "tasks/set_up/body_sites.hpp"
 #include "tools/commands/command_line/assignments.hpp"
 #include "tools/commands/command_line/help_text.hpp"
@@ -11,12 +12,14 @@
 #include "tools/run/forecast.hpp"
 #include "tools/scene/advice.hpp"
 #include "tools/scene/compiled_moduli.hpp"
+#include "tools/scene/output_file.hpp"
 #include "tools/scene/penetration.hpp"
 #include "tools/scene/plausibility.hpp"
 #include "tools/scene/print_json.hpp"
 #include "tools/scene/read_scene.hpp"
 #include "tools/scene/round_scene.hpp"
 #include "tools/scene/symmetry.hpp"
+#include "tools/study/telling_study.hpp"
 #include "tools/system/console.hpp"
 
 namespace tamp::tools
@@ -28,6 +31,7 @@ namespace
 struct CheckArguments {
   std::string scene;
   std::vector<std::string> assignments;
+  std::string study;
 };
 
 /// How much the solid and its particles hold, a line each.
@@ -52,10 +56,20 @@ void print_cells(const tasks::Scene& scene, const tasks::SceneBody& body)
             penetration->into->name);
 }
 
+void write_study(const CheckedScene& checked, const CheckArguments& options)
+{
+  const std::filesystem::path file = options.study;
+  const Json study =
+      study::telling_study(checked, options.scene, options.assignments, std::filesystem::absolute(file).parent_path());
+  runtime::write_whole_file(file, json_text(study, 2) + "\n");
+  print_err("  study  written to {}; tamp study {} runs it\n", file.string(), file.string());
+}
+
 void check(const CheckArguments& options)
 {
   const CheckedScene checked = read_scene(options.scene, options.assignments);
   const tasks::Scene& scene = checked.scene;
+  expect_outputs({{"--study", options.study}});
   print_out("{}\n", printed(checked.resolved));
 
   const runtime::Index& n = scene.grid.n_cells;
@@ -80,7 +94,8 @@ void check(const CheckArguments& options)
   add_copies(forecast);
   add_pace(scene, {}, forecast);
   print_err("  {}\n", description(forecast));
-  for (const std::string& line : advice(scene, forecast.pace)) print_err("  advice  {}\n", line);
+  for (const std::string& line : advice(checked, forecast.pace)) print_err("  advice  {}\n", line);
+  if (!options.study.empty()) write_study(checked, options);
   if (const auto to_turn = advice_to_turn(scene)) print_err("  advice  {}\n", *to_turn);
   if (const auto to_halve = advice_to_halve(scene)) print_err("  advice  {}\n", *to_halve);
 }
@@ -94,6 +109,12 @@ CLI::App* add_check_command(CLI::App& app)
   const auto options = std::make_shared<CheckArguments>();
   command->add_option("SCENE", options->scene, "the scene's JSON file")->type_name("FILE")->required();
   add_assignments(*command, options->assignments, "scene");
+  command
+      ->add_option(
+          "--study", options->study,
+          "write a study that tells how far the scene is off, for `tamp study`: on three grids, beside a method "
+          "that is on the front")
+      ->type_name("OUT.json");
   command->footer(examples(
       {{"tamp check inputs/punch/quick.json",
         "the scene resolved, its particles, memory and time; in lines of advice what bounds the step and what a "

@@ -9,6 +9,7 @@
 #include <variant>
 
 #include "tools/scene/digits.hpp"
+#include "tools/scene/measured_errors.hpp"
 #include "tools/scene/penetration.hpp"
 #include "tools/scene/rigidity.hpp"
 #include "tools/scene/symmetry.hpp"
@@ -103,39 +104,44 @@ bool is_compacted_sand(const tasks::Scene& scene, const tasks::SceneBody& ground
   return std::holds_alternative<components::TabularCap>(material_of(scene, ground).model);
 }
 
-/// The force on coarse cells is too large by about 420 % over the square of their number in sand that is compacted (the
-/// table in choosing.md).
-void advise_on_cells(const tasks::Scene& scene, const tasks::SceneBody& body, const Penetration& penetration,
+constexpr const char* not_known =
+    "not known for this scene (`tamp check SCENE --study OUT.json` writes the study that tells)";
+
+/// By how much the force is too large on a body that goes into sand as the punch did that was measured: with a flat
+/// end, in the plane, at 200 m/s.
+std::optional<MeasuredError> force_error(const CheckedScene& checked, const tasks::SceneBody& body,
+                                         const Penetration& penetration)
+{
+  const tasks::Scene& scene = checked.scene;
+  const Json& geometry = checked.resolved.at("bodies").at(body.name).at("geometry");
+  constexpr double measured_speed = 200, alike = 0.01;
+  const double speed =
+      body.drive ? way_of(scene, body).norm() / scene.time.end : Eigen::Vector3d(body.velocity.data()).norm();
+  const bool is_like_it = scene.grid.dimension == 2 && !scene.axisymmetric && geometry.at("type") == "box" &&
+                          std::abs(speed / measured_speed - 1) < alike && is_compacted_sand(scene, *penetration.into);
+  if (!is_like_it) return std::nullopt;
+  return measured_error(scene, "flat punch", penetration.cells());
+}
+
+void advise_on_cells(const CheckedScene& checked, const tasks::SceneBody& body, const Penetration& penetration,
                      Lines& lines)
 {
-  const double cells = penetration.cells();
-  std::string line = fmt::format("cells: {} has {:.1f} to its half width, and needs {:.0f}", body.name, cells,
-                                 least_cells_per_half_width);
-  if (is_compacted_sand(scene, *penetration.into)) {
-    line += fmt::format("; the force on it is some {} % too large", two_digits(420 / (cells * cells)));
+  const auto error = force_error(checked, body, penetration);
+  std::string line = fmt::format(
+      "cells: {} has {:.1f} to its half width, and needs {:.0f}; by how much the force on "
+      "it is too large is {}",
+      body.name, penetration.cells(), least_cells_per_half_width, not_known);
+  if (error) {
+    line = fmt::format("cells: {} has {:.1f} to its half width, and needs {:.0f}; the force on it is {} too large ({})",
+                       body.name, penetration.cells(), least_cells_per_half_width, error->text(), error->command);
   }
   if (penetration.is_coarse()) {
+    const tasks::Scene& scene = checked.scene;
     const double finer = scene.grid.cell_size / penetration.fine_cell_size();
     line += fmt::format("; cells of {:.2g} m cost {} times as much", penetration.fine_cell_size(),
                         two_digits(std::pow(finer, scene.grid.dimension + 1)));
   }
   lines.push_back(line);
-}
-
-/// A linear coefficient from which pressure behind a front does not swing.
-bool has_enough_viscosity(const tasks::Scene& scene)
-{
-  return scene.artificial_viscosity && scene.artificial_viscosity->linear >= 0.75;
-}
-
-/// How far off the force on a piston in sand at 200 m/s is, on cells of 1 cm, by the tables in choosing.md and
-/// viscosity.md.
-std::string piston_error(const tasks::Scene& scene)
-{
-  if (!has_enough_viscosity(scene)) return "3 to 8 %";
-  if (scene.interpolator == tasks::Interpolator("cubic_spline")) return "0.5 %";
-  if (scene.interpolator == tasks::Interpolator("quadratic_spline")) return "0.9 %";
-  return scene.interpolator == tasks::Interpolator("cpdi") ? "1.5 %" : "3.5 %";
 }
 
 /// What the front is about, of a scene.
@@ -147,29 +153,37 @@ std::string method_of(const tasks::Scene& scene)
   return fmt::format("\"{}\", \"{}\", {}", scene.interpolator.word(), scene.transfer.word(), coefficients);
 }
 
+/// Of a method that is not on the front of cost and error: how far it is off, as far as that was measured, and the
+/// front.
+std::string off_the_front(const tasks::Scene& scene, const std::string& what, const std::optional<MeasuredError>& error,
+                          const std::string& front)
+{
+  if (!error) {
+    return fmt::format("method: how far {} puts {} off is {}; {}", method_of(scene), what, not_known, front);
+  }
+  return fmt::format("method: {} is off the front of cost and error: {} is {} off ({}); {}", method_of(scene), what,
+                     error->text(), error->command, front);
+}
+
 /// Sand that is compacted fast, in the plane, by a body that is many cells thick.
 void advise_on_plane_method(const tasks::Scene& scene, Lines& lines)
 {
-  const bool transfers_well = scene.transfer == tasks::Transfer("flip") || scene.transfer == tasks::Transfer("tflip") ||
-                              scene.transfer == tasks::Transfer("apic");
-  const bool on_front =
-      scene.interpolator == tasks::Interpolator("cubic_spline") && has_enough_viscosity(scene) && transfers_well;
-  if (on_front) return;
-  lines.push_back(
-      fmt::format("method: {} is off the front of cost and error: the force on a piston at 200 m/s is {} "
-                  "off; with \"cubic_spline\", \"flip\", viscosity 1 / 4 it is 0.5 %",
-                  method_of(scene), piston_error(scene)));
+  constexpr double cells_a_metre = 100, on_front_within = 0.01;
+  const auto error = measured_error(scene, "piston", cells_a_metre);
+  const bool is_cheap = scene.interpolator == tasks::Interpolator("cubic_spline");
+  if (is_cheap && error && error->greatest < on_front_within) return;
+  lines.push_back(off_the_front(scene, "the force on a piston at 200 m/s", error,
+                                "with \"cubic_spline\", \"flip\", viscosity 1 / 4 it is 0.5 %"));
 }
 
 /// The same by a body a few cells thick, or in space.
 void advise_on_thin_method(const tasks::Scene& scene, Lines& lines)
 {
   if (scene.interpolator == tasks::Interpolator("gimp") && scene.transfer == tasks::Transfer("tflip")) return;
-  lines.push_back(
-      fmt::format("method: {} is off the front of cost and error for bodies a few cells thick: \"flip\" "
-                  "turns them 35 % too slowly, splines thicken them; \"gimp\", \"tflip\" turns them 0.1 % "
-                  "too slowly, for 1.27 times a step",
-                  method_of(scene)));
+  constexpr double cells_to_half_width = 0.5;
+  lines.push_back(off_the_front(scene, "the turn of a thin body",
+                                measured_error(scene, "turn of a thin rod", cells_to_half_width),
+                                "with \"gimp\", \"tflip\" it is 0.1 %, for 1.27 times a step"));
 }
 
 /// Soil that is pressed, and hardly changes its volume.
@@ -178,11 +192,10 @@ void advise_on_pressed_method(const tasks::Scene& scene, Lines& lines)
   const bool on_front = scene.interpolator == tasks::Interpolator("quadratic_spline") &&
                         scene.anti_locking == tasks::AntiLocking::cell_average;
   if (on_front) return;
-  lines.push_back(
-      fmt::format("method: {} is off the front of cost and error for soil that keeps its volume: on 20 cells "
-                  "a strip footing bears 10 to 19 % too much without anti-locking, 4 to 7 % with "
-                  "\"quadratic_spline\" and \"cell_average\"",
-                  method_of(scene)));
+  constexpr double cells_a_width = 20;
+  lines.push_back(off_the_front(scene, "the load of a strip footing 20 cells wide",
+                                measured_error(scene, "strip footing", cells_a_width),
+                                "with \"quadratic_spline\" and anti_locking \"cell_average\" it is 3.6 %"));
 }
 
 /// Whether it is one cell thick between smooth walls, and so in plane strain.
@@ -214,15 +227,16 @@ void advise_on_method(const tasks::Scene& scene, const tasks::SceneBody& body, L
 
 }  // namespace
 
-std::vector<std::string> advice(const tasks::Scene& scene, const std::optional<tasks::Pace>& pace)
+std::vector<std::string> advice(const CheckedScene& checked, const std::optional<tasks::Pace>& pace)
 {
+  const tasks::Scene& scene = checked.scene;
   Lines lines;
   bool is_first = true;
   for (const tasks::SceneBody& body : scene.bodies) {
     if (const auto penetration = penetration_of(scene, body)) {
       // Each body would take trial runs of its own.
       if (std::exchange(is_first, false)) advise_on_step(scene, body, *penetration, pace, lines);
-      advise_on_cells(scene, body, *penetration, lines);
+      advise_on_cells(checked, body, *penetration, lines);
       const std::string on_box = advice_on_box(scene, body, *penetration->into);
       if (!on_box.empty()) lines.push_back(on_box);
     }
