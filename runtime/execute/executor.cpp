@@ -15,6 +15,7 @@
 #include "runtime/execute/scheduler/thread_team.hpp"
 #include "runtime/execute/scheduler/walk.hpp"
 #include "runtime/execute/stall_report.hpp"
+#include "runtime/reason.hpp"
 
 namespace tamp::runtime
 {
@@ -216,7 +217,7 @@ void Executor::Workers::run_instance(Entry& entry, int worker)
   try {
     schedule_->work().run(entry.instance, *step_);
   } catch (const std::exception& error) {
-    return fail(entry.instance, error.what());
+    return fail(entry.instance, reason(error));
   } catch (...) {
     return fail(entry.instance, "unknown exception");
   }

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "runtime/reason.hpp"
 #include "runtime/step_error.hpp"
 
 namespace tamp::runtime
@@ -26,7 +27,7 @@ StepFailure failure_of(const std::exception_ptr& error)
   } catch (const StepError& step_error) {
     return {step_error.what(), true};
   } catch (const std::exception& other) {
-    return {other.what(), false};
+    return {reason(other), false};
   } catch (...) {
     return {"unknown exception", false};
   }

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "runtime/file_error.hpp"
+#include "runtime/reason.hpp"
 
 namespace tamp::runtime
 {
@@ -26,7 +27,7 @@ Failure failure_of(const std::function<void()>& work)
   } catch (const FileError& error) {
     return {std::current_exception(), error.file, error.cause};
   } catch (const std::exception& error) {
-    return {std::current_exception(), "", error.what()};
+    return {std::current_exception(), "", reason(error)};
   }
   return {};
 }

@@ -253,6 +253,15 @@ TEST_CASE("a task that throws stops the step with its name and patch", "[executo
   CHECK_THROWS_WITH(row.executor.run(row.schedule, {}), "task 'fail' on patch 2: no luck");
 }
 
+TEST_CASE("a task that finds no memory says so in words", "[executor]")
+{
+  auto fail = task("fail").over_patches_and_groups().computes(first).body(
+      [](const TaskContext&, auto) { throw std::bad_alloc(); });
+  Row row({fail}, {{}, {&first}}, 1, 1);
+
+  CHECK_THROWS_WITH(row.executor.run(row.schedule, {}), "task 'fail' on patch 0: out of memory");
+}
+
 TEST_CASE("of short and long tasks in disorder, dealt out unevenly, each runs once a step and none early", "[executor]")
 {
   const int n_threads = GENERATE(2, 3, 4);
