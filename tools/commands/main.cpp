@@ -1,9 +1,13 @@
 #include <fmt/core.h>
+#include <unistd.h>
 
 #include <algorithm>
+#include <atomic>
+#include <cstdlib>
 #include <exception>
 #include <new>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "runtime/execute/exchange.hpp"
@@ -24,6 +28,34 @@ namespace
 using tamp::runtime::Communicator;
 using tamp::tools::ExitCode;
 using tamp::tools::report_failure;
+
+std::atomic<bool> memory_ran_out{false};
+std::terminate_handler usual_end = nullptr;
+
+[[noreturn]] void note_and_throw()
+{
+  memory_ran_out = true;
+  throw std::bad_alloc();
+}
+
+/// Where memory runs out and nothing can catch it: before main, in what must not throw, in a library's thread.
+[[noreturn]] void end_without_memory()
+{
+  if (memory_ran_out) {
+    constexpr std::string_view text = "tamp: out of memory\n";
+    [[maybe_unused]] const ssize_t written = ::write(STDERR_FILENO, text.data(), text.size());
+    _exit(static_cast<int>(ExitCode::no_resources));
+  }
+  usual_end();
+  std::abort();
+}
+
+/// Called before the objects of namespaces are made, many of which allocate.
+[[gnu::constructor(101)]] void guard_memory()
+{
+  std::set_new_handler(note_and_throw);
+  usual_end = std::set_terminate(end_without_memory);
+}
 
 /// Only these commands share their work over ranks; any other is the first rank's alone.
 bool is_for_all_ranks(int argc, char** argv)

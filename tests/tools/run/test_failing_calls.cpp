@@ -93,6 +93,18 @@ TEST_CASE("a call that fails ends a run with 4 and the place, and its last check
   CHECK(digest_of(out) == straight_digest());
 }
 
+TEST_CASE("memory that runs out before main ends a program with 4")
+{
+  const int at = GENERATE(1, 20, 200);
+
+  const Outcome outcome =
+      outcome_of("LD_PRELOAD=" TAMP_FAILING_CALLS " TAMP_FAIL_CALL=new TAMP_FAIL_AT=" + std::to_string(at) +
+                 " " TAMP_PROGRAM " version");
+
+  CHECK(outcome.exit_code == 4);
+  CHECK(outcome.err == "tamp: out of memory\n");
+}
+
 TEST_CASE("a run that cannot write its trace has its summary and its profile")
 {
   const TemporaryFolder folder;
