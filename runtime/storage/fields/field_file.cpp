@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <cstdio>
 #include <cstring>
 
 #include "runtime/file_error.hpp"
@@ -79,7 +80,11 @@ FieldFile FieldFile::continued(const std::filesystem::path& folder, std::int64_t
 
 void FieldFile::begin() const
 {
-  hdf5::create_file(hdf5_file_);
+  expect_no_stream(hdf5_file_);
+  // Under its own name there is none before it is whole.
+  const std::filesystem::path part = hdf5_file_.string() + ".part";
+  hdf5::create_file(part);
+  if (std::rename(part.c_str(), hdf5_file_.c_str()) != 0) throw FileError(hdf5_file_.string(), std::strerror(errno));
   write_xdmf();
 }
 

@@ -105,6 +105,19 @@ TEST_CASE("memory that runs out before main ends a program with 4")
   CHECK(outcome.err == "tamp: out of memory\n");
 }
 
+TEST_CASE("fields that cannot be begun leave no file under their name")
+{
+  const TemporaryFolder folder;
+  const fs::path out = folder.path() / "run";
+
+  const Outcome outcome =
+      outcome_of("LD_PRELOAD=" TAMP_FAILING_CALLS " TAMP_FAIL_CALL=pwrite TAMP_FAIL_AT=1 TAMP_FAIL_PATH=fields.h5 " +
+                 run + "--steps 1 --out " + out.string());
+
+  CHECK(outcome.exit_code == 4);
+  CHECK_FALSE(fs::exists(out / "fields.h5"));
+}
+
 TEST_CASE("a run that cannot write its trace has its summary and its profile")
 {
   const TemporaryFolder folder;
