@@ -69,11 +69,20 @@ Properties collective_transfer(const fs::path& file, const Communicator& communi
 
 // These give negative ids where they fail.
 
+/// For values without the time at which they came, so that the same run writes the same bytes.
+Properties undated()
+{
+  Properties properties(H5Pcreate(H5P_DATASET_CREATE));
+  H5Pset_obj_track_times(properties, false);
+  return properties;
+}
+
 /// For groups that know the order in which their members came, so that a file says in which order its columns are.
 Properties ordered_group()
 {
   Properties properties(H5Pcreate(H5P_GROUP_CREATE));
   constexpr unsigned most_in_header = 64;
+  H5Pset_obj_track_times(properties, false);
   H5Pset_link_creation_order(properties, H5P_CRT_ORDER_TRACKED | H5P_CRT_ORDER_INDEXED);
   H5Pset_link_phase_change(properties, most_in_header, most_in_header / 2);
   return properties;
@@ -155,13 +164,14 @@ void Location::write(const std::string& path, const Share& share, ElementType ty
 {
   const Space in_file(
       checked(H5Screate_simple(static_cast<int>(share.dimensions.size()), share.dimensions.data(), nullptr)));
-  const Dataset dataset(checked(
-      H5Dcreate2(id(), path.c_str(), type.in_file, in_file, with_groups_on_the_way(), H5P_DEFAULT, H5P_DEFAULT)));
+  Dataset dataset(
+      checked(H5Dcreate2(id(), path.c_str(), type.in_file, in_file, with_groups_on_the_way(), undated(), H5P_DEFAULT)));
   // Nothing to write on any rank; ranks together would fail at it.
   if (checked(H5Sget_simple_extent_npoints(in_file)) == 0) return;
   const Space in_memory = select(in_file, share.slabs);
   try {
     checked(H5Dwrite(dataset, type.in_memory, in_memory, in_file, file_->transfer, values));
+    checked(dataset.close());  // what is small goes to the disk only now
   } catch (const FileError& error) {
     file_->failure = error.cause;
   }

@@ -72,7 +72,7 @@ TEST_CASE("a call that fails ends a run with 4 and the place, and its last check
       Fault{"pwrite", 2, "checkpoints", "checkpoints/step_"}, Fault{"pwrite", 5, "checkpoints", "checkpoints/step_"},
       Fault{"pwrite", 6, "checkpoints", "checkpoints/step_"}, Fault{"pwrite", 10, "checkpoints", "checkpoints/step_"},
       Fault{"pwrite", 30, "checkpoints", "checkpoints/step_"}, Fault{"H5Dwrite", 70, "", ".h5"},
-      Fault{"H5Fclose", 1, "", ".h5"}, Fault{"H5Dcreate2", 60, "", ".h5"},
+      Fault{"H5Fclose", 1, "", ".h5"}, Fault{"H5Dcreate2", 60, "", ".h5"}, Fault{"H5Dclose", 60, "", ".h5"},
       Fault{"fwrite", 1, "summary.json", "summary.json"}, Fault{"rename", 1, "profile.json", "profile.json"},
       // More than HDF5 asks for, which tries again without a word.
       Fault{"malloc", 1, "", "memory", "600000"});
