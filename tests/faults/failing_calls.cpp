@@ -55,7 +55,8 @@ bool is_of_program(void* place)
 {
   dl_find_object found;
   constexpr std::uintptr_t length_of_entry = 64;
-  const auto from_entry = reinterpret_cast<std::uintptr_t>(place) - getauxval(AT_ENTRY);
+  static const std::uintptr_t entry = getauxval(AT_ENTRY);
+  const std::uintptr_t from_entry = reinterpret_cast<std::uintptr_t>(place) - entry;
   return _dl_find_object(place, &found) == 0 && *found.dlfo_link_map->l_name == 0 && from_entry > length_of_entry;
 }
 
