@@ -21,6 +21,17 @@ struct Share {
   static constexpr auto fields = std::tuple{&Share::part, &Share::whole};
 };
 
+/// The pressure by which matter in compression is loaded, weighted by itself: what lies far from the load, and bears
+/// next to nothing, does not count.
+struct Load {
+  double squared = 0;  ///< sum of V p^2 [Pa^2 m^3]
+  double borne = 0;    ///< sum of V p [Pa m^3]
+
+  double pressure() const { return borne > 0 ? squared / borne : 0; }
+
+  static constexpr auto fields = std::tuple{&Load::squared, &Load::borne};
+};
+
 /// Sums over the particles of a state.
 struct StateSample {
   /// Sums of V (p - p_c)^2 and V p^2, p_c being the mean pressure of a particle's material in its cell [Pa^2 m^3].
@@ -29,14 +40,33 @@ struct StateSample {
   Share torn_apart;
   /// Sums of V p over sand in compression: that which is looser than any test, and all [Pa m^3].
   Share borne_by_looser;
+  Load load;
   /// Of those that are torn, looser than any test, and in compression beyond the largest strain that was tested, that
   /// with the lowest id.
   ParticlePlace torn, looser, out_of_range;
 
-  static constexpr auto fields =
-      std::tuple{&StateSample::uneven_pressure,        &StateSample::torn_apart,
-                 &StateSample::borne_by_looser,        runtime::Least{&StateSample::torn},
-                 runtime::Least{&StateSample::looser}, runtime::Least{&StateSample::out_of_range}};
+  static constexpr auto fields = std::tuple{&StateSample::uneven_pressure,
+                                            &StateSample::torn_apart,
+                                            &StateSample::borne_by_looser,
+                                            &StateSample::load,
+                                            runtime::Least{&StateSample::torn},
+                                            runtime::Least{&StateSample::looser},
+                                            runtime::Least{&StateSample::out_of_range}};
+};
+
+/// Matter has swollen if its volume is more than so many times that which it began with: sand as dense as any holds a
+/// third more as loose as any.
+inline constexpr double swollen_from = 1.2;
+/// It bears load if its pressure is above this part of the greatest load that the run has seen.
+inline constexpr double bears_from = 0.01;
+
+/// Masses of the deformable matter [kg]: that which has swollen and yet bears load, and all.
+struct SwollenSample {
+  Share bearing;
+  /// Of the swollen particles that bear load that with the lowest id.
+  ParticlePlace first;
+
+  static constexpr auto fields = std::tuple{&SwollenSample::bearing, runtime::Least{&SwollenSample::first}};
 };
 
 /// Sums over the nodes at which two materials push each other.
@@ -86,7 +116,9 @@ double out_of_range(const components::UpdateCounts& updates);
 
 struct MonitorRecords {
   SampledShare null_space, uneven_pressure, torn_apart, early_contact, interpenetration;
+  SampledShare swollen_load;
   BorneShare looser_than_tested;
+  double greatest_load = 0;  ///< Load::pressure [Pa]
   /// Samples in which the share since the start was above its limit.
   Sightings missed_substeps, out_of_range;
 };
@@ -95,6 +127,7 @@ struct MonitorRecords {
 /// v_p - sum S_ip v_i [J]; in steps that are sampled.
 inline const runtime::ReductionLabel<Share, "unseen motion"> unseen_motion;
 inline const runtime::ReductionLabel<StateSample, "state sample"> state_sample;
+inline const runtime::ReductionLabel<SwollenSample, "swollen sample"> swollen_sample;
 inline const runtime::ReductionLabel<ContactSample, "contact sample"> contact_sample;
 /// Since the start.
 inline const runtime::GlobalLabel<MonitorRecords, "monitor records"> monitor_records;

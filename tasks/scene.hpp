@@ -219,6 +219,7 @@ struct SceneLimits {
   double courant_number = 1;
   double redone_steps = 0.1;
   double missed_substeps = 0.05;
+  double swollen_load = 0.3;
   double looser_than_tested = 0.2;
   double out_of_range = 0.2;
   double energy_drift = 0.02;
@@ -236,10 +237,10 @@ struct SceneLimits {
 
   bool samples_after(long n_steps) const { return n_steps % sampled_every == 0; }
   /// All but the first.
-  static constexpr std::array<components::Parameter<SceneLimits>, 17> parameters();
+  static constexpr std::array<components::Parameter<SceneLimits>, 18> parameters();
 };
 
-constexpr std::array<components::Parameter<SceneLimits>, 17> SceneLimits::parameters()
+constexpr std::array<components::Parameter<SceneLimits>, 18> SceneLimits::parameters()
 {
   using components::above_zero, components::zero_or_above;
   using L = SceneLimits;
@@ -254,6 +255,10 @@ constexpr std::array<components::Parameter<SceneLimits>, 17> SceneLimits::parame
        {"missed_substeps", "", part, &L::missed_substeps,
         "warns beyond: the part of the materials' substeps that missed their tolerance, from 100 substeps a particle "
         "on",
+        true},
+       {"swollen_load", "", part, &L::swollen_load,
+        "warns beyond: the greatest part of the mass that has swollen to more than 1.2 times its first volume and yet "
+        "bears more than a hundredth of the greatest load in any sample",
         true},
        {"looser_than_tested", "", part, &L::looser_than_tested,
         "warns beyond: the most that sand bears (the sum of V p) which has dilated until it is looser than any that "
@@ -305,9 +310,8 @@ constexpr std::array<components::Parameter<SceneLimits>, 17> SceneLimits::parame
         "",
         {.lower = 1, .upper = 1e6},
         &L::sampled_every,
-        "steps between the samples of `null_space`, `uneven_pressure`, `torn_apart`, `looser_than_tested`, "
-        "`early_contact` "
-        "and `interpenetration`",
+        "steps between the samples of `null_space`, `uneven_pressure`, `torn_apart`, `swollen_load`, "
+        "`looser_than_tested`, `early_contact` and `interpenetration`",
         true}}};
 }
 

@@ -135,6 +135,9 @@ void Simulation::sample_state()
   records.null_space.add(unseen, limits.null_space, n_steps(), time());
   records.uneven_pressure.add(sample.uneven_pressure, limits.uneven_pressure, n_steps(), time());
   records.torn_apart.add(sample.torn_apart, limits.torn_apart, n_steps(), time(), sample.torn);
+  const SwollenSample& swollen = warehouse().result(swollen_sample);
+  records.greatest_load = std::max(records.greatest_load, sample.load.pressure());
+  records.swollen_load.add(swollen.bearing, limits.swollen_load, n_steps(), time(), swollen.first);
   records.looser_than_tested.add(sample.borne_by_looser, limits.looser_than_tested, n_steps(), time(), sample.looser);
   if (missed_substeps(updates(), scene_.n_particles()) > limits.missed_substeps) {
     records.missed_substeps.add(n_steps(), time());

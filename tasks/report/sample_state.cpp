@@ -16,8 +16,8 @@ using runtime::TaskContext;
 namespace
 {
 
-/// How far pressures of particles are from the mean of their cell. What is less than a millionth of the pressure that
-/// would stop the motion is round-off.
+/// How far pressures of particles are from the mean of their cell, and what load they are. What is less than a
+/// millionth of the pressure that would stop the motion is round-off.
 template <int D, class Data>
 void sample_pressures(const TaskContext& at, const Data& data)
 {
@@ -29,8 +29,11 @@ void sample_pressures(const TaskContext& at, const Data& data)
   const GridView<CellMean> cells = data[cell::pressure];
   average_pressures<D>(at.layout.grid(), position, volume, stress, cells);
   Share& uneven = data[state_sample].uneven_pressure;
+  Load& load = data[state_sample].load;
   for (std::size_t p = 0; p < volume.size(); ++p) {
-    const double pressure = pressure_of<D>(stress[p]);
+    const double pressure = pressure_of<D>(stress[p]), borne = volume[p] * std::max(pressure, 0.0);
+    load.borne += borne;
+    load.squared += borne * pressure;
     const double apart = pressure - cells[cell_of<D>(at, position[p])].mean();
     uneven.part += volume[p] * apart * apart;
     const double round_off = 1e-6 * mass[p] / volume[p] * velocity[p].squaredNorm();
@@ -101,6 +104,36 @@ runtime::TaskDeclaration sample(const Method<D>& method, int material, const Mod
   }
 }
 
+/// How much of the matter has swollen, and bears load all the same.
+template <int D>
+runtime::TaskDeclaration sample_swollen(const Method<D>& method, int material)
+{
+  const SceneMaterial& of_group = method.materials[static_cast<std::size_t>(material)];
+  return runtime::task("sample swollen: " + of_group.name)
+      .over_patches_and_groups({material})
+      .sparse()
+      .reads(particle::id.previous(), particle::position<D>.previous(), particle::volume.previous(),
+             particle::mass.previous(), particle::stress<D>.previous(), state_sample, monitor_records.previous())
+      .reduces(swollen_sample)
+      .body([density = of_group.density](const TaskContext& at, auto data) {
+        const auto id = data[particle::id.previous()];
+        const auto position = data[particle::position<D>.previous()];
+        const auto volume = data[particle::volume.previous()];
+        const auto mass = data[particle::mass.previous()];
+        const auto stress = data[particle::stress<D>.previous()];
+        const double greatest_load =
+            std::max(data[state_sample].load.pressure(), data[monitor_records.previous()].greatest_load);
+        SwollenSample& sample = data[swollen_sample];
+        for (std::size_t p = 0; p < id.size(); ++p) {
+          sample.bearing.whole += mass[p];
+          const bool is_swollen = volume[p] * density > swollen_from * mass[p];
+          if (!is_swollen || pressure_of<D>(stress[p]) <= bears_from * greatest_load) continue;
+          sample.bearing.part += mass[p];
+          sample.first = std::min(sample.first, place_of<D>(id[p], at.group, position[p]));
+        }
+      });
+}
+
 }  // namespace
 
 template <int D>
@@ -111,15 +144,17 @@ runtime::TaskList sample_tasks(const Method<D>& method)
     std::visit([&](const auto& model) { tasks.push_back(sample(method, material, model)); },
                method.materials[static_cast<std::size_t>(material)].model);
   }
+  for (const int material : method.deformable_materials) tasks.push_back(sample_swollen(method, material));
   return tasks;
 }
 
 template <int D>
 runtime::HostData sample_data(const Method<D>& method)
 {
-  runtime::HostData data{{&particle::id, &particle::position<D>, &particle::volume, &particle::mass,
-                          &particle::velocity<D>, &particle::stress<D>, &particle::deformation_gradient<D>},
-                         {&state_sample, &cell::pressure}};
+  runtime::HostData data{
+      {&particle::id, &particle::position<D>, &particle::volume, &particle::mass, &particle::velocity<D>,
+       &particle::stress<D>, &particle::deformation_gradient<D>, &monitor_records},
+      {&state_sample, &swollen_sample, &cell::pressure}};
   const bool has_cap = std::ranges::any_of(method.deformable_materials, [&](int material) {
     return std::holds_alternative<components::TabularCap>(method.materials[static_cast<std::size_t>(material)].model);
   });

@@ -44,6 +44,23 @@ double noise(const Vector<3>& x)
   return (i + j) % 2 == 0 ? 0.01 : -0.01;
 }
 
+/// A layer on a floor, on 2 x 2 patches, whose upper half flies up and falls back within 0.31 s.
+Scene thrown_layer(const components::MaterialModel& model)
+{
+  Scene scene = empty_scene(2, {16, 16, 1}, 0.025);
+  scene.n_patches = {2, 2, 1};
+  add_walls(scene, 0);
+  add_walls(scene, 1);
+  scene.gravity = {0, -9.81, 0};
+  scene.materials.push_back({"layer", 1600, model});
+  add_box(scene, 0, {0, 0, 0}, {0.4, 0.05, 0});
+  add_box(scene, 0, {0, 0.05, 0}, {0.4, 0.1, 0}, {0, 1.5, 0});
+  return scene;
+}
+
+const components::DruckerPrager friction_alone{
+    .bulk_modulus = 1e6, .shear_modulus = 6e5, .friction_angle = 35, .dilation_angle = 0, .cohesion = 0};
+
 const MonitorRecords& records_after(Simulation& simulation, int n_steps)
 {
   for (int n = 0; n < n_steps; ++n) simulation.advance(1e30);
@@ -115,6 +132,37 @@ TEST_CASE("particles are torn where tension holds them further apart than nodes 
   CHECK(stretched->monitors().torn_apart.greatest == 0);
 }
 
+TEST_CASE("matter that has swollen by a fifth, and yet bears load, is told with its first particle")
+{
+  const auto swelling = Simulation::make(thrown_layer(friction_alone), 1),
+             rubber = Simulation::make(thrown_layer(components::Hypoelastic{1e6, 6e5}), 1);
+  // What shows in the particles is what the monitor sums up.
+  double most = 0, greatest_load = 0;
+  while (swelling->time() < 0.4) {
+    swelling->advance(0.4);
+    if (!swelling->scene().limits.samples_after(swelling->n_steps())) continue;
+    const auto p = numbers_of(*swelling, "p"), J = numbers_of(*swelling, "J");
+    double squared = 0, borne = 0, bearing = 0;
+    for (std::size_t i = 0; i < p.size(); ++i) {
+      borne += J[i] * std::max(p[i], 0.0);
+      squared += J[i] * std::max(p[i], 0.0) * p[i];
+    }
+    if (borne > 0) greatest_load = std::max(greatest_load, squared / borne);
+    for (std::size_t i = 0; i < p.size(); ++i) bearing += J[i] > 1.2 && p[i] > 0.01 * greatest_load ? 1 : 0;
+    most = std::max(most, bearing / static_cast<double>(p.size()));
+  }
+  advance_to(*rubber, 0.4);
+
+  const SampledShare& seen = swelling->monitors().swollen_load;
+  CHECK(most > 0.3);
+  CHECK(seen.greatest == Approx(most));
+  CHECK(swelling->monitors().greatest_load == Approx(greatest_load));
+  CHECK(seen.above.count > 0);
+  CHECK(seen.above.first.particle >= 0);
+  CHECK(rubber->monitors().greatest_load > 0);
+  CHECK(rubber->monitors().swollen_load.greatest == 0);
+}
+
 TEST_CASE("contact is early where bodies push each other across a gap, and not where they lie on each other")
 {
   const double gap = GENERATE(0.0, 0.1);
@@ -145,6 +193,24 @@ TEST_CASE("samples of the state are the same on any ranks and threads", "[ranks]
   CHECK(records.null_space.all.part == expected.null_space.all.part);
   CHECK(records.uneven_pressure.all.part == expected.uneven_pressure.all.part);
   CHECK(records.torn_apart.all.part == expected.torn_apart.all.part);
+}
+
+TEST_CASE("samples of swollen matter are the same on any ranks and threads", "[ranks]")
+{
+  const Scene scene = thrown_layer(friction_alone);
+  const auto alone = Simulation::make(scene, 1);
+  advance_to(*alone, 0.35);
+  const SampledShare& expected = alone->monitors().swollen_load;
+
+  const auto simulation = Simulation::make(scene, std::make_shared<runtime::Executor>(2, on_shared_cores()),
+                                           runtime::Communicator::world());
+  advance_to(*simulation, 0.35);
+  const SampledShare& seen = simulation->monitors().swollen_load;
+
+  CHECK(expected.all.part > 0);
+  CHECK(seen.all.part == expected.all.part);
+  CHECK(seen.greatest == expected.greatest);
+  CHECK(seen.above.first.particle == expected.above.first.particle);
 }
 
 TEST_CASE("samples of contact are the same on any ranks and threads", "[ranks]")

@@ -101,6 +101,10 @@ std::vector<Monitor> of_samples(const tasks::Simulation& simulation)
       monitor("torn_apart", seen.torn_apart, seen.torn_apart.greatest, limits.torn_apart,
               "of the elastic particles hold tension across more than 1.2 cells, where no node joins them: they break "
               "without a cause; cpdi, or more particles a cell, keep them together"),
+      monitor("swollen_load", seen.swollen_load, seen.swollen_load.greatest, limits.swollen_load,
+              "of the mass has swollen by more than a fifth and yet bears load: its material keeps the gaps that it "
+              "was pulled or sheared into, so that heights, densities and what such matter carries come out too "
+              "large"),
       {"looser_than_tested", number(seen.looser_than_tested.above.count), seen.looser_than_tested.greatest.value(),
        limits.looser_than_tested, seen.looser_than_tested.above,
        "of the most that the sand has borne was borne by sand which has dilated until it is looser than any that was "

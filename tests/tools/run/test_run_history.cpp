@@ -2,6 +2,7 @@
 
 #include <catch2/catch.hpp>
 
+#include "tasks/labels.hpp"
 #include "tests/tools/temporary_folder.hpp"
 #include "tools/scene/read_scene.hpp"
 
@@ -38,6 +39,14 @@ double depth_at_end(const std::string& velocity)
   while (simulation->time() < 0.2) simulation->advance(0.2);
   history.measure();
   return history.depth(history.tracked_bodies().at(0));
+}
+
+void push_along_x(const runtime::GridView<components::NodeMotion<2>>& motion, double push)
+{
+  for_each(motion.box(), [&](const runtime::Index& i) {
+    const Vector<2> more(push, 0);
+    motion[i].set(motion[i].velocity() + more, motion[i].velocity_change() + more);
+  });
 }
 
 }  // namespace
@@ -110,6 +119,36 @@ TEST_CASE("the error of momentum is one of the largest motion so far, also when 
   CHECK(history.report().sum_of_momenta < 0.02 * at_start);
   CHECK(history.largest().momenta >= at_start);
   CHECK(history.momentum_error() < 1e-13);
+}
+
+TEST_CASE("momentum from nowhere is told by as much as the body is faster, and warned of beyond the limit")
+{
+  const double push = GENERATE(1e-4, 3e-4);  // m/s in each of 50 steps
+  const test::TemporaryFolder folder;
+  const auto file = folder.write("scene.json", falling_block);
+  const auto checked = tools::read_scene(
+      file, {"/gravity=[0,0]", "/bodies/block/rigid=false", "/bodies/block/velocity=[1,0]", "/time/maximum_step=1e-4"});
+  // The program has no task that does this: one is put behind the last that changes the motion of nodes.
+  const auto simulation =
+      tasks::Simulation::make(checked.scene, std::make_shared<runtime::Executor>(1), {}, [&](runtime::TaskList& step) {
+        const auto walls = std::ranges::find(step, "walls", &runtime::TaskDeclaration::name);
+        step.insert(std::next(walls), runtime::task("push")
+                                          .over_patches()
+                                          .updates(tasks::node::motion<2>.halo(1).every_group())
+                                          .body([&](const runtime::TaskContext&, auto data) {
+                                            push_along_x(data[tasks::node::motion<2>][0], push);
+                                          }));
+      });
+  tools::RunHistory history(*simulation);
+  history.begin(folder.path());
+  for (int n = 0; n < 50; ++n) simulation->advance(1);
+
+  history.write_row();
+
+  const double faster = 50 * push;
+  CHECK(history.report().momentum().x() == Approx(2000 * (1 + faster)));
+  CHECK(history.momentum_error() == Approx(faster / (1 + faster)));
+  CHECK(history.balances_above().momentum_error.count == (faster > 0.01 ? 1 : 0));
 }
 
 TEST_CASE("sand at rest has no error of momentum but round-off of its weight")

@@ -20,24 +20,33 @@ const Json& point_of(const Json& results, const std::string& method)
   return *std::find_if(points.begin(), points.end(), [&](const Json& point) { return point["method"] == method; });
 }
 
-Outcome outcome_of(const Json& point, const std::string& quantity)
+/// The monitors in the summary of a point; none where it has no summary.
+Json monitors_of(const Json& point, const std::filesystem::path& folder)
+{
+  const std::filesystem::path file = folder / point["folder"].get<std::string>() / "summary.json";
+  if (!std::filesystem::exists(file)) return Json::object();
+  const Json summary = Json::parse(std::ifstream(file), nullptr, false);
+  if (summary.is_discarded()) throw runtime::FileError(file.string(), "cannot be read");
+  return summary.value("monitors", Json::object());
+}
+
+std::optional<double> count_of(const std::string& monitor, const Json& monitors)
+{
+  const Json found = monitors.value(monitor, Json());
+  const Json count = found.is_object() ? found.value("count", Json()) : Json();
+  return count.is_number() ? std::optional<double>(count) : std::nullopt;
+}
+
+Outcome outcome_of(const Json& point, const std::string& quantity, const Json& monitors)
 {
   Outcome outcome{point["ended"], std::nullopt, point["command"]};
   const auto error = point["errors"].find(quantity);
   if (outcome.ended == "done" && error != point["errors"].end() && error->is_number()) outcome.error = *error;
+  for (const auto& [name, monitor] : monitors.items()) {
+    if (!monitor.is_object() || !monitor.contains("limit")) continue;
+    outcome.shares_of_limits[name] = monitor["share"].get<double>() / monitor["limit"].get<double>();
+  }
   return outcome;
-}
-
-std::optional<double> count_of(const std::string& monitor, const std::filesystem::path& run)
-{
-  const std::filesystem::path file = run / "summary.json";
-  if (!std::filesystem::exists(file)) return std::nullopt;
-  const Json summary = Json::parse(std::ifstream(file), nullptr, false);
-  if (summary.is_discarded()) throw runtime::FileError(file.string(), "cannot be read");
-  const Json count = summary.value("monitors", Json::object()).value(monitor, Json()).is_object()
-                         ? summary["monitors"][monitor].value("count", Json())
-                         : Json();
-  return count.is_number() ? std::optional<double>(count) : std::nullopt;
 }
 
 std::string error_text(const Outcome& outcome)
@@ -56,7 +65,8 @@ Json outcome_json(const std::string& method, const Outcome& outcome)
   return {{"method", method},
           {"ended", outcome.ended},
           {"error", value_or_null(outcome.error)},
-          {"command", outcome.command}};
+          {"command", outcome.command},
+          {"shares_of_limits", outcome.shares_of_limits}};
 }
 
 }  // namespace
@@ -75,12 +85,14 @@ Entry entry_of(const study::Study& study, const Json& results, const std::filesy
 {
   const study::Stability& told = *study.stability;
   const Json& failing = point_of(results, told.fails);
+  const Json& surviving = point_of(results, told.survives);
+  const Json monitors = monitors_of(failing, folder);
   return {study.file.stem(),
           study.title,
           told,
-          outcome_of(failing, told.quantity),
-          outcome_of(point_of(results, told.survives), told.quantity),
-          count_of(told.monitor, folder / failing["folder"].get<std::string>())};
+          outcome_of(failing, told.quantity, monitors),
+          outcome_of(surviving, told.quantity, monitors_of(surviving, folder)),
+          count_of(told.monitor, monitors)};
 }
 
 std::string to_markdown(const std::vector<Entry>& entries)
@@ -91,6 +103,34 @@ std::string to_markdown(const std::vector<Entry>& entries)
     rows.push_back({entry.name, entry.told.fails, error_text(entry.failing),
                     fmt::format("{:.2g}", entry.told.threshold), entry.told.survives, error_text(entry.surviving),
                     entry.told.symptom, entry.is_as_told() ? "yes" : "**NO**"});
+  }
+  return markdown_table(rows);
+}
+
+std::string monitors_to_markdown(const std::vector<Entry>& entries)
+{
+  struct Seen {
+    double share = 0;
+    std::string words;
+  };
+  std::map<std::string, std::pair<Seen, Seen>> next_to_limit;  // warning, and silent
+  const auto look = [&](const Entry& entry, const std::string& method, const Outcome& outcome, bool survives) {
+    for (const auto& [monitor, share] : outcome.shares_of_limits) {
+      auto& [warning, silent] = next_to_limit[monitor];
+      const Seen seen{share, fmt::format("{}, {} ({})", entry.name, method, error_text(outcome))};
+      if (share > 1 && (warning.words.empty() || share < warning.share)) warning = seen;
+      if (share <= 1 && survives && (silent.words.empty() || share > silent.share)) silent = seen;
+    }
+  };
+  for (const Entry& entry : entries) {
+    look(entry, entry.told.fails, entry.failing, false);
+    look(entry, entry.told.survives, entry.surviving, entry.survived());
+  }
+  const auto share_text = [](const Seen& seen) { return seen.words.empty() ? "" : fmt::format("{:.2g}", seen.share); };
+  std::vector<std::vector<std::string>> rows{
+      {"monitor", "share / limit", "warns in (error)", "share / limit", "silent in (error)"}};
+  for (const auto& [monitor, seen] : next_to_limit) {
+    rows.push_back({monitor, share_text(seen.first), seen.first.words, share_text(seen.second), seen.second.words});
   }
   return markdown_table(rows);
 }

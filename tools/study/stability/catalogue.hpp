@@ -1,5 +1,6 @@
 #pragma once
 
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -22,6 +23,8 @@ struct Outcome {
   std::optional<double> error;
   /// The command line that remakes it.
   std::string command;
+  /// What the run says of itself, where it is one of a scene: shares over their limits, by the monitors' names.
+  std::map<std::string, double> shares_of_limits{};
 };
 
 /// An entry of the catalogue with what its study has found.
@@ -29,7 +32,7 @@ struct Entry {
   std::string name, title;
   study::Stability told;
   Outcome failing, surviving;
-  /// The count of its monitor in the run that fails, where that has one.
+  /// The count of its monitor in the run that fails, where it has one.
   std::optional<double> first_count;
 
   /// Unstable, or three times as far off as the threshold or more.
@@ -44,6 +47,10 @@ Entry entry_of(const study::Study& study, const Json& results, const std::filesy
 
 /// A table in Markdown, a row for each entry.
 std::string to_markdown(const std::vector<Entry>& entries);
+
+/// A table in Markdown, a row for each monitor: of the runs in which it warns, and of those that survive in which it
+/// does not, those whose shares are next to its limit.
+std::string monitors_to_markdown(const std::vector<Entry>& entries);
 
 /// All that is known of each, with titles and commands.
 Json to_json(const std::vector<Entry>& entries);

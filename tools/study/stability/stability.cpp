@@ -65,7 +65,7 @@ void run_catalogue(const study::StudyBatch& batch)
   const std::vector<study::Study> studies = read_entries(files);
   note_shipped_inputs();
   expect_outputs({{"--json", batch.json}});
-  make_folder(batch, {"stability.json", "stability.md"});
+  make_folder(batch, {"stability.json", "stability.md", "monitors.md"});
   std::vector<std::string> failures = run_studies(batch, files);
   std::vector<Entry> entries;
   for (std::size_t i = 0; i < files.size(); ++i) {
@@ -77,6 +77,7 @@ void run_catalogue(const study::StudyBatch& batch)
       {"program", version_text()}, {"machine", machine_json()}, {"failures", failures}, {"entries", to_json(entries)}};
   runtime::write_whole_file(batch.folder / "stability.json", json_text(json, 1) + "\n");
   runtime::write_whole_file(batch.folder / "stability.md", table);
+  runtime::write_whole_file(batch.folder / "monitors.md", monitors_to_markdown(entries));
   if (!batch.json.empty()) runtime::write_whole_file(batch.json, json_text(to_list(entries), 1) + "\n");
   if (!batch.quiet) print_out("{}", table);
   if (failures.empty()) return;

@@ -101,6 +101,34 @@ TEST_CASE("the table has a row for each entry, and shows which is not as told")
   CHECK_THAT(table, Contains("| noise | bad   | 0.2      | 0.1       | good     | 0     | a din   | **NO**  |"));
 }
 
+TEST_CASE("the table of monitors has the runs next to each limit: that which warns, and that which survives silent")
+{
+  const auto with_shares = [](double failing, double surviving) {
+    Entry entry = entry_with(point("bad", 1), point("good", 0.01));
+    entry.failing.shares_of_limits = {{"null_space", failing}};
+    entry.surviving.shares_of_limits = {{"null_space", surviving}};
+    return entry;
+  };
+
+  const std::string table = monitors_to_markdown({with_shares(4, 0.2), with_shares(3, 0.1), with_shares(0.9, 2.5)});
+
+  CHECK_THAT(table,
+             Contains("| null_space | 2.5           | noise, good (0.01) | 0.2           | noise, good (0.01) |"));
+}
+
+TEST_CASE("shares of limits are those of the summaries of both runs, and of monitors alone")
+{
+  const test::TemporaryFolder folder;
+  for (const char* name : {"bad", "good"}) std::filesystem::create_directories(folder.path() / "points" / name);
+  folder.write("points/bad/summary.json", R"({"monitors": {"null_space": {"share": 0.5, "limit": 0.25}, "steps": 3}})");
+  folder.write("points/good/summary.json", R"({"monitors": {"null_space": {"share": 0, "limit": 0.25}}})");
+
+  const Entry entry = entry_with(point("bad", 1), point("good", 0), folder.path());
+
+  CHECK(entry.failing.shares_of_limits == std::map<std::string, double>{{"null_space", 2}});
+  CHECK(entry.surviving.shares_of_limits == std::map<std::string, double>{{"null_space", 0}});
+}
+
 TEST_CASE("the list says of each entry what failed and what survived")
 {
   const Json list = to_list({entry_with(point("bad", 0.2), point("good", 0))});
