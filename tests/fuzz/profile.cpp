@@ -9,6 +9,7 @@ void tamp::fuzz::profile(const std::filesystem::path& file)
   tools::profile_text(run);
   tools::profile_text(run, {.as_json = true});
   tools::profile_text(run, {.patches = true});
+  tools::profile_text(run, {.memory = true});
   tools::profile_text(run, {.chain = true});
   tools::profile_text(run, {.ranks = {0}});
   tools::profile_text(run, {.other = run});

@@ -31,5 +31,5 @@ void tamp::fuzz::result(const std::filesystem::path& file)
   fs::create_directories(folder);
   std::ofstream(folder / "result.json") << with_checksum(file);
   std::ofstream(folder / "history.csv") << "step,time[s]\n1,0.5\n";
-  tools::study::read_result(folder);
+  if (const auto result = tools::study::read_result(folder)) result->columns();
 }
