@@ -26,7 +26,7 @@ double way_of_ball(const Scene& scene, int axis)
 {
   const auto simulation = Simulation::make(scene, 1);
   advance_to(*simulation, scene.time.end);
-  const BodySums& ball = simulation->report().bodies[0];
+  const BodySums ball = simulation->report().bodies[0];
   return (ball.reference_position[axis] - ball.position[axis]) / ball.mass;
 }
 
@@ -49,7 +49,7 @@ TEST_CASE("a free rigid body of an axisymmetric scene stays on the axis and does
 
   advance_to(*simulation, scene.time.end);
 
-  const BodySums& projectile = simulation->report().bodies[0];
+  const BodySums projectile = simulation->report().bodies[0];
   CHECK(projectile.position.x() == 0);
   CHECK(projectile.momentum.x() == 0);
   CHECK(projectile.angular_momentum.isZero(0));

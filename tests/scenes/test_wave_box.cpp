@@ -27,7 +27,7 @@ double way_in(const Scene& scene)
 {
   const auto simulation = Simulation::make(scene, 1);
   advance_to(*simulation, scene.time.end);
-  const BodySums& body = simulation->report().bodies[0];
+  const BodySums body = simulation->report().bodies[0];
   return (body.reference_position - body.position).norm() / body.mass;
 }
 
