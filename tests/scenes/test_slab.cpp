@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "tests/tasks/scenes.hpp"
+#include "tests/tools/rehearsal.hpp"
 #include "tools/scene/read_scene.hpp"
 
 /// The quick punch in plane strain beside the same as a slab one cell thick between smooth walls.
@@ -56,7 +57,7 @@ TEST_CASE("the quick punch as a slab one cell thick does over 100 equal steps wh
   const std::vector<std::size_t> partner = partners(sorted_particles(*plane), sorted_particles(*slab));
   constexpr double thickness = 0.025, tolerance = 1e-10;
 
-  for (int n = 0; n < 100; ++n) {
+  for (int n = 0; n < n_steps_of(100); ++n) {
     plane->advance(1);
     slab->advance(1);
     REQUIRE(slab->last_step_size() == Approx(plane->last_step_size()).epsilon(tolerance));

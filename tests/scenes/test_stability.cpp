@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "tests/tools/program.hpp"
+#include "tests/tools/rehearsal.hpp"
 
 namespace test_stability
 {
@@ -29,11 +30,12 @@ TEST_CASE("every entry of the failure catalogue fails and survives as told, on a
   const TemporaryFolder folder;
   const std::string out = (folder.path() / "out").string();
 
-  const Outcome outcome = tamp_with("stability --quiet --out " + out);
+  const Outcome outcome = tamp_with("stability --quiet --out " + out + rehearsed);
 
   INFO(outcome.err);
   CHECK(outcome.exit_code == 0);
   const Json results = Json::parse(read_text(out + "/stability.json"));
+  if (is_rehearsal) return;
   CHECK(results["failures"].empty());
   CHECK(results["entries"].size() >= 16);
 

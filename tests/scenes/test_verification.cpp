@@ -2,6 +2,7 @@
 #include <nlohmann/json.hpp>
 
 #include "tests/tools/program.hpp"
+#include "tests/tools/rehearsal.hpp"
 
 namespace test_verification
 {
@@ -15,11 +16,12 @@ TEST_CASE("short verifications hold what they expect, and say which errors and o
   const TemporaryFolder folder;
   const std::string out = (folder.path() / "out").string();
 
-  const Outcome outcome = tamp_with("verify --short --quiet --out " + out);
+  const Outcome outcome = tamp_with("verify --short --quiet --out " + out + rehearsed);
 
   INFO(outcome.err);
   CHECK(outcome.exit_code == 0);
   const Json results = Json::parse(read_text(out + "/verification.json"));
+  if (is_rehearsal) return;
   CHECK(results["failures"].empty());
   CHECK(results["held_misses"].empty());
   REQUIRE(results["studies"].size() > 20);

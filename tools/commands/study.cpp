@@ -43,7 +43,8 @@ void add_limit_options(CLI::App& command, StudyArguments& arguments)
                                          "look for the value of a setting at which each method, or the scene, stops "
                                          "being stable, instead of running the study")
                              ->type_name("POINTER")
-                             ->check(is_not_empty());
+                             ->check(is_not_empty())
+                             ->excludes("--steps");
   command
       .add_option("--between", arguments.between, "values between which it lies; else doubled or halved until found")
       ->type_name("LOW,HIGH")
@@ -82,11 +83,14 @@ CLI::App* add_study_command(CLI::App& app)
   command->add_option("--out", options->folder, "the study's folder; by default studies/ and the study's name")
       ->type_name("DIR");
   command->add_flag("--short", options->in_short, "the study's short form");
+  command->add_option("--steps", options->most_steps, "a rehearsal: each run ends after so many steps")
+      ->check(is_whole_from(1));
   command->add_flag("--force", options->force, "remove results of another program from the folder");
   command->add_flag("--quiet", options->quiet, "print no progress and no table");
   add_limit_options(*command, *arguments);
   command->footer(examples(
       {{"tamp study inputs/studies/bar.json --short", "a small study, in half a minute"},
+       {"tamp study inputs/studies/punch.json --steps 20", "whether all of its runs can be run, in a minute"},
        {"tamp study inputs/studies/punch.json --out studies/punch", "hours; started again it goes on"},
        {"tamp study inputs/studies/bar.json --limit /time/multiplier", "how large steps each method endures"}}));
   command->callback([arguments] { run(*arguments); });

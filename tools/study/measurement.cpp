@@ -98,6 +98,7 @@ std::vector<std::string> command_of(const Study& study, const Settings& settings
   switch (measure.kind) {
     case Measure::Kind::run:
       command = {"run", measure.file.string(), "--threads", std::to_string(study.n_threads)};
+      if (study.most_steps) command.insert(command.end(), {"--steps", std::to_string(*study.most_steps)});
       break;
     case Measure::Kind::drive:
       command = {"drive", measure.file.string(), measure.along.string(), "--increment",
@@ -126,6 +127,7 @@ Measurement measurement_of(const Study& study, const Settings& settings)
     const Measured measured = read_measured(study.measure, settings);
     for (const std::string& note : measured.notes) measurement.notes.push_back(place_in_study(study, note));
     std::string text = json_text(measured.resolved) + std::to_string(study.n_threads);
+    if (study.most_steps) text += fmt::format("{} steps", *study.most_steps);
     if (!study.measure.along.empty()) {
       text += read_input_file(study.measure.along) + fmt::format("{}", study.measure.increment);
     }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 
 namespace tamp::tools::study
 {
@@ -10,6 +11,8 @@ struct StudyOptions {
   /// By default `studies/` and the file's name.
   std::filesystem::path folder;
   bool in_short = false;
+  /// A rehearsal: each run ends after so many steps, which shows that all of them can be run; nothing is judged.
+  std::optional<long> most_steps{};
   /// Remove what another program has found.
   bool force = false;
   /// Print no progress, and not what was found.

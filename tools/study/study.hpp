@@ -216,6 +216,8 @@ struct Study {
   double limit = std::numeric_limits<double>::infinity();
   double limit_over_fastest = std::numeric_limits<double>::infinity();
   int n_threads = 1;
+  /// A rehearsal: runs end after so many steps.
+  std::optional<long> most_steps{};
 };
 
 /// Each is checked before the first runs, and is a process of its own.

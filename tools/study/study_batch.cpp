@@ -39,6 +39,7 @@ Child study_command(const StudyBatch& batch, const fs::path& file)
   const fs::path folder = batch.folder / file.stem();
   Child child{{"study", file.string(), "--out", folder.string(), "--quiet"}, folder.string() + ".errors"};
   if (batch.in_short) child.arguments.push_back("--short");
+  if (batch.most_steps) child.arguments.insert(child.arguments.end(), {"--steps", std::to_string(*batch.most_steps)});
   if (batch.force) child.arguments.push_back("--force");
   return child;
 }

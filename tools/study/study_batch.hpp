@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -20,6 +21,8 @@ struct StudyBatch {
   /// Where a list of results is written too; empty: nowhere.
   std::filesystem::path json{};
   bool in_short = false;
+  /// A rehearsal, see StudyOptions; what the studies have found is not judged.
+  std::optional<long> most_steps{};
   /// Remove what another program has found.
   bool force = false;
   bool quiet = false;

@@ -139,6 +139,24 @@ void a_list(const std::filesystem::path& file)
 
 }  // namespace
 
+TEST_CASE("a rehearsal runs every point for a few steps, fails for no reference, and is not taken for a whole result")
+{
+  const FlightStudy study;
+  const std::string with_reference = R"({
+    "reference": { "set": { "/time/minimum_step": 1 } },
+    "quantities": [{ "name": "depth", "column": "block.depth[m]", "take": "greatest" }]
+  })";
+
+  const Outcome rehearsal = study.run(with_reference, "--steps 2"), whole = study.run("{}");
+
+  CHECK(rehearsal.exit_code == 0);
+  CHECK(whole.exit_code == 0);
+  CHECK(study.n_kept() == 7);
+  const Json results = study.results();
+  for (const Json& point : results["points"]) CHECK(point["cost"]["steps"].get<double>() > 2);
+  CHECK(study.run("{}", "--steps 0").exit_code == 2);
+}
+
 TEST_CASE("a study measures its points, and their errors against the exact answer")
 {
   const FlightStudy study;

@@ -1,0 +1,17 @@
+#pragma once
+
+/// Sanitizers make a step some thirty times as long. There whole studies and catalogues are rehearsed: each of their
+/// runs takes a few steps, and what they come to is judged in other presets.
+namespace tamp::test
+{
+
+inline constexpr bool is_rehearsal = TAMP_SANITIZED;
+/// For `tamp study`, `tamp verify` and `tamp stability`.
+inline constexpr const char* rehearsed = is_rehearsal ? " --steps 20" : "";
+/// Of a test that takes so many steps by itself.
+constexpr int n_steps_of(int whole)
+{
+  return is_rehearsal ? (whole + 9) / 10 : whole;
+}
+
+}  // namespace tamp::test
