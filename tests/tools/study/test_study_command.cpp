@@ -297,7 +297,8 @@ TEST_CASE("a study in which no point ran ends with 2, and says why on stderr, ea
 
   CHECK(outcome.exit_code == 2);
   CHECK_THAT(outcome.err, Contains("study.json: no point ran; expected settings that can be run"));
-  for (const Json& point : study.results()["points"]) {
+  const Json results = study.results();
+  for (const Json& point : results["points"]) {
     const std::string reason = point["reason"];
     CAPTURE(reason);
     CHECK(point["ended"] == "refused");
