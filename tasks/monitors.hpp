@@ -54,8 +54,8 @@ struct StateSample {
                                             runtime::Least{&StateSample::out_of_range}};
 };
 
-/// Matter has swollen if its volume is more than so many times that which it began with: sand as dense as any holds a
-/// third more as loose as any.
+/// Matter has swollen if its volume is more than so many times that at its material's density. From its densest to its
+/// loosest packing sand grows by about a third.
 inline constexpr double swollen_from = 1.2;
 /// It bears load if its pressure is above this part of the greatest load that the run has seen.
 inline constexpr double bears_from = 0.01;
