@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "tests/scenes/history.hpp"
+#include "tests/tools/rehearsal.hpp"
 #include "tests/tools/temporary_folder.hpp"
 #include "tools/run/run.hpp"
 #include "tools/scene/read_scene.hpp"
@@ -23,7 +24,7 @@ std::vector<HistoryRow> history_until(const std::string& scene, double time)
   RunOptions options;
   options.folder = folder.path() / "run";
   options.n_threads = 2;
-  options.until = time;
+  options.until = test::end_of(time);
   options.quiet = true;
   run(read_scene(std::filesystem::path(TAMP_SOURCE_DIR) / "inputs" / scene, {"/output/fields_interval=1"}), options);
   return test::history_of(options.folder / "history.csv");
@@ -40,6 +41,7 @@ const HistoryRow& row_at(const std::vector<HistoryRow>& rows, double time)
 TEST_CASE("the quick punch is as deep at 1 and 2 ms, and its sand as hard pressed, as is documented", "[scenes]")
 {
   const auto rows = history_until("punch/quick.json", 2.02e-3);
+  if (test::is_rehearsal) return;
 
   const HistoryRow &early = row_at(rows, 1e-3), &late = row_at(rows, 2e-3);
   CHECK(early.at("punch.depth[m]") == Approx(0.1634).epsilon(0.02));
@@ -55,6 +57,7 @@ TEST_CASE("the quick punch is as deep at 1 and 2 ms, and its sand as hard presse
 TEST_CASE("the quick projectile is as deep after 0.1 ms, at that angle, as is documented", "[scenes]")
 {
   const auto rows = history_until("uxo/quick.json", 1.02e-4);
+  if (test::is_rehearsal) return;
 
   const HistoryRow& row = row_at(rows, 1e-4);
   CHECK(0.1075 - row.at("projectile.nose_z[m]") == Approx(0.01099).epsilon(0.02));

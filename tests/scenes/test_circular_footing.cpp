@@ -10,6 +10,7 @@
 #include "tests/runtime/shared_cores.hpp"
 #include "tests/scenes/history.hpp"
 #include "tests/tools/program.hpp"
+#include "tests/tools/rehearsal.hpp"
 #include "tools/scene/read_scene.hpp"
 
 namespace test_circular_footing
@@ -36,7 +37,7 @@ Pressed pressed(const std::string& anti_locking, double cell_size)
   const TemporaryFolder folder;
   const std::string run = (folder.path() / "run").string();
   const Outcome outcome =
-      tamp_with("run " TAMP_SOURCE_DIR "/inputs/footing/circular.json --quiet --out " + run +
+      tamp_with("run " TAMP_SOURCE_DIR "/inputs/footing/circular.json --quiet --out " + run + rehearsed +
                 " --set /anti_locking=" + anti_locking + " --set /grid/cell_size=" + std::to_string(cell_size));
   INFO(outcome.err);
   REQUIRE(outcome.exit_code == 0);
@@ -59,6 +60,7 @@ TEST_CASE("a circular footing bears about what limit analysis says with cell ave
 
   CAPTURE(least_load, greatest_load, coarse.load, fine.load, plain.load, coarse.energy_error, fine.energy_error,
           plain.energy_error);
+  if (is_rehearsal) return;
   CHECK(plain.load > 1.1 * greatest_load);
   CHECK(fine.load < 1.05 * greatest_load);
   CHECK(fine.load < coarse.load);
@@ -78,7 +80,7 @@ TEST_CASE("a circular footing on clay that shares its volume has the same digest
   const auto digest = [&](int n_threads, const tamp::runtime::Communicator& communicator) {
     const auto simulation = tamp::tasks::Simulation::make(
         scene, std::make_shared<tamp::runtime::Executor>(n_threads, on_shared_cores()), communicator);
-    for (int n = 0; n < 100; ++n) simulation->advance(1);
+    for (int n = 0; n < n_steps_of(100); ++n) simulation->advance(1);
     return simulation->digest();
   };
   const std::string alone = digest(1, {});

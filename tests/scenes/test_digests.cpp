@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "tests/tools/program.hpp"
+#include "tests/tools/rehearsal.hpp"
 
 namespace test_digests
 {
@@ -35,7 +36,8 @@ void check_all_digests()
   const nlohmann::json committed = committed_digests();
   for (const auto& [scene, expected] : committed.items()) {
     INFO(scene);
-    CHECK(digest_of(scene, expected["steps"]) == expected["digest"]);
+    const std::string digest = digest_of(scene, n_steps_of(expected["steps"]));
+    if (!is_rehearsal) CHECK(digest == expected["digest"]);
   }
 }
 

@@ -8,6 +8,7 @@
 
 #include "tests/runtime/shared_cores.hpp"
 #include "tests/tasks/scenes.hpp"
+#include "tests/tools/rehearsal.hpp"
 #include "tools/scene/read_scene.hpp"
 
 namespace test_halves
@@ -160,7 +161,7 @@ TEST_CASE("half a punch goes as the whole does, in the same steps, whatever the 
                            "/contact/0/normal=" + normal, "/bodies/punch/rigid=" + rigid};
   Pair pair(scene_of("punch/quick.json", method), scene_of("punch/quick.json", method, half_of_punch), {0});
 
-  pair.advance(200);
+  pair.advance(n_steps_of(200));
 
   CHECK(pair.difference() < 1e-10);
   CHECK(pair.error_of_depth() < 1e-10);
@@ -171,7 +172,7 @@ TEST_CASE("half a rigid punch is as deep as the whole after a millisecond, in as
   const Assignments rigid{"/bodies/punch/rigid=true"};
   Pair pair(scene_of("punch/quick.json", rigid), scene_of("punch/half.json", {}), {0});
 
-  pair.advance_to_end(1e-3);
+  pair.advance_to_end(end_of(1e-3));
 
   CHECK(pair.part().n_steps() == pair.whole().n_steps());
   CHECK(pair.error_of_depth() < 1e-4);
@@ -188,7 +189,7 @@ TEST_CASE("a quarter and a half of a projectile that goes straight down go as th
   scene.insert(scene.end(), {"/interpolator=" + interpolator, "/transfer=" + transfer, "/stress_timing=" + timing});
   Pair pair(scene_of("uxo/quick.json", scene), scene_of("uxo/quick.json", scene, {cut}), axes);
 
-  pair.advance(200);
+  pair.advance(n_steps_of(200));
 
   CHECK(pair.difference() < 1e-10);
   CHECK(pair.error_of_depth() < 1e-10);
@@ -199,7 +200,7 @@ TEST_CASE("half an inclined projectile turns in its plane as the whole does", "[
   Pair pair(scene_of("uxo/quick.json", inclined), scene_of("uxo/quick.json", inclined, {"/grid/lower=[0,0.05,0]"}),
             {1});
 
-  pair.advance(200);
+  pair.advance(n_steps_of(200));
 
   CHECK(pair.difference() < 1e-10);
   CHECK(pair.error_of_depth() < 1e-10);

@@ -2,6 +2,7 @@
 
 #include "tasks/simulation.hpp"
 #include "tests/runtime/shared_cores.hpp"
+#include "tests/tools/rehearsal.hpp"
 #include "tools/scene/read_scene.hpp"
 
 namespace test_on_ranks
@@ -21,7 +22,7 @@ TEST_CASE("every shipped scene has the same digest on any ranks and threads", "[
   const auto digest = [&](int n_threads, const runtime::Communicator& communicator) {
     const auto simulation = tasks::Simulation::make(
         checked.scene, std::make_shared<runtime::Executor>(n_threads, test::on_shared_cores()), communicator);
-    for (int n = 0; n < shipped.n_steps; ++n) simulation->advance(1);
+    for (int n = 0; n < test::n_steps_of(shipped.n_steps); ++n) simulation->advance(1);
     return simulation->digest();
   };
   const std::string alone = digest(1, {});

@@ -4,6 +4,7 @@
 
 #include "tests/runtime/shared_cores.hpp"
 #include "tests/tasks/scenes.hpp"
+#include "tests/tools/rehearsal.hpp"
 #include "tools/scene/read_scene.hpp"
 
 /// Axisymmetric scenes beside the same in space, on the same cells.
@@ -25,7 +26,7 @@ Scene scene_of(const std::string& file, const std::vector<std::string>& changes)
 double way_of_ball(const Scene& scene, int axis)
 {
   const auto simulation = Simulation::make(scene, 1);
-  advance_to(*simulation, scene.time.end);
+  advance_to(*simulation, end_of(scene.time.end));
   const BodySums ball = simulation->report().bodies[0];
   return (ball.reference_position[axis] - ball.position[axis]) / ball.mass;
 }
@@ -39,7 +40,7 @@ TEST_CASE("a free ball goes as deep into sand in the plane of r and z as a quart
       way_of_ball(scene_of("ball_in_space.json", {"/grid/cell_size=0.004", "/grid/upper=[0.048,0.048,0.084]"}), 2);
 
   CAPTURE(turned, quarter);
-  CHECK(turned == Approx(quarter).epsilon(0.025));
+  if (!is_rehearsal) CHECK(turned == Approx(quarter).epsilon(0.025));
 }
 
 TEST_CASE("a free rigid body of an axisymmetric scene stays on the axis and does not turn")
@@ -47,7 +48,7 @@ TEST_CASE("a free rigid body of an axisymmetric scene stays on the axis and does
   const Scene scene = scene_of("projectile_straight_down.json", {"/time/end=5e-5"});
   const auto simulation = Simulation::make(scene, 1);
 
-  advance_to(*simulation, scene.time.end);
+  advance_to(*simulation, end_of(scene.time.end));
 
   const BodySums projectile = simulation->report().bodies[0];
   CHECK(projectile.position.x() == 0);
@@ -62,7 +63,7 @@ TEST_CASE("an axisymmetric projectile has the same digest on any ranks and threa
   const auto digest = [&](int n_threads, const runtime::Communicator& communicator) {
     const auto simulation =
         Simulation::make(scene, std::make_shared<runtime::Executor>(n_threads, on_shared_cores()), communicator);
-    for (int n = 0; n < 60; ++n) simulation->advance(1);
+    for (int n = 0; n < n_steps_of(60); ++n) simulation->advance(1);
     return simulation->digest();
   };
   const std::string alone = digest(1, {});

@@ -1,8 +1,10 @@
+#include <fmt/format.h>
 #include <catch2/catch.hpp>
 #include <filesystem>
 #include <sstream>
 
 #include "tests/tasks/scenes.hpp"
+#include "tests/tools/rehearsal.hpp"
 #include "tools/scene/penetration.hpp"
 #include "tools/scene/read_scene.hpp"
 #include "tools/scene/wave_box.hpp"
@@ -54,10 +56,9 @@ double n_cells(const Scene& scene)
 
 TEST_CASE("in the box that waves do not come back from a body goes as deep as in the whole, to 1e-4")
 {
-  using Case = std::pair<std::string, std::vector<std::string>>;
-  const auto [file, changes] =
-      GENERATE(Case{"punch/quick.json", {"/time/end=1e-4"}}, Case{"punch/quick.json", {"/time/end=3e-4"}},
-               Case{"savings/ball.json", {"/time/end=5e-5"}}, Case{"uxo/half.json", {"/time/end=5e-5"}});
+  const auto [file, end] = GENERATE(table<std::string, double>(
+      {{"punch/quick.json", 1e-4}, {"punch/quick.json", 3e-4}, {"savings/ball.json", 5e-5}, {"uxo/half.json", 5e-5}}));
+  const std::vector<std::string> changes{fmt::format("/time/end={}", end_of(end))};
   CAPTURE(file, changes);
   const Scene whole = scene_of(file, changes), part = scene_of(file, with_advised_box(file, changes));
 

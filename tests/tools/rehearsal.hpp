@@ -1,7 +1,7 @@
 #pragma once
 
-/// Sanitizers make a step some thirty times as long. There whole studies and catalogues are rehearsed: each of their
-/// runs takes a few steps, and what they come to is judged in other presets.
+/// Sanitizers make a step some thirty times as long. There whole scenes, studies and catalogues are rehearsed: each of
+/// their runs takes a few steps, and what they come to is judged in other presets.
 namespace tamp::test
 {
 
@@ -12,6 +12,11 @@ inline constexpr const char* rehearsed = is_rehearsal ? " --steps 20" : "";
 constexpr int n_steps_of(int whole)
 {
   return is_rehearsal ? (whole + 9) / 10 : whole;
+}
+/// Of one that runs a scene to a time of its own [s].
+constexpr double end_of(double whole)
+{
+  return is_rehearsal ? whole / 10 : whole;
 }
 
 }  // namespace tamp::test
