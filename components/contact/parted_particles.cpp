@@ -28,7 +28,30 @@ void mark_near_cells(const GridBlock<D>& block, ContactPlane<D>* planes)
   }
 }
 
+template <int D>
+void add_regression(const Interpolation<D>& interpolation, const GridBlock<D>& block, const ParticlePlaces<D>& places,
+                    const ContactPlane<D>* planes, RegressionSums<D>* sums)
+{
+  interpolation.with_shape([&](const auto& shape) { add_regression(shape, block, places, planes, sums); });
+}
+
+template <int D>
+void add_edges(const Interpolation<D>& interpolation, const GridBlock<D>& block, const ParticlePlaces<D>& places,
+               const ContactPlane<D>* planes, EdgeSums<D>* sums)
+{
+  const double size = 1.0 / interpolation.n_per_axis();
+  interpolation.with_shape([&](const auto& shape) { add_edges(shape, size, block, places, planes, sums); });
+}
+
 template void mark_near_cells(const GridBlock<2>&, ContactPlane<2>*);
 template void mark_near_cells(const GridBlock<3>&, ContactPlane<3>*);
+template void add_regression(const Interpolation<2>&, const GridBlock<2>&, const ParticlePlaces<2>&,
+                             const ContactPlane<2>*, RegressionSums<2>*);
+template void add_regression(const Interpolation<3>&, const GridBlock<3>&, const ParticlePlaces<3>&,
+                             const ContactPlane<3>*, RegressionSums<3>*);
+template void add_edges(const Interpolation<2>&, const GridBlock<2>&, const ParticlePlaces<2>&, const ContactPlane<2>*,
+                        EdgeSums<2>*);
+template void add_edges(const Interpolation<3>&, const GridBlock<3>&, const ParticlePlaces<3>&, const ContactPlane<3>*,
+                        EdgeSums<3>*);
 
 }  // namespace tamp::components

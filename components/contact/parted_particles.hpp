@@ -9,6 +9,7 @@
 #include "components/lanes.hpp"
 #include "components/shapes/dense_stencil.hpp"
 #include "components/shapes/grid_block.hpp"
+#include "components/shapes/interpolation.hpp"
 #include "components/shapes/node_sums.hpp"
 #include "components/shapes/particle_places.hpp"
 #include "components/shapes/stencil.hpp"
@@ -193,5 +194,13 @@ void add_edges(const Interpolator& interpolator, double size, const GridBlock<D>
                     }
                   });
 }
+
+/// The same with the weights of any interpolator.
+template <int D>
+void add_regression(const Interpolation<D>& interpolation, const GridBlock<D>& block, const ParticlePlaces<D>& places,
+                    const ContactPlane<D>* planes, RegressionSums<D>* sums);
+template <int D>
+void add_edges(const Interpolation<D>& interpolation, const GridBlock<D>& block, const ParticlePlaces<D>& places,
+               const ContactPlane<D>* planes, EdgeSums<D>* sums);
 
 }  // namespace tamp::components

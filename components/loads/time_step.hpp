@@ -65,19 +65,6 @@ Number viscous_time_step(double cell_size, const StiffParticle<D, Number>& p, co
   return cell_size / (signal_speed + sqrt(p.velocity.squaredNorm()));
 }
 
-/// The own stiffness of a particle alone, at worst: `along_axis` is the greatest sum over its nodes along an axis of
-/// the slope squared over the weight, in cells.
-inline double greatest_own_stiffness(int dimension, int n_per_axis, double along_axis)
-{
-  return portable::pow(std::max(1.0, 0.5 * n_per_axis), dimension - 1) * dimension * along_axis;
-}
-
-/// What the hoop of a particle alone adds to that at worst, half its size from the axis: (h / r)^2.
-inline double greatest_hoop_stiffness(int n_per_axis)
-{
-  return std::max(1.0, 0.5 * n_per_axis) * 4 * n_per_axis * n_per_axis;
-}
-
 /// Bound for matter that has separated and so has no waves, as a part of those above: it moves at most a tenth of a
 /// cell in a step, so that a collision compacts it by no more than that at once.
 constexpr double part_of_step_apart = 0.1;

@@ -1,8 +1,7 @@
 #include "components/shapes/interpolation.hpp"
 
-#include "components/contact/parted_particles.hpp"
-#include "components/loads/time_step.hpp"
 #include "components/shapes/dense_transfer.hpp"
+#include "components/shapes/own_stiffness.hpp"
 
 namespace tamp::components
 {
@@ -15,16 +14,17 @@ template <class Shape, int D = Shape::dimension>
 class InterpolationBy final : public Interpolation<D>
 {
  public:
-  InterpolationBy(const Shape& shape, int n_per_axis, Plane plane)
-      : shape_(shape), n_per_axis_(n_per_axis), plane_(plane)
+  InterpolationBy(const Shape& shape, Interpolator interpolator, int n_per_axis, Plane plane)
+      : Interpolation<D>(interpolator, n_per_axis), shape_(shape), plane_(plane)
   {
   }
 
   double greatest_own_stiffness() const override
   {
     const double of_gradients =
-        components::greatest_own_stiffness(D, n_per_axis_, shape_.greatest_stiffness_along_axis());
-    return plane_ == Plane::slab ? of_gradients : of_gradients + components::greatest_hoop_stiffness(n_per_axis_);
+        components::greatest_own_stiffness(D, this->n_per_axis(), shape_.greatest_stiffness_along_axis());
+    return plane_ == Plane::slab ? of_gradients
+                                 : of_gradients + components::greatest_hoop_stiffness(this->n_per_axis());
   }
 
   void particles_to_grid(const GridBlock<D>& block, const ParticleSources<D>& from, bool with_surface,
@@ -40,7 +40,7 @@ class InterpolationBy final : public Interpolation<D>
                          const ParticleTargets<D>& to) const override
   {
     with_plane([&]<Plane plane>() {
-      components::grid_to_particles<Shape, D, plane>(shape_, n_per_axis_, block, places, nodes, to);
+      components::grid_to_particles<Shape, D, plane>(shape_, this->n_per_axis(), block, places, nodes, to);
     });
   }
 
@@ -62,24 +62,6 @@ class InterpolationBy final : public Interpolation<D>
     components::second_moments(shape_, block, places, moments);
   }
 
-  void add_pressure(const GridBlock<D>& block, const ParticlePlaces<D>& places, std::span<const ByFace<D>> pressure,
-                    PressureSums<D>* sums) const override
-  {
-    components::add_pressure(shape_, block, places, pressure, sums);
-  }
-
-  void add_regression(const GridBlock<D>& block, const ParticlePlaces<D>& places, const ContactPlane<D>* planes,
-                      RegressionSums<D>* sums) const override
-  {
-    components::add_regression(shape_, block, places, planes, sums);
-  }
-
-  void add_edges(const GridBlock<D>& block, const ParticlePlaces<D>& places, const ContactPlane<D>* planes,
-                 EdgeSums<D>* sums) const override
-  {
-    components::add_edges(shape_, 1.0 / n_per_axis_, block, places, planes, sums);
-  }
-
  private:
   /// Calls `run.operator()<plane>()`; space is no plane.
   template <class Run>
@@ -99,7 +81,6 @@ class InterpolationBy final : public Interpolation<D>
   }
 
   Shape shape_;
-  int n_per_axis_;
   Plane plane_;
 };
 
@@ -108,10 +89,10 @@ class InterpolationBy final : public Interpolation<D>
 template <int D>
 std::unique_ptr<const Interpolation<D>> Interpolation<D>::make(Interpolator interpolator, int n_per_axis, Plane plane)
 {
-  return with_shape<D>(interpolator, n_per_axis,
-                       [&]<class Shape>(const Shape& shape) -> std::unique_ptr<const Interpolation> {
-                         return std::make_unique<InterpolationBy<Shape>>(shape, n_per_axis, plane);
-                       });
+  return components::with_shape<D>(
+      interpolator, n_per_axis, [&]<class Shape>(const Shape& shape) -> std::unique_ptr<const Interpolation> {
+        return std::make_unique<InterpolationBy<Shape>>(shape, interpolator, n_per_axis, plane);
+      });
 }
 
 template class Interpolation<2>;

@@ -3,8 +3,6 @@
 #include <memory>
 #include <span>
 
-#include "components/contact/logistic_plane.hpp"
-#include "components/loads/pressure_load.hpp"
 #include "components/shapes/grid_block.hpp"
 #include "components/shapes/interpolator.hpp"
 #include "components/shapes/transfer.hpp"
@@ -40,15 +38,20 @@ class Interpolation
   virtual void second_moments(const GridBlock<D>& block, const ParticlePlaces<D>& places,
                               std::span<Matrix<D>> moments) const = 0;
 
-  /// `pressure` is m_p P_p of each particle.
-  virtual void add_pressure(const GridBlock<D>& block, const ParticlePlaces<D>& places,
-                            std::span<const ByFace<D>> pressure, PressureSums<D>* sums) const = 0;
+  int n_per_axis() const { return n_per_axis_; }
+  /// Calls `visit(shape)` with the weights, see interpolator.hpp: for sums that are not among the above.
+  template <class Visit>
+  void with_shape(const Visit& visit) const
+  {
+    components::with_shape<D>(interpolator_, n_per_axis_, visit);
+  }
 
-  /// Near cells must be marked, see components::mark_near_cells.
-  virtual void add_regression(const GridBlock<D>& block, const ParticlePlaces<D>& places, const ContactPlane<D>* planes,
-                              RegressionSums<D>* sums) const = 0;
-  virtual void add_edges(const GridBlock<D>& block, const ParticlePlaces<D>& places, const ContactPlane<D>* planes,
-                         EdgeSums<D>* sums) const = 0;
+ protected:
+  Interpolation(Interpolator interpolator, int n_per_axis) : interpolator_(interpolator), n_per_axis_(n_per_axis) {}
+
+ private:
+  Interpolator interpolator_;
+  int n_per_axis_;
 };
 
 }  // namespace tamp::components

@@ -16,7 +16,7 @@
 ///  - its weights: along an axis, where they are products of axes (product_shape.hpp), or at the nodes of a block
 ///    (dense_stencil.hpp);
 ///  - `reach()`, the distance in cells along an axis from a particle to the furthest node it can reach, at most 2;
-///  - `greatest_stiffness_along_axis()`, see greatest_own_stiffness in loads/time_step.hpp; infinity for none;
+///  - `greatest_stiffness_along_axis()`, see own_stiffness.hpp; infinity for none;
 ///  - `is_spline`, whether a particle's weights do not know its size and change smoothly.
 namespace tamp::components
 {

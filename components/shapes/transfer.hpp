@@ -6,7 +6,6 @@
 #include <span>
 
 #include "components/lanes.hpp"
-#include "components/loads/pressure_load.hpp"
 #include "components/shapes/gimp.hpp"
 #include "components/shapes/grid_block.hpp"
 #include "components/shapes/node_sums.hpp"
@@ -155,16 +154,6 @@ void particles_to_grid(const Interpolator& interpolator, const GridBlock<D>& blo
         if constexpr (D == 3 && with_surface) node.add(8, weight[i] * third);
       }
     });
-  });
-}
-
-/// Adds to the nodes what particles bring of a pressure load, m_p P_p S_ip.
-template <class Interpolator, int D = Interpolator::dimension>
-void add_pressure(const Interpolator& interpolator, const GridBlock<D>& block, const ParticlePlaces<D>& places,
-                  std::span<const ByFace<D>> pressure, PressureSums<D>* sums)
-{
-  for_each_stencil(interpolator, block, places, [&](std::size_t p, const auto& stencil) {
-    for_each_weight(block, stencil, [&](std::ptrdiff_t node, double weight) { sums[node].add(weight * pressure[p]); });
   });
 }
 

@@ -150,7 +150,7 @@ runtime::TaskDeclaration align_contact_normals(const Method<D>& method)
 template <int D>
 runtime::TaskDeclaration find_edges(const Method<D>& method)
 {
-  const auto find = [](const auto& interpolation, const auto&... rest) { interpolation.add_edges(rest...); };
+  const auto find = [](const auto&... all) { components::add_edges<D>(all...); };
   return sum_at_planes(method, "find edges", node::edge_sums<D>, find);
 }
 
@@ -158,7 +158,7 @@ template <int D>
 runtime::TaskList contact_planes(const Method<D>& method)
 {
   if (!method.contacts.has_regression()) return {};
-  const auto regress = [](const auto& interpolation, const auto&... rest) { interpolation.add_regression(rest...); };
+  const auto regress = [](const auto&... all) { components::add_regression<D>(all...); };
   return {lay_planes(method),
           sum_at_planes(method, "regress contact 1", node::regression_sums<D>, regress),
           turn_planes(method, "turn contact planes 1"),

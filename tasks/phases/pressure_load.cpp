@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "components/loads/pressed_particles.hpp"
 #include "tasks/labels.hpp"
 #include "tasks/phases/phases.hpp"
 #include "tasks/phases/places.hpp"
@@ -86,7 +87,8 @@ runtime::TaskDeclaration gather_pressure(const Method<D>& method)
           for (std::size_t p = 0; p < pressure.size(); ++p) {
             pressure[p] = mass[first + p] * pressures.at(body[first + p], reference[first + p]);
           }
-          method.interpolation(at.group).add_pressure(block_of<D>(at.layout, sums), batch, pressure, sums.data());
+          components::add_pressure<D>(method.interpolation(at.group), block_of<D>(at.layout, sums), batch, pressure,
+                                      sums.data());
         }
         for_each_wall(method, at, sums.box(), [&](const Wall<D>& wall) { wall.image.add_image(sums.data()); });
       });

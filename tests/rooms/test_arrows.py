@@ -2,7 +2,7 @@
 """Includes follow the arrows between rooms (CONTRIBUTING.md): a room uses those that it names here, and none of those
 that use it.
 
-    tests/rooms/test_arrows.py            fails where an include runs against the arrows
+    tests/rooms/test_arrows.py            fails where an include runs against the arrows, or round in a circle
     tests/rooms/test_arrows.py --table    prints files, lines and the includes of other rooms, room by room
 """
 
@@ -13,11 +13,37 @@ import sys
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 
-# Rooms of the house, and the folders of a room that has arrows inside, from those that use none to those that use most.
+# Rooms of the house, and the folders of each, from those that use none to those that use most. Files that stand in a
+# room beside its folders may use these and be used by them, as long as no circle comes of it.
 USES = {
     "runtime": [],
+    "runtime/grid": [],
+    "runtime/data": ["runtime/grid"],
+    "runtime/graph": ["runtime/grid", "runtime/data"],
+    "runtime/ranks": ["runtime/grid"],
+    "runtime/warehouse": ["runtime/data", "runtime/graph", "runtime/ranks"],
+    "runtime/execute": ["runtime/graph", "runtime/ranks", "runtime/warehouse"],
+    "runtime/profile": ["runtime/data", "runtime/graph", "runtime/ranks", "runtime/execute"],
+    "runtime/storage": ["runtime/grid", "runtime/data", "runtime/graph", "runtime/ranks", "runtime/warehouse"],
     "components": [],
+    "components/boundary": [],
+    "components/curves": [],
+    "components/kinematics": [],
+    "components/rigid": [],
+    "components/shapes": [],
+    "components/geometry": ["components/curves"],
+    "components/moduli": ["components/curves"],
+    "components/materials": ["components/curves", "components/moduli"],
+    "components/transfers": ["components/shapes"],
+    "components/anti_locking": ["components/kinematics", "components/shapes"],
+    "components/contact": ["components/shapes"],
+    "components/loads": ["components/shapes", "components/materials"],
+    "components/problems": ["components/curves", "components/geometry", "components/materials"],
     "tasks": ["runtime", "components"],
+    "tasks/phases": [],
+    "tasks/set_up": [],
+    "tasks/report": ["tasks/phases"],
+    "tasks/forecast": ["tasks/set_up", "tasks/report"],
     "tools": ["runtime", "components", "tasks"],
     "tools/system": [],
     "tools/scene": ["tools/system"],
@@ -26,27 +52,51 @@ USES = {
     "tools/bench": ["tools/system", "tools/scene"],
     "tools/commands": ["tools/system", "tools/scene", "tools/run", "tools/study", "tools/bench"],
 }
+ROOMS = [room for room in USES if "/" not in room]
 INCLUDE = re.compile(r'^#\s*include "([^"]+)"', re.MULTILINE)
 
 
 def rooms_of(path):
-    """The room of a file and, where that has arrows inside, its folder there."""
+    """The room of a file, and the folder there that it is in."""
     parts = path.split("/")
     return [room for room in (parts[0], "/".join(parts[:2])) if room in USES]
+
+
+def includes():
+    """(from, to) for every include, as paths of files."""
+    for room in ROOMS:
+        for file in sorted((ROOT / room).rglob("*.?pp")):
+            for included in INCLUDE.findall(file.read_text()):
+                yield str(file.relative_to(ROOT)), included
 
 
 def arrows():
     """(from, to): the includes, as pairs of files, between different rooms of the house or folders of one room."""
     found = collections.defaultdict(list)
-    for room in ("runtime", "components", "tasks", "tools"):
-        for file in sorted((ROOT / room).rglob("*.?pp")):
-            path = str(file.relative_to(ROOT))
-            for included in INCLUDE.findall(file.read_text()):
-                for start, end in zip(rooms_of(path), rooms_of(included)):
-                    if start != end:
-                        found[start, end].append((path, included))
-                        break
+    for path, included in includes():
+        for start, end in zip(rooms_of(path), rooms_of(included)):
+            if start != end:
+                found[start, end].append((path, included))
+                break
     return found
+
+
+def circles():
+    """Folders of a room, and files beside them, that include each other, as a list of those in each circle."""
+    used = collections.defaultdict(set)
+    for path, included in includes():
+        start, end = (pathlib.PurePath("/".join(name.split("/")[:2])).with_suffix("") for name in (path, included))
+        if start != end:
+            used[str(start)].add(str(end))
+    reached = {}
+    for start in list(used):
+        seen, front = set(), [start]
+        while front:
+            new = used[front.pop()] - seen
+            seen |= new
+            front.extend(new)
+        reached[start] = seen
+    return {tuple(sorted(b for b in reached if b in reached[a] and a in reached[b])) for a in reached if a in reached[a]}
 
 
 def print_table(found):
@@ -54,7 +104,7 @@ def print_table(found):
         files = [f for f in (ROOT / room).rglob("*.?pp")]
         n_lines = sum(len(f.read_text().splitlines()) for f in files)
         counts = ", ".join(f"{end} {len(found[room, end])}" for end in uses if found[room, end])
-        print(f"{room:16} {len(files):4} files {n_lines:6} lines   includes of {counts or 'no other room'}")
+        print(f"{room:24} {len(files):4} files {n_lines:6} lines   includes of {counts or 'no other room'}")
 
 
 def main():
@@ -64,10 +114,14 @@ def main():
     against = [pair for (start, end), pairs in found.items() if end not in USES[start] for pair in pairs]
     for path, included in against:
         print(f"{path}: includes {included}, against the arrows between rooms")
-    homeless = [f for f in (ROOT / "tools").rglob("*.?pp") if len(rooms_of(str(f.relative_to(ROOT)))) < 2]
-    for file in homeless:
-        print(f"{file.relative_to(ROOT)}: lies in no room of tools")
-    sys.exit(1 if against or homeless else 0)
+    in_circles = circles()
+    for circle in in_circles:
+        print(f"{', '.join(circle)} include each other")
+    folders = {"/".join(path.split("/")[:2]) for path, _ in includes() if path.count("/") > 1}
+    homeless = folders - set(USES) | {f"tools/{file.name}" for file in (ROOT / "tools").glob("*.?pp")}
+    for path in sorted(homeless):
+        print(f"{path}: lies in no room")
+    sys.exit(1 if against or in_circles or homeless else 0)
 
 
 if __name__ == "__main__":

@@ -6,6 +6,7 @@
 
 #include "components/loads/time_step.hpp"
 #include "components/shapes/interpolation.hpp"
+#include "components/shapes/own_stiffness.hpp"
 #include "components/shapes/transfer.hpp"
 #include "tests/components/shapes/shape_reference.hpp"
 
