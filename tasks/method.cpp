@@ -65,7 +65,7 @@ Method<D>::Method(const Scene& given)
   }
   for (std::size_t k = 0; k < std::size_t{D}; ++k) {
     for (std::size_t side = 0; side < 2; ++side) {
-      mirrors[k][side] = scene.faces[k][side] != Face::open && !scene.grid.periodic[k];
+      mirrors[k][side] = components::traits_of(scene.faces[k][side]).is_wall() && !scene.grid.periodic[k];
     }
   }
   for (const SceneContact& pair : scene.contacts)

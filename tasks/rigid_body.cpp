@@ -87,8 +87,9 @@ Sides mirrors_beneath(const Scene& scene, const SceneBody& body)
   for (int axis = 0; axis < D; ++axis) {
     const auto k = static_cast<std::size_t>(axis);
     const auto& faces = scene.faces[k];
-    beneath[k] = {faces[0] == Face::symmetry && box.lower[axis] < grid.coordinate(axis, 0) + near,
-                  faces[1] == Face::symmetry && box.upper[axis] > grid.coordinate(axis, grid.n_cells[k]) - near};
+    beneath[k] = {
+        components::traits_of(faces[0]).is_mirror && box.lower[axis] < grid.coordinate(axis, 0) + near,
+        components::traits_of(faces[1]).is_mirror && box.upper[axis] > grid.coordinate(axis, grid.n_cells[k]) - near};
   }
   return beneath;
 }
@@ -107,7 +108,8 @@ Sides touchable_mirrors(const Scene& scene, const SceneBody& body)
   for (int axis = 0; axis < scene.grid.dimension; ++axis) {
     if (body.drive->motion.has_part_along(axis)) continue;
     const auto k = static_cast<std::size_t>(axis);
-    for (std::size_t side = 0; side < 2; ++side) touchable[k][side] = scene.faces[k][side] == Face::symmetry;
+    for (std::size_t side = 0; side < 2; ++side)
+      touchable[k][side] = components::traits_of(scene.faces[k][side]).is_mirror;
   }
   return touchable;
 }

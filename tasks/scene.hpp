@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "components/anti_locking/anti_locking.hpp"
+#include "components/boundary/faces.hpp"
 #include "components/choice.hpp"
 #include "components/contact/contact_table.hpp"
 #include "components/geometry/solid.hpp"
@@ -38,19 +39,6 @@ using Triple = std::array<double, 3>;
 /// Something of each face of the domain, as [axis][side]; side 0 is the lower.
 using Sides = std::array<std::array<bool, 2>, 3>;
 
-/// The kinds of the grid's faces. `friction`, a wall that may be left, with Coulomb's friction, has a coefficient in
-/// place of a word.
-enum class Face { symmetry, open, friction, no_slip, periodic };
-
-inline std::vector<components::Word<Face>> words_of(Face)
-{
-  return {{"symmetry", Face::symmetry, "a smooth wall, with the mirror image of the material behind it"},
-          {"open", Face::open, "what crosses leaves the simulation"},
-          {"no_slip", Face::no_slip, "material that touches the wall does not move"},
-          {"periodic", Face::periodic,
-           "on both faces of an axis or on neither, what leaves at one enters at the other, see below"}};
-}
-
 /// When stress follows the motion in a step, and by which velocities of nodes particles deform (Bardenhagen, J. Comput.
 /// Phys. 180, 2002).
 enum class StressTiming { usl, usf, musl };
@@ -62,6 +50,8 @@ inline std::vector<components::Word<StressTiming>> words_of(StressTiming)
            "first, by those that particles bring, not for `\"tflip\"` with sand whose `separation` is on"},
           {"musl", StressTiming::musl, "last, by those that particles bring back with their new velocities"}};
 }
+
+using components::Face;
 
 using components::Interpolator;
 
@@ -332,8 +322,6 @@ struct Scene {
   bool axisymmetric = false;
   /// faces[axis][0] is the lower one, faces[axis][1] the upper one; along a periodic axis there are none.
   std::array<std::array<Face, 2>, 3> faces{};
-  /// Coefficients of the faces with friction.
-  std::array<std::array<double, 2>, 3> wall_friction{};
   SceneTime time;
   Interpolator interpolator = "gimp";
   Transfer transfer = "flip";
@@ -361,6 +349,11 @@ struct Scene {
   bool is_periodic() const
   {
     return std::find(grid.periodic.begin(), grid.periodic.end(), true) != grid.periodic.end();
+  }
+  bool has_wall_to_leave() const
+  {
+    const auto keeps_push = [](const Face& face) { return components::traits_of(face).keeps_push; };
+    return std::ranges::any_of(faces, [&](const auto& axis) { return std::ranges::any_of(axis, keeps_push); });
   }
   bool has_body_force() const
   {

@@ -1,23 +1,57 @@
 #pragma once
 
+#include <array>
+#include <string_view>
+
+#include "components/boundary/face.hpp"
+#include "components/parameter.hpp"
 #include "components/tensors.hpp"
 
 namespace tamp::components
 {
 
-/// The velocity of a node on a wall with Coulomb's friction [m/s]. The wall is normal to `axis`, and lies on the side
-/// `outside`, -1 or +1. Motion into it is stopped, and motion along it loses at most friction times as much; a node
-/// that leaves the wall is free.
-template <int D>
-Vector<D> velocity_on_rough_wall(const Vector<D>& velocity, int axis, int outside, double friction)
+/// A wall with Coulomb's friction. Motion into it is stopped, and motion along it loses at most friction times as much;
+/// a node that leaves the wall is free.
+struct RoughWall {
+  static constexpr std::string_view word = "friction", shown = R"({"friction": MU})",
+                                    meaning =
+                                        "a wall that rubs, and that what touches it may leave, not where a "
+                                        "centrifuge turns the grid";
+  static constexpr FaceTraits traits{.keeps_push = true};
+  static constexpr std::array<Parameter<RoughWall>, 1> parameters();
+  friend bool operator==(const RoughWall&, const RoughWall&) = default;
+
+  double friction = 0;
+
+  template <int D>
+  Vector<D> velocity(const Vector<D>& arriving, const WallNode& node) const
+  {
+    return left_by_friction<D>(arriving, node, friction);
+  }
+  /// Friction has worked on the velocities that particles bring.
+  template <int D>
+  Vector<D> carried_velocity(const Vector<D>& arriving, const WallNode& node) const
+  {
+    return left_by_friction<D>(arriving, node, 0);
+  }
+
+ private:
+  template <int D>
+  static Vector<D> left_by_friction(const Vector<D>& velocity, const WallNode& node, double friction)
+  {
+    const double approach = node.outside * velocity[node.axis];
+    if (!(approach > 0)) return velocity;
+    Vector<D> along = velocity;
+    along[node.axis] = 0;
+    const double speed = along.norm();
+    if (speed <= friction * approach) return Vector<D>::Zero();
+    return (1 - friction * approach / speed) * along;
+  }
+};
+
+constexpr std::array<Parameter<RoughWall>, 1> RoughWall::parameters()
 {
-  const double approach = outside * velocity[axis];
-  if (!(approach > 0)) return velocity;
-  Vector<D> along = velocity;
-  along[axis] = 0;
-  const double speed = along.norm();
-  if (speed <= friction * approach) return Vector<D>::Zero();
-  return (1 - friction * approach / speed) * along;
+  return {{{"friction", "", zero_or_above, &RoughWall::friction, "Coulomb's coefficient of friction"}}};
 }
 
 }  // namespace tamp::components

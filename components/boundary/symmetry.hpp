@@ -2,11 +2,20 @@
 
 #include <array>
 #include <cstddef>
+#include <string_view>
 
+#include "components/boundary/face.hpp"
 #include "components/tensors.hpp"
 
 namespace tamp::components
 {
+
+struct SymmetryFace {
+  static constexpr std::string_view word = "symmetry",
+                                    meaning = "a smooth wall, with the mirror image of the material behind it";
+  static constexpr FaceTraits traits{.is_mirror = true};
+  friend bool operator==(const SymmetryFace&, const SymmetryFace&) = default;
+};
 
 /// A mirror wall through the nodes of one plane of a block of nodes, for interpolators whose support reaches one node
 /// layer (the ghost layer) beyond it: the fields behave as if the mirror image of the material stood outside. Fields

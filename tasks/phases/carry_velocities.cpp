@@ -3,7 +3,6 @@
 #include <span>
 #include <utility>
 
-#include "components/boundary/rough_wall.hpp"
 #include "tasks/labels.hpp"
 #include "tasks/phases/deform.hpp"
 #include "tasks/phases/phases.hpp"
@@ -54,18 +53,14 @@ runtime::TaskDeclaration carry(const Method<D>& method)
       });
 }
 
-/// Nothing crosses a wall, and at a no-slip wall material does not move. Friction has worked on the velocities that
-/// particles bring.
 template <int D>
 void hold_carried(const Wall<D>& wall, const TaskContext& at, const GridView<NodeMotion<D>>& motion)
 {
-  if (wall.face == Face::symmetry) return wall.image.constrain(motion.data());
-  for_each_wall_node(wall, at.layout.grid(), motion.box(), [&](const Index& i) {
-    const Vector<D> velocity = motion[i].velocity();
-    const Vector<D> left = wall.face == Face::no_slip
-                               ? Vector<D>::Zero()
-                               : components::velocity_on_rough_wall<D>(velocity, wall.axis, wall.outside, 0);
-    motion[i].set(left, Vector<D>::Zero());
+  if (wall.traits.is_mirror) wall.image.constrain(motion.data());
+  components::with_wall(wall.face, [&](const auto& kind) {
+    for_each_wall_node(wall, at.layout.grid(), motion.box(), [&](const Index& i) {
+      motion[i].set(kind.template carried_velocity<D>(motion[i].velocity(), wall.node), Vector<D>::Zero());
+    });
   });
 }
 

@@ -107,7 +107,7 @@ runtime::TaskDeclaration next_term(const Method<D>& method, int pass)
           if (mass > 0) term[i].set(term[i].value() - returned[i].value() / mass);
         });
         for_each_wall(method, at, term.box(), [&](const Wall<D>& wall) {
-          if (method.passes == Passes::from_start || wall.face == Face::symmetry) return;
+          if (method.passes == Passes::from_start || wall.traits.is_mirror) return;
           for_each_wall_node(wall, at.layout.grid(), term.box(), [&](const Index& i) { term[i] = {}; });
         });
         mirror_terms(method, at, term);

@@ -26,7 +26,7 @@ void fold_images(const Method<D>& method, const runtime::TaskContext& at, const 
 {
   for_each_wall(method, at, values.box(), [&](const Wall<D>& wall) { wall.image.add_image(values.data()); });
   for_each_wall(method, at, values.box(), [&](const Wall<D>& wall) {
-    if (also_on_rough || !wall.keeps_normal_push()) wall.image.constrain(values.data());
+    if (also_on_rough || !wall.traits.keeps_push) wall.image.constrain(values.data());
   });
 }
 
@@ -37,10 +37,10 @@ void fold(const Method<D>& method, const runtime::TaskContext& at,
 {
   fold_images(method, at, sums, false);
   for_each_wall(method, at, sums.box(), [&](const Wall<D>& wall) {
-    if (!wall.keeps_normal_push()) return;
+    if (!wall.traits.keeps_push) return;
     for_each_wall_node(wall, at.layout.grid(), sums.box(), [&](const runtime::Index& i) {
       Vector<D> gradient = sums[i].surface_gradient();
-      gradient[wall.axis] = 0;
+      gradient[wall.node.axis] = 0;
       sums[i].set_surface_gradient(gradient);
     });
   });

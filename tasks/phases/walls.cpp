@@ -1,6 +1,5 @@
 #include "tasks/phases/walls.hpp"
 
-#include "components/boundary/rough_wall.hpp"
 #include "components/loads/local_damping.hpp"
 #include "tasks/labels.hpp"
 #include "tasks/phases/kick.hpp"
@@ -46,17 +45,15 @@ void hold(const Method<D>& method, const TaskContext& at, const Wall<D>& wall, c
           const GridView<NodeMotion<D>>& motion, GridTotals& totals)
 {
   const runtime::IndexBox counted = counted_nodes(method, at);
-  for_each_wall_node(wall, at.layout.grid(), motion.box(), [&](const Index& i) {
-    const double mass = sums[i].mass();
-    if (!(mass > method.least_node_mass)) return;
-    const Vector<D> arriving = motion[i].velocity();
-    Vector<D> left = Vector<D>::Zero();
-    if (wall.face == Face::friction) {
-      left = components::velocity_on_rough_wall<D>(arriving, wall.axis, wall.outside, wall.friction);
-    }
-    motion[i].set(left, motion[i].velocity_change() + left - arriving);
-    const Vector<D> at_start = sums[i].momentum() / mass;
-    if (counted.contains(i)) totals.taken_by_walls += 0.5 * mass * (arriving - left).dot(at_start + left);
+  components::with_wall(wall.face, [&](const auto& kind) {
+    for_each_wall_node(wall, at.layout.grid(), motion.box(), [&](const Index& i) {
+      const double mass = sums[i].mass();
+      if (!(mass > method.least_node_mass)) return;
+      const Vector<D> arriving = motion[i].velocity(), left = kind.template velocity<D>(arriving, wall.node);
+      motion[i].set(left, motion[i].velocity_change() + left - arriving);
+      const Vector<D> at_start = sums[i].momentum() / mass;
+      if (counted.contains(i)) totals.taken_by_walls += 0.5 * mass * (arriving - left).dot(at_start + left);
+    });
   });
 }
 
@@ -95,31 +92,30 @@ void damp(const Method<D>& method, const TaskContext& at, const GridView<const N
 template <int D>
 runtime::TaskList walls(const Method<D>& method)
 {
-  return {runtime::task("walls")
-              .over_patches()
-              .sparse()
-              .reads(node::sums<D>.halo(method.halo).every_group())
-              .updates(node::motion<D>.halo(method.halo).every_group())
-              .reduces(grid_totals)
-              .body([&method](const TaskContext& at, auto data) {
-                const auto sums = data[node::sums<D>];
-                const auto motions = data[node::motion<D>];
-                for (std::size_t g = 0; g < motions.size(); ++g) {
-                  const GridView<NodeMotion<D>>& motion = motions[g];
-                  for_each_wall(method, at, motion.box(), [&](const Wall<D>& wall) {
-                    if (wall.face == Face::symmetry) wall.image.constrain(motion.data());
-                  });
-                  for_each_wall(method, at, motion.box(), [&](const Wall<D>& wall) {
-                    if (wall.face != Face::symmetry) hold(method, at, wall, sums[g], motion, data[grid_totals]);
-                  });
-                  if (method.damping > 0 && method.rigid_body(static_cast<int>(g)) == nullptr) {
-                    damp(method, at, sums[g], motion, data[grid_totals]);
-                  }
-                  for_each_wall(method, at, motion.box(),
-                                [&](const Wall<D>& wall) { wall.image.mirror(motion.data()); });
-                  add_taken(method, at, sums[g], motion, data[grid_totals]);
-                }
-              })};
+  return {
+      runtime::task("walls")
+          .over_patches()
+          .sparse()
+          .reads(node::sums<D>.halo(method.halo).every_group())
+          .updates(node::motion<D>.halo(method.halo).every_group())
+          .reduces(grid_totals)
+          .body([&method](const TaskContext& at, auto data) {
+            const auto sums = data[node::sums<D>];
+            const auto motions = data[node::motion<D>];
+            for (std::size_t g = 0; g < motions.size(); ++g) {
+              const GridView<NodeMotion<D>>& motion = motions[g];
+              for_each_wall(method, at, motion.box(), [&](const Wall<D>& wall) {
+                if (wall.traits.is_mirror) wall.image.constrain(motion.data());
+              });
+              for_each_wall(method, at, motion.box(),
+                            [&](const Wall<D>& wall) { hold(method, at, wall, sums[g], motion, data[grid_totals]); });
+              if (method.damping > 0 && method.rigid_body(static_cast<int>(g)) == nullptr) {
+                damp(method, at, sums[g], motion, data[grid_totals]);
+              }
+              for_each_wall(method, at, motion.box(), [&](const Wall<D>& wall) { wall.image.mirror(motion.data()); });
+              add_taken(method, at, sums[g], motion, data[grid_totals]);
+            }
+          })};
 }
 
 template runtime::TaskList walls(const Method<2>&);

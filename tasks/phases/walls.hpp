@@ -1,6 +1,6 @@
 #pragma once
 
-#include "components/boundary/symmetry.hpp"
+#include "components/boundary/faces.hpp"
 #include "components/shapes/node_sums.hpp"
 #include "tasks/method.hpp"
 
@@ -10,13 +10,10 @@ namespace tamp::tasks
 /// A wall of the domain: where it lies, and what it does to what touches it.
 template <int D>
 struct Wall {
-  Face face;
-  double friction;
-  int axis;
-  int outside;  ///< -1 or +1
+  const Face& face;
+  components::FaceTraits traits;
+  components::WallNode node;
   components::SymmetryWall<D> image;
-
-  bool keeps_normal_push() const { return face == Face::friction; }
 };
 
 /// Calls `visit(wall)` for every wall of the domain that the patch of `at` touches. `box` is the block of nodes to work
@@ -32,10 +29,10 @@ void for_each_wall(const Method<D>& method, const runtime::TaskContext& at, cons
     for (std::size_t side = 0; side < 2; ++side) {
       if (!method.mirrors[k][side] || of_patch[side] != at_edge[side]) continue;
       const int axis = static_cast<int>(k), outside = side == 0 ? -1 : 1;
-      visit(Wall<D>{method.scene.faces[k][side],
-                    method.scene.wall_friction[k][side],
-                    axis,
-                    outside,
+      const Face& face = method.scene.faces[k][side];
+      visit(Wall<D>{face,
+                    components::traits_of(face),
+                    {axis, outside, method.cell_size, at.step.size},
                     {n_nodes, axis, at_edge[side] - box.lower[k], outside}});
     }
   }
@@ -48,7 +45,7 @@ void complete_inverse_masses(const Method<D>& method, const runtime::TaskContext
                              const runtime::GridView<double>& inverse_mass)
 {
   for_each_wall(method, at, inverse_mass.box(), [&](const Wall<D>& wall) {
-    if (wall.face == Face::symmetry) wall.image.complete_inverse_masses(inverse_mass.data());
+    if (wall.traits.is_mirror) wall.image.complete_inverse_masses(inverse_mass.data());
   });
 }
 
@@ -56,8 +53,8 @@ void complete_inverse_masses(const Method<D>& method, const runtime::TaskContext
 template <int D, class Visit>
 void for_each_wall_node(const Wall<D>& wall, const runtime::Grid& grid, runtime::IndexBox box, Visit&& visit)
 {
-  const auto k = static_cast<std::size_t>(wall.axis);
-  box.lower[k] = wall.outside < 0 ? 0 : grid.n_cells[k];
+  const auto k = static_cast<std::size_t>(wall.node.axis);
+  box.lower[k] = wall.node.outside < 0 ? 0 : grid.n_cells[k];
   box.upper[k] = box.lower[k] + 1;
   for_each(box, visit);
 }

@@ -45,8 +45,10 @@ LayerColumn column_of(const Scene& scene, int particles_per_axis, const std::vec
   const bool at_lower = layers.front() - grid.coordinate(axis, 0) < reach;
   const bool at_upper = grid.coordinate(axis, n_cells) - layers.back() < reach;
   // Sand that fills a periodic axis goes on beyond both ends, as between mirrors.
-  column.lower_wall = grid.periodic[k] ? at_lower && at_upper : at_lower && scene.faces[k][0] != Face::open;
-  column.upper_wall = grid.periodic[k] ? at_lower && at_upper : at_upper && scene.faces[k][1] != Face::open;
+  column.lower_wall =
+      grid.periodic[k] ? at_lower && at_upper : at_lower && components::traits_of(scene.faces[k][0]).is_wall();
+  column.upper_wall =
+      grid.periodic[k] ? at_lower && at_upper : at_upper && components::traits_of(scene.faces[k][1]).is_wall();
   return column;
 }
 

@@ -29,14 +29,14 @@ inline Scene empty_scene(int dimension, runtime::Index n_cells, double cell_size
   scene.name = scene.title = "test";
   scene.grid = {dimension, {0, 0, 0}, cell_size, n_cells};
   scene.n_patches = {1, 1, 1};
-  for (auto& axis : scene.faces) axis = {Face::open, Face::open};
+  for (auto& axis : scene.faces) axis = {components::OpenFace(), components::OpenFace()};
   scene.time.end = 1e30;
   return scene;
 }
 
 inline void add_walls(Scene& scene, std::size_t axis)
 {
-  scene.faces[axis] = {Face::symmetry, Face::symmetry};
+  scene.faces[axis] = {components::SymmetryFace(), components::SymmetryFace()};
 }
 
 /// Adds an elastic material of Young's modulus E and Poisson's ratio nu; returns its place.

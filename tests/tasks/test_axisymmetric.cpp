@@ -24,7 +24,7 @@ Scene round_scene(int n_cells_r, int n_cells_z, double cell_size)
 {
   Scene scene = empty_scene(2, {n_cells_r, n_cells_z, 1}, cell_size);
   scene.axisymmetric = true;
-  scene.faces[0][0] = Face::symmetry;
+  scene.faces[0][0] = components::SymmetryFace();
   return scene;
 }
 
@@ -135,7 +135,7 @@ TEST_CASE("matter that is strained evenly is so on the axis too, where transfers
   Scene scene = round_scene(6, 6, 0.1);
   scene.transfer = GENERATE(Transfer("tflip"), Transfer("apic"));
   scene.interpolator = GENERATE(Interpolator("gimp"), Interpolator("cpdi"), Interpolator("quadratic_spline"));
-  scene.faces[1][0] = Face::symmetry;
+  scene.faces[1][0] = components::SymmetryFace();
   add_box(scene, add_elastic(scene, density, E, nu), {0, 0, 0}, {0.6, 0.6, 0});
   scene.bodies[0].functions.velocity = [](const Vector<3>& X) { return Vector<3>(-0.01 * X[0], -0.01 * X[1], 0); };
   const auto simulation = Simulation::make(scene, 1);
@@ -159,7 +159,7 @@ TEST_CASE("anti-locking leaves rings alone that are strained evenly, on the axis
   scene.transfer = Transfer("tflip");
   scene.interpolator = Interpolator("quadratic_spline");
   scene.deformation_update = update;
-  scene.faces[1][0] = Face::symmetry;
+  scene.faces[1][0] = components::SymmetryFace();
   add_box(scene, add_elastic(scene, density, E, nu), {0, 0, 0}, {0.6, 0.6, 0});
   scene.bodies[0].functions.velocity = [](const Vector<3>& X) { return Vector<3>(2 * X[0], -3 * X[1], 0); };
   const auto after_a_step = [](const Scene& of) {

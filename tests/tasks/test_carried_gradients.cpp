@@ -107,7 +107,7 @@ Scene meeting_blocks(bool whole, Transfer transfer)
   if (whole) {
     add_box(scene, soft, {mirror - 0.5, 0.4, 0}, {mirror - 0.1, 0.7, 0}, {4, 1, 0}).angular_velocity = {0, 0, -5};
   } else {
-    scene.faces[0] = {Face::symmetry, Face::open};
+    scene.faces[0] = {components::SymmetryFace(), components::OpenFace()};
   }
   return scene;
 }

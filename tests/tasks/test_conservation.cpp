@@ -46,8 +46,8 @@ Scene punch()
   constexpr double h = 0.02;
   Scene scene = empty_scene(2, {12, 12, 1}, h);
   scene.n_patches = {3, 2, 1};
-  scene.faces[0] = {Face::symmetry, Face::symmetry};
-  scene.faces[1] = {Face::symmetry, Face::open};
+  scene.faces[0] = {components::SymmetryFace(), components::SymmetryFace()};
+  scene.faces[1] = {components::SymmetryFace(), components::OpenFace()};
   scene.gravity = {0, -200, 0};
   scene.artificial_viscosity = components::ArtificialViscosity{};
   scene.materials.push_back({"sand", 1624, concrete_sand::sand(components::ElasticUpdate::state)});

@@ -61,7 +61,7 @@ Scene stamp(bool half)
   Scene scene = empty_scene(2, {half ? 10 : 20, 12, 1}, cell);
   scene.n_patches = {half ? 2 : 4, 2, 1};
   add_walls(scene, 1);
-  if (half) scene.faces[0][0] = Face::symmetry;
+  if (half) scene.faces[0][0] = components::SymmetryFace();
   add_box(scene, add_elastic(scene, 1000, 1e6, 0.25), {left - (half ? 0 : 0.7), 0, 0}, {left + 0.7, 0.7, 0});
   add_driven_box(scene, {left - (half ? 0 : 0.2), 0.7, 0}, {left + 0.2, 1, 0}, push(0.1));
   scene.time.maximum_step = 5e-4;

@@ -220,8 +220,7 @@ Scene punch(int dimension)
 Scene thrown_block()
 {
   Scene scene = empty_scene(2, {40, 10, 1}, 0.025);
-  scene.faces[1][0] = Face::friction;
-  scene.wall_friction[1][0] = 0.3;
+  scene.faces[1][0] = components::RoughWall{0.3};
   scene.artificial_viscosity = components::ArtificialViscosity{};
   add_box(scene, add_elastic(scene, 2000, 1e7, 0.2), {0.1, 0, 0}, {0.5, 0.1, 0}, {0, -1, 0});
   return scene;

@@ -21,7 +21,7 @@ Scene heavy_column(double damping)
   Scene scene = empty_scene(2, {4, 16, 1}, 0.1);
   scene.n_patches = {1, 4, 1};
   add_walls(scene, 0);
-  scene.faces[1][0] = Face::symmetry;
+  scene.faces[1][0] = components::SymmetryFace();
   scene.gravity = {0, -gravity, 0};
   scene.local_damping = damping;
   add_box(scene, add_elastic(scene, density, 1e6, 0.25), {0, 0, 0}, {0.4, height, 0});

@@ -143,7 +143,7 @@ TEST_CASE("a body under pressure ends with the same bits on any ranks and thread
 {
   Scene scene = empty_scene(2, {12, 12, 1}, 0.1);
   scene.n_patches = {4, 3, 1};
-  scene.faces[0][0] = Face::symmetry;
+  scene.faces[0][0] = components::SymmetryFace();
   scene.local_damping = 0.3;
   const auto [interpolator, n_threads] =
       GENERATE(std::pair{Interpolator("gimp"), 3}, std::pair{Interpolator("quadratic_spline"), 1});
@@ -166,7 +166,7 @@ TEST_CASE("rings that meet on the axis end with the same bits on any ranks and t
 {
   Scene scene = glancing_disks();
   scene.axisymmetric = true;
-  scene.faces[0][0] = Face::symmetry;
+  scene.faces[0][0] = components::SymmetryFace();
   scene.bodies.clear();
   add_disk(scene, 0, 0, 0.5, 0.35, {0, 6, 0});
   add_disk(scene, 1, 0.1, 1.3, 0.4, {0, -6, 0});

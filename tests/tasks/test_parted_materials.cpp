@@ -122,7 +122,7 @@ TEST_CASE("a body beside a mirror meets another as the whole body does")
   Scene half = whole;
   half.grid.lower[1] = 0.3;
   half.grid.n_cells[1] = 6;
-  half.faces[1][0] = Face::symmetry;
+  half.faces[1][0] = components::SymmetryFace();
   const auto of_whole = Simulation::make(whole, 2), of_half = Simulation::make(half, 2);
 
   advance_to(*of_whole, 0.1);

@@ -88,7 +88,7 @@ Scene drifting_disks(bool periodic, int n_patches)
   Scene scene = empty_scene(2, {periodic ? 24 : 96, 16, 1}, 0.125);
   scene.grid.periodic[0] = periodic;
   scene.n_patches = {periodic ? n_patches : 4, 2, 1};
-  scene.faces[1] = {Face::symmetry, Face::open};
+  scene.faces[1] = {components::SymmetryFace(), components::OpenFace()};
   scene.contacts.push_back({0, 1, 0.3});
   scene.artificial_viscosity = components::ArtificialViscosity{};
   const int soft = add_elastic(scene, 1000, 1e6, 0.3), hard = add_elastic(scene, 2000, 4e6, 0.2);

@@ -20,8 +20,8 @@ Scene glancing_blow(int dimension, int n_layers, Interpolator interpolator)
   scene.n_patches = {2, 2, 1};
   scene.interpolator = interpolator;
   scene.gravity = {0, -10, 0};
-  scene.faces[0] = {Face::symmetry, Face::open};
-  scene.faces[1] = {Face::symmetry, Face::open};
+  scene.faces[0] = {components::SymmetryFace(), components::OpenFace()};
+  scene.faces[1] = {components::SymmetryFace(), components::OpenFace()};
   if (dimension == 3) add_walls(scene, 2);
   scene.artificial_viscosity = components::ArtificialViscosity{};
   // The viscous rule would see the corners of the slab.

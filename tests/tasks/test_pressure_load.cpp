@@ -35,7 +35,7 @@ Scene pressed_column(double damping, Interpolator interpolator)
   scene.n_patches = {1, 4, 1};
   scene.interpolator = interpolator;
   add_walls(scene, 0);
-  scene.faces[1][0] = Face::symmetry;
+  scene.faces[1][0] = components::SymmetryFace();
   scene.local_damping = damping;
   add_box(scene, add_elastic(scene, density, E, nu), {0, 0, 0}, {0.4, 1, 0}).pressure = everywhere(pressure);
   return scene;
@@ -90,7 +90,7 @@ TEST_CASE("a damped disk under pressure from all sides comes to that pressure in
 TEST_CASE("a quarter of a disk between mirrors is pressed as the whole is, and not where the mirrors are")
 {
   Scene scene = empty_scene(2, {8, 8, 1}, 0.1);
-  scene.faces[0][0] = scene.faces[1][0] = Face::symmetry;
+  scene.faces[0][0] = scene.faces[1][0] = components::SymmetryFace();
   scene.local_damping = 0.3;
   // The part of it in the grid.
   add_disk(scene, add_elastic(scene, density, E, nu), 0, 0, 0.5, {0, 0, 0}).pressure = everywhere(pressure);
@@ -243,8 +243,8 @@ Scene strip_on_soil(double load)
 
   Scene scene = empty_scene(2, {32, 14, 1}, 0.125);
   scene.n_patches = {2, 2, 1};
-  scene.faces[0] = {Face::symmetry, Face::symmetry};
-  scene.faces[1][0] = Face::no_slip;
+  scene.faces[0] = {components::SymmetryFace(), components::SymmetryFace()};
+  scene.faces[1][0] = components::NoSlipWall();
   scene.local_damping = 0.3;
   scene.materials.push_back({"soil", 1600,
                              components::DruckerPrager{.bulk_modulus = 20e6,

@@ -208,7 +208,7 @@ TEST_CASE("the error against the compacted column is of second order where it is
   constexpr double compaction = 2e-3, displacement = 0.4 * compaction / 2;
   const auto error_of = [&](int n_cells) {
     Scene scene = empty_scene(2, {n_cells + n_cells / 10, 4, 1}, 0.4 / n_cells);
-    scene.faces[0][0] = Face::symmetry;
+    scene.faces[0][0] = components::SymmetryFace();
     add_walls(scene, 1);
     scene.materials.push_back({"elastic", 1624, components::Hypoelastic{4e8, 3e8}});
     SceneBody& body = add_box(scene, 0, {0, 0, 0}, {0.4, 1.6 / n_cells, 0});
@@ -328,7 +328,7 @@ TEST_CASE("half of a block that a body force draws out symmetrically, at a wall,
   Scene half = whole;
   half.grid.lower[0] = 0;
   half.grid.n_cells[0] = 12;
-  half.faces[0][0] = Face::symmetry;
+  half.faces[0][0] = components::SymmetryFace();
   whole.time.maximum_step = half.time.maximum_step = 5e-4;
   const auto of_whole = Simulation::make(whole, 2), of_half = Simulation::make(half, 1);
 

@@ -328,7 +328,7 @@ Scene driven_in(bool rigid)
   constexpr double h = 0.02;
   Scene scene = empty_scene(2, {24, 18, 1}, h);
   add_walls(scene, 0);
-  scene.faces[1] = {Face::symmetry, Face::open};
+  scene.faces[1] = {components::SymmetryFace(), components::OpenFace()};
   scene.artificial_viscosity = components::ArtificialViscosity{};
   scene.materials.push_back({"sand", 1624, concrete_sand::sand(components::ElasticUpdate::state)});
   scene.materials.push_back({"projectile", 5000, components::NeoHookean{4e11, 4e11}});
@@ -406,7 +406,7 @@ TEST_CASE("two rigid bodies that meet end the run at the last good state")
 
 TEST_CASE("a rigid body that comes to an edge of the domain, open or a wall, ends the run at the last good state")
 {
-  const Face face = GENERATE(Face::open, Face::symmetry);
+  const auto face = GENERATE(Face(components::OpenFace()), Face(components::SymmetryFace()));
   Scene scene = empty_scene(2, {12, 12, 1}, cell);
   scene.n_patches = {2, 2, 1};
   scene.faces[0] = {face, face};

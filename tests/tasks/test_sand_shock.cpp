@@ -23,7 +23,7 @@ constexpr double h = 1.0 / n_cells;
 Scene sand_at_wall()
 {
   Scene scene = empty_scene(2, {n_cells, 2, 1}, h);
-  scene.faces[0] = {Face::symmetry, Face::open};
+  scene.faces[0] = {components::SymmetryFace(), components::OpenFace()};
   add_walls(scene, 1);
   // With the usual 0.2 and 2 particles ring behind the front, and sand that is squeezed beyond its state and let go
   // keeps the strain: its front is then 2 % slow.

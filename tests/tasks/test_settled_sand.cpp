@@ -23,7 +23,7 @@ Scene box_of_sand(int dimension, components::ElasticUpdate form = components::El
   Scene scene = empty_scene(dimension, {6, dimension == 2 ? 26 : 4, dimension == 3 ? 26 : 1}, 0.005);
   const std::size_t vertical = dimension == 2 ? 1 : 2;
   for (std::size_t axis = 0; axis < vertical; ++axis) add_walls(scene, axis);
-  scene.faces[vertical] = {Face::symmetry, Face::open};
+  scene.faces[vertical] = {components::SymmetryFace(), components::OpenFace()};
   scene.artificial_viscosity = components::ArtificialViscosity{};
   scene.materials.push_back({"sand", density, concrete_sand::sand(form)});
   Triple upper{0.03, 0.02, height};
@@ -129,7 +129,7 @@ TEST_CASE("sand that cannot have settled is refused")
   CHECK_THROWS_AS(Simulation::make(upwards, 1), components::BadValue);
 
   Scene open_side = sand_under_gravity();
-  open_side.faces[0][1] = Face::open;
+  open_side.faces[0][1] = components::OpenFace();
   CHECK_THROWS_AS(Simulation::make(open_side, 1), components::BadValue);
 
   Scene without_sides = sand_under_gravity();

@@ -18,8 +18,8 @@ Scene sliding_block(double friction, int normal_of = components::ContactTable::f
 {
   constexpr int n_per_metre = 40;
   Scene scene = empty_scene(2, {n_per_metre, n_per_metre / 2, 1}, 1.0 / n_per_metre);
-  scene.faces[0] = {Face::symmetry, Face::symmetry};
-  scene.faces[1] = {Face::symmetry, Face::open};
+  scene.faces[0] = {components::SymmetryFace(), components::SymmetryFace()};
+  scene.faces[1] = {components::SymmetryFace(), components::OpenFace()};
   scene.gravity = {0, -g, 0};
   scene.artificial_viscosity = components::ArtificialViscosity{};
   scene.time.multiplier = 0.8;
@@ -66,8 +66,7 @@ TEST_CASE("local damping adds its part to the friction of a wall, and more on gr
   Scene on_ground = sliding_block(friction);
   on_ground.local_damping = damping;
   Scene on_wall = on_ground;
-  on_wall.faces[1][0] = Face::friction;
-  on_wall.wall_friction[1][0] = friction;
+  on_wall.faces[1][0] = components::RoughWall{friction};
   on_wall.bodies[0].solid = components::Solid<2>(components::Box<2>{{0.9, 0}, {1, 0.1}});  // out of the way
   on_wall.bodies[1].solid = components::Solid<2>(components::Box<2>{{0.2, 0}, {0.6, 0.1}});
   const auto along_wall = Simulation::make(on_wall, 2), along_ground = Simulation::make(on_ground, 2);

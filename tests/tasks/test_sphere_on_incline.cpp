@@ -33,7 +33,7 @@ Scene sphere_on_incline(int dimension, const Incline& incline)
   const double x = radius + 2, top = depth + 2 * radius + 3;
   Scene scene = empty_scene(dimension, {length, static_cast<int>(top), dimension == 3 ? 12 : 1}, 1);
   add_walls(scene, 0);
-  scene.faces[1] = {Face::symmetry, Face::open};
+  scene.faces[1] = {components::SymmetryFace(), components::OpenFace()};
   if (dimension == 3) add_walls(scene, 2);
   scene.gravity = {sine, -cosine, 0};
   scene.artificial_viscosity = components::ArtificialViscosity{};

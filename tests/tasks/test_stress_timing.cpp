@@ -71,7 +71,7 @@ Scene meeting_disks(bool is_rigid)
 {
   Scene scene = empty_scene(2, {18, 12, 1}, 0.1);
   scene.n_patches = {3, 2, 1};
-  scene.faces[1] = {Face::no_slip, Face::symmetry};
+  scene.faces[1] = {components::NoSlipWall(), components::SymmetryFace()};
   scene.artificial_viscosity = components::ArtificialViscosity{};
   const int soft = add_elastic(scene, 1000, 1e6, 0.3), hard = add_elastic(scene, 2000, 4e6, 0.2);
   SceneBody& first = add_disk(scene, soft, 0.55, 0.42, 0.4, {6, -0.5, 0});

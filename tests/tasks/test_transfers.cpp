@@ -219,7 +219,7 @@ TEST_CASE("XPIC and FMPM of order 1 are PIC")
 {
   Scene scene = empty_scene(2, {12, 12, 1}, h);
   const int soft = add_elastic(scene, 1000, 1e6, 0.3), hard = add_elastic(scene, 3000, 5e6, 0.2);
-  scene.faces[0][0] = Face::no_slip;
+  scene.faces[0][0] = components::NoSlipWall();
   add_box(scene, soft, {0, 0.4, 0}, {0.4, 0.8, 0}, {2, 1, 0});
   add_box(scene, hard, {0.5, 0.3, 0}, {0.9, 0.6, 0});
   const auto end = [&](Transfer transfer) {

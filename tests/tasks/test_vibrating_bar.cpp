@@ -28,7 +28,7 @@ constexpr double wave_speed = 10;
 Scene bar(int n_cells, bool held)
 {
   Scene scene = empty_scene(2, {n_cells + (held ? 0 : 4), 2, 1}, length / n_cells);
-  scene.faces[0] = {Face::symmetry, held ? Face::symmetry : Face::open};
+  scene.faces[0] = {components::SymmetryFace(), held ? components::SymmetryFace() : components::OpenFace()};
   add_walls(scene, 1);
   add_box(scene, add_elastic(scene, density, modulus / uniaxial_modulus(1, poisson), poisson), {0, 0, 0},
           {length, 1e9, 0});

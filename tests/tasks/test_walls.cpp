@@ -19,17 +19,11 @@ namespace
 constexpr double g = 10;
 constexpr double cell = 0.025;
 
-void add_rough_floor(Scene& scene, double friction)
-{
-  scene.faces[1][0] = Face::friction;
-  scene.wall_friction[1][0] = friction;
-}
-
 /// An elastic block of 0.4 m by 0.1 m on a floor with friction; gravity is turned by the incline's angle.
 Scene block_on_incline(double friction, double angle, const Triple& velocity = {0, 0, 0})
 {
   Scene scene = empty_scene(2, {40, 10, 1}, cell);
-  add_rough_floor(scene, friction);
+  scene.faces[1][0] = components::RoughWall{friction};
   scene.gravity = {g * std::sin(angle), -g * std::cos(angle), 0};
   scene.artificial_viscosity = components::ArtificialViscosity{};
   add_box(scene, add_elastic(scene, 2000, 1e7, 0.2), {0.1, 0, 0}, {0.5, 0.1, 0}, velocity);
@@ -43,13 +37,12 @@ double way(Simulation& simulation)
 }
 
 /// Half a column of dry soil, `height` by 0.2 m, that stands free beside a mirror on a floor.
-Scene soil_column(double height, Face floor, double friction)
+Scene soil_column(double height, const Face& floor)
 {
   Scene scene = empty_scene(2, {64, 24, 1}, 0.0125);
   scene.n_patches = {8, 2, 1};
-  scene.faces[0][0] = Face::symmetry;
+  scene.faces[0][0] = components::SymmetryFace();
   scene.faces[1][0] = floor;
-  scene.wall_friction[1][0] = friction;
   scene.gravity = {0, -9.81, 0};
   scene.materials.push_back(
       {"soil", 1600,
@@ -132,7 +125,7 @@ TEST_CASE("a layer on a wall without slip is sheared by its weight as the wave e
 {
   const double height = 8 * cell, width = 64 * cell, density = 1000, young = 1e6;
   Scene scene = empty_scene(2, {80, 12, 1}, cell);
-  scene.faces[1][0] = Face::no_slip;
+  scene.faces[1][0] = components::NoSlipWall();
   scene.gravity = {1, 0, 0};
   add_box(scene, add_elastic(scene, density, young, 0), {8 * cell, 0, 0}, {8 * cell + width, height, 0});
   const auto simulation = Simulation::make(scene, 2);
@@ -158,7 +151,7 @@ TEST_CASE("a layer on a wall without slip is sheared by its weight as the wave e
 /// high run out by 1.2 times their half width. Experiments with other grains differ by some 15 %.
 TEST_CASE("a column of dry soil runs out on a floor with friction as far as columns of grains do")
 {
-  const auto simulation = Simulation::make(soil_column(0.2, Face::friction, 0.5), 2);
+  const auto simulation = Simulation::make(soil_column(0.2, components::RoughWall{0.5}), 2);
 
   advance_to(*simulation, 0.6);
 
@@ -173,8 +166,7 @@ TEST_CASE("a column of dry soil runs out on a floor with friction as far as colu
 
 TEST_CASE("soil that collapses on a rough floor ends with the same bits on any ranks and threads", "[ranks]")
 {
-  const auto [floor, friction] = GENERATE(std::pair{Face::friction, 0.4}, std::pair{Face::no_slip, 0.0});
-  const Scene scene = soil_column(0.2, floor, friction);
+  const Scene scene = soil_column(0.2, GENERATE(Face(components::RoughWall{0.4}), Face(components::NoSlipWall())));
   const auto alone = Simulation::make(scene, 1);
   advance_to(*alone, 0.05);
 

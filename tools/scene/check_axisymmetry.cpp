@@ -18,12 +18,12 @@ void check_grid(const JsonReader& grid, const tasks::Scene& scene)
 
 void check_faces(const JsonReader& boundaries, const tasks::Scene& scene, bool reaches_axis)
 {
-  using tasks::Face;
-  const auto [lower, upper] = scene.faces[0];
-  if (lower == Face::periodic || upper == Face::periodic) {
+  using components::traits_of, components::Beyond;
+  const auto& [lower, upper] = scene.faces[0];
+  if (traits_of(lower).beyond == Beyond::opposite || traits_of(upper).beyond == Beyond::opposite) {
     boundaries.add_problem("x-", "periodic in r, in an axisymmetric scene",
                            "expected other faces, as a ring that leaves outwards does not come in at the axis");
-  } else if (reaches_axis && lower != Face::symmetry) {
+  } else if (reaches_axis && !traits_of(lower).is_mirror) {
     boundaries.add_problem("x-", "another face than \"symmetry\" on the axis of an axisymmetric scene",
                            "expected \"symmetry\", as nothing lies beyond r = 0");
   }

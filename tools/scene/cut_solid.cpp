@@ -88,7 +88,7 @@ std::optional<tasks::Sides> mirrors_crossed(const components::Solid<D>& solid, c
   const tasks::Sides crossed = faces_crossed<D>(box, scene.grid);
   for (std::size_t axis = 0; axis < D; ++axis) {
     for (std::size_t side = 0; side < 2; ++side) {
-      if (!crossed[axis][side] || scene.faces[axis][side] == tasks::Face::symmetry) continue;
+      if (!crossed[axis][side] || components::traits_of(scene.faces[axis][side]).is_mirror) continue;
       add_problem_of_reach<D>(box, reader);
       return std::nullopt;
     }

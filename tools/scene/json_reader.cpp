@@ -316,12 +316,26 @@ std::string JsonReader::word(const std::string& key)
 {
   write_default(key);
   const auto& choice = declared_as<Choice>(key);
-  return one_of(key, choice.words, choice.shown_instead);
+  std::vector<std::string> shown_instead;
+  for (const Instead& instead : choice.instead) shown_instead.push_back(instead.shown);
+  return one_of(key, choice.words, fmt::format("{}", fmt::join(shown_instead, ", ")));
 }
 
-int JsonReader::value_of_word(const std::string& key)
+const Instead& JsonReader::object_instead(const std::string& key, const Choice& choice) const
+{
+  const std::vector<std::string> members = members_of(key);
+  const auto has_one = [&](const Instead& instead) {
+    return std::ranges::any_of(instead.keys().keys,
+                               [&](const Key& own) { return std::ranges::find(members, own.name) != members.end(); });
+  };
+  const auto at = std::ranges::find_if(choice.instead, has_one);
+  return at == choice.instead.end() ? choice.instead.front() : *at;
+}
+
+int JsonReader::value_of_choice(const std::string& key)
 {
   const auto& choice = declared_as<Choice>(key);
+  if (!choice.instead.empty() && is_object(key)) return object_instead(key, choice).value;
   const auto at = std::find(choice.words.begin(), choice.words.end(), word(key));
   return at == choice.words.end() ? choice.values.front()
                                   : choice.values.at(static_cast<std::size_t>(at - choice.words.begin()));
@@ -449,7 +463,7 @@ JsonReader JsonReader::object(const std::string& key)
 {
   write_default(key);
   const Value& value = declared(key).value;
-  if (const auto* choice = std::get_if<Choice>(&value)) return at(key, choice->instead());
+  if (const auto* choice = std::get_if<Choice>(&value)) return at(key, object_instead(key, *choice).keys());
   if (const auto* members = std::get_if<Members>(&value)) return at(key, members->keys());
   return at(key, std::get<Object>(value).keys());
 }

@@ -45,11 +45,11 @@ class JsonReader
   bool is_object(const std::string& key) const;
   /// One of the words of a choice, or empty if it is none.
   std::string word(const std::string& key);
-  /// The value of the word at a key; that of the first one if it is none.
+  /// The value of the word at a key, or of the object in its place; that of the first word if it is neither.
   template <class Enum>
   Enum choice(const std::string& key)
   {
-    return static_cast<Enum>(value_of_word(key));
+    return static_cast<Enum>(value_of_choice(key));
   }
   /// The word at "type", whose keys are keys from now on; empty if it is none, or stands over another type of the file
   /// that the object names, with keys that go with that type alone.
@@ -92,6 +92,8 @@ class JsonReader
 
  private:
   std::vector<const std::vector<Key>*> declared() const;
+  /// Which of those that may stand there: the first that has a key of the one that does.
+  const Instead& object_instead(const std::string& key, const Choice& choice) const;
   const Key& declared(const std::string& key) const;
   /// Notes a type that is not that of the file from which keys come; whether there is one.
   bool is_over_type_of_file(const std::string& type) const;
@@ -112,7 +114,7 @@ class JsonReader
   void write_default(const std::string& key, std::size_t n_entries = 0);
   /// `also` is what else a message names.
   std::string one_of(const std::string& key, const std::vector<std::string>& words, const std::string& also = "") const;
-  int value_of_word(const std::string& key);
+  int value_of_choice(const std::string& key);
   template <class T>
   std::vector<T> list(const std::string& key, std::size_t n, const std::string& expected, bool (*fits)(const Json&));
   JsonReader at(const std::string& key, const ObjectKeys& keys) const;

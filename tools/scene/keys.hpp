@@ -77,14 +77,18 @@ struct WholeNumbers {
 struct Rows {
   Length length;
 };
+/// An object that may stand in place of a word, with parameters of what it chooses.
+struct Instead {
+  KeysOf keys;
+  /// As a message shows it.
+  std::string shown;
+  int value;
+};
 struct Choice {
   std::vector<std::string> words;
   /// The value of each word in code: those of an enumeration; none where the word itself is used.
   std::vector<int> values{};
-  /// The keys of an object that may stand there instead of a word.
-  KeysOf instead = nullptr;
-  /// That object, as a message shows it.
-  std::string shown_instead{};
+  std::vector<Instead> instead{};
   /// Words of earlier versions that are still read, each with the word of now.
   std::map<std::string, std::string> old_words{};
   /// That of each word, in Markdown; empty where the meaning of the key says it all.
@@ -162,9 +166,9 @@ std::string meanings_of(const std::vector<components::Word<T>>& words)
 /// A key whose words stand for values of an enumeration, or of a Choice.
 template <class T>
 Key choice(std::string name, T default_value, const std::vector<components::Word<T>>& words, std::string meaning,
-           KeysOf instead = nullptr, std::string shown_instead = "")
+           std::vector<Instead> instead = {})
 {
-  Choice choice{.words = {}, .instead = instead, .shown_instead = std::move(shown_instead)};
+  Choice choice{.words = {}, .instead = std::move(instead)};
   Default left_out;
   for (const auto& [word, value, meaning_of_word, old_word] : words) {
     choice.words.emplace_back(word);

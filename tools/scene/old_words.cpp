@@ -60,7 +60,7 @@ class Replacement
 
   void in_choice(Json& value, const Choice& choice, const JsonPointer& place, const JsonPointer& place_now)
   {
-    if (choice.instead != nullptr) in_object(value, choice.instead(), place, place_now);
+    for (const Instead& instead : choice.instead) in_object(value, instead.keys(), place, place_now);
     if (!value.is_string()) return;
     const auto at = choice.old_words.find(value.get<std::string>());
     if (at == choice.old_words.end()) return;

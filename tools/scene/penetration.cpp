@@ -28,7 +28,7 @@ double wall_in(const tasks::Scene& scene, const Vector3d& direction)
     if (std::abs(direction[axis]) < 1 - rounding) continue;
     const auto a = static_cast<std::size_t>(axis);
     const bool is_upper = direction[axis] > 0;
-    if (!scene.grid.periodic[a] && scene.faces[a][is_upper] == tasks::Face::open) return infinity;
+    if (components::traits_of(scene.faces[a][is_upper]).beyond == components::Beyond::away) return infinity;
     return direction[axis] * scene.grid.coordinate(axis, is_upper ? scene.grid.n_cells[a] : 0);
   }
   return infinity;

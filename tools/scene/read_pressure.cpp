@@ -80,7 +80,8 @@ bool holds_surface(const components::PressedBox<D>& box, const tasks::Scene& sce
     const double face = 0.5 * (site[axis] + next[axis]);
     const double edge = scene.grid.coordinate(axis, side == 0 ? 0 : scene.grid.n_cells[k]);
     const bool is_at_edge = std::abs(face - edge) < slack;
-    if (is_at_edge && scene.faces[k][static_cast<std::size_t>(side)] != tasks::Face::open) return false;
+    const tasks::Face& beyond = scene.faces[k][static_cast<std::size_t>(side)];
+    if (is_at_edge && components::traits_of(beyond).beyond != components::Beyond::away) return false;
     if (face < box.lower[axis] - slack || face > box.upper[axis] + slack) return false;
     return box.part_of(site, size, size)(axis, side) > 0;
   };

@@ -140,26 +140,34 @@ class SceneReader
     JsonReader reader = root_.object("boundaries");
     for (std::size_t axis = 0; axis < dimension(); ++axis) {
       for (std::size_t side = 0; side < 2; ++side) {
-        const std::string key{"xyz"[axis], "-+"[side]};
-        if (reader.is_object(key)) {
-          JsonReader wall = reader.object(key);
-          scene_.faces[axis][side] = tasks::Face::friction;
-          scene_.wall_friction[axis][side] = wall.number("friction");
-          wall.finish();
-        } else {
-          scene_.faces[axis][side] = reader.choice<tasks::Face>(key);
-        }
+        scene_.faces[axis][side] = read_face(reader, {"xyz"[axis], "-+"[side]});
       }
       read_periodic(reader, axis, grid_is_good);
     }
     reader.finish();
   }
 
+  static tasks::Face read_face(JsonReader& faces, const std::string& key)
+  {
+    return components::with_alternative<tasks::Face>(static_cast<std::size_t>(faces.choice<int>(key)),
+                                                     [&]<class Kind>(std::type_identity<Kind>) -> tasks::Face {
+                                                       Kind face;
+                                                       if constexpr (components::has_parameters<Kind>) {
+                                                         JsonReader reader = faces.object(key);
+                                                         read_parameters(reader, face);
+                                                         reader.finish();
+                                                       }
+                                                       return face;
+                                                     });
+  }
+
   void read_periodic(JsonReader& reader, std::size_t axis, bool grid_is_good)
   {
     const std::array<std::string, 2> keys{std::string{"xyz"[axis], '-'}, std::string{"xyz"[axis], '+'}};
-    const bool lower = scene_.faces[axis][0] == tasks::Face::periodic;
-    const bool upper = scene_.faces[axis][1] == tasks::Face::periodic;
+    const auto is_periodic = [&](std::size_t side) {
+      return components::traits_of(scene_.faces[axis][side]).beyond == components::Beyond::opposite;
+    };
+    const bool lower = is_periodic(0), upper = is_periodic(1);
     if (lower != upper) {
       reader.add_problem(lower ? keys[1] : keys[0], "a face that is not periodic, opposite to one that is",
                          "expected both faces of an axis periodic, or neither");
@@ -237,15 +245,12 @@ class SceneReader
     }
     auto reader = root_.optional_object("centrifuge");
     if (!reader) return;
-    const auto has_friction = [](const std::array<tasks::Face, 2>& sides) {
-      return std::find(sides.begin(), sides.end(), tasks::Face::friction) != sides.end();
-    };
     if (scene_.is_periodic()) {
       root_.add_problem("centrifuge", "periodic boundaries, whose ends are not alike in a turning grid",
                         "expected other boundaries where the grid turns");
     }
-    if (std::any_of(scene_.faces.begin(), scene_.faces.end(), has_friction)) {
-      root_.add_problem("centrifuge", "a wall with friction", "expected other boundaries where the grid turns");
+    if (scene_.has_wall_to_leave()) {
+      root_.add_problem("centrifuge", "a wall that can be left", "expected other boundaries where the grid turns");
     }
     const std::size_t n_before = document_.problems.size();
     const double speed = reader->number("angular_speed");

@@ -145,8 +145,8 @@ std::vector<double> places_across(const tasks::Scene& scene, int axis, const com
   const auto& faces = scene.faces[static_cast<std::size_t>(axis)];
   std::vector<double> places;
   places.reserve(3);
-  if (faces[0] == tasks::Face::symmetry) places.push_back(grid.lower[axis]);
-  if (faces[1] == tasks::Face::symmetry) places.push_back(grid.upper[axis]);
+  if (components::traits_of(faces[0]).is_mirror) places.push_back(grid.lower[axis]);
+  if (components::traits_of(faces[1]).is_mirror) places.push_back(grid.upper[axis]);
   places.push_back(0.5 * (grid.lower[axis] + grid.upper[axis]));
   return places;
 }

@@ -1,5 +1,6 @@
 #include <fmt/core.h>
 
+#include "components/alternatives.hpp"
 #include "tasks/scene.hpp"
 #include "tools/scene/keys.hpp"
 #include "tools/scene/parameter_keys.hpp"
@@ -26,26 +27,38 @@ const ObjectKeys& grid_keys()
   return keys;
 }
 
-const ObjectKeys& wall_keys()
+template <class Kind>
+const ObjectKeys& parameters_of()
 {
-  static const ObjectKeys keys{
-      "", {{"friction", Number{zero_or_above}, "", compulsory, "Coulomb's coefficient of friction"}}};
+  static const ObjectKeys keys{"", keys_of_parameters<Kind>()};
   return keys;
+}
+
+/// Kinds of faces by their words, those with parameters as objects; the value of each is its place among them.
+Key face_key(const std::string& name)
+{
+  int place = 0;
+  std::vector<components::Word<int>> words;
+  std::vector<Instead> objects;
+  std::string of_objects;
+  components::for_each_alternative<tasks::Face>([&]<class Kind>(std::type_identity<Kind>) {
+    if constexpr (components::has_parameters<Kind>) {
+      objects.push_back({parameters_of<Kind>, std::string(Kind::shown), place++});
+      of_objects += fmt::format("; `{}`: {}", Kind::shown, Kind::meaning);
+    } else {
+      words.push_back({Kind::word, place++, Kind::meaning});
+    }
+  });
+  return choice<int>(name, 0, words, meanings_of(words) + of_objects, std::move(objects));
 }
 
 const ObjectKeys& boundary_keys()
 {
   static const ObjectKeys keys = [] {
-    const auto words = words_of(tasks::Face());
     ObjectKeys faces;
     for (const char axis : {'x', 'y', 'z'}) {
       for (const char side : {'-', '+'}) {
-        faces.keys.push_back(choice<tasks::Face>(
-            {axis, side}, tasks::Face::symmetry, words,
-            meanings_of(words) +
-                "; `{\"friction\": MU}`: a wall that rubs, and that what touches it may leave, not where a centrifuge "
-                "turns the grid",
-            wall_keys, R"({"friction": MU})"));
+        faces.keys.push_back(face_key({axis, side}));
         faces.keys.back().only_in = axis == 'z' ? 3 : 0;
       }
     }

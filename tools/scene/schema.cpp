@@ -111,7 +111,7 @@ class SchemaWriter
     std::vector<std::string> words = choice.words;
     for (const auto& [old, now] : choice.old_words) words.push_back(old);
     std::vector<Json> either{{{"enum", words}}};
-    if (choice.instead != nullptr) either.push_back(object(choice.instead(), extent));
+    for (const Instead& instead : choice.instead) either.push_back(object(instead.keys(), extent));
     return one_schema_of(either);
   }
   Json of(const Object& value, Extent extent) { return object(value.keys(), extent); }

@@ -57,12 +57,11 @@ template <int D>
 bool is_symmetric(const tasks::Scene& scene, std::size_t axis)
 {
   const auto& faces = scene.faces[axis];
-  const auto& friction = scene.wall_friction[axis];
   // A narrow grid is a column, whose sides are walls.
   constexpr int narrow = 4;
   const int n_cells = scene.grid.n_cells[axis];
   if (scene.grid.periodic[axis] || n_cells % 2 != 0 || n_cells < narrow) return false;
-  if (faces[0] != faces[1] || friction[0] != friction[1] || !loads_are_mirrored(scene, axis)) return false;
+  if (faces[0] != faces[1] || !loads_are_mirrored(scene, axis)) return false;
   const double plane = scene.grid.coordinate(static_cast<int>(axis), scene.grid.n_cells[axis] / 2);
   return std::all_of(scene.bodies.begin(), scene.bodies.end(),
                      [&](const tasks::SceneBody& body) { return is_symmetric<D>(scene, body, axis, plane); });
@@ -90,8 +89,8 @@ bool is_mirrored(const components::PressedBox<3>& pressed, std::size_t axis, dou
 bool is_one_cell_thick(const tasks::Scene& scene, int axis)
 {
   const auto k = static_cast<std::size_t>(axis);
-  return scene.grid.n_cells[k] == 1 && scene.faces[k][0] == tasks::Face::symmetry &&
-         scene.faces[k][1] == tasks::Face::symmetry;
+  return scene.grid.n_cells[k] == 1 && components::traits_of(scene.faces[k][0]).is_mirror &&
+         components::traits_of(scene.faces[k][1]).is_mirror;
 }
 
 std::size_t first_axis_with_planes(const tasks::Scene& scene)
@@ -149,7 +148,7 @@ std::optional<std::string> advice_to_halve(const tasks::Scene& scene)
       "/grid/patches=[{}]{}",
       fmt::join(planes, " and "), names[axes.size() - 1], part, fmt::join(lower, ","), fmt::join(patches, ","),
       std::all_of(axes.begin(), axes.end(),
-                  [&](std::size_t axis) { return scene.faces[axis][0] == tasks::Face::symmetry; })
+                  [&](std::size_t axis) { return components::traits_of(scene.faces[axis][0]).is_mirror; })
           ? ""
           : " and \"symmetry\" at the lower face");
 }

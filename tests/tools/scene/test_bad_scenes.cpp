@@ -82,7 +82,8 @@ TEST_CASE("a method that is none of the choices, or does not go with another cho
        {"/transfer=apic /interpolator=linear /time/rule=published",
         "/transfer: apic with an interpolator whose weights have no spread where a particle is on a node; expected "
         "another transfer, such as tpic, or another interpolator"},
-       {"/transfer=fmpm /boundaries/y-/friction=0.3", "/transfer: fmpm of order 2 with a wall that rubs" + energy},
+       {"/transfer=fmpm /boundaries/y-/friction=0.3",
+        "/transfer: fmpm of order 2 with a wall that can be left" + energy},
        {"/transfer=fmpm /filter_order=1 /boundaries/y-/friction=0.3", ""}});
 }
 
@@ -171,7 +172,7 @@ TEST_CASE("a centrifuge whose numbers make no rotation, or that turns what canno
        {"/centrifuge={'angular_speed':6,'axis':['NaN',0,0],'centre':[0,0,5]}", "/centrifuge/axis*"},
        {"/boundaries={'x-':{'friction':0.4},'z-':{'friction':0.4}}", ""},
        {"/boundaries={'x-':{'friction':0.4},'z-':{'friction':0.4}} " + turning,
-        "/centrifuge: a wall with friction; expected other boundaries where the grid turns"},
+        "/centrifuge: a wall that can be left; expected other boundaries where the grid turns"},
        {"/boundaries={'x-':'periodic','x+':'periodic'} " + turning,
         "/centrifuge: periodic boundaries, whose ends are not alike in a turning grid; expected other boundaries "
         "where the grid turns"}});

@@ -57,7 +57,7 @@ TEST_CASE("what a scene leaves out has the documented default")
 
   CHECK(scene.title == "small");
   CHECK(scene.grid.lower == tasks::Triple{0, 0, 0});
-  CHECK(scene.faces[1][1] == tasks::Face::symmetry);
+  CHECK(components::traits_of(scene.faces[1][1]).is_mirror);
   CHECK(scene.time.rule == tasks::StepRule::viscous);
   CHECK(scene.time.multiplier == 0.8);
   CHECK(scene.time.minimum_step == 1e-12);
@@ -101,7 +101,7 @@ TEST_CASE("the scene as resolved reads back as the same scene, from any folder")
   with_its_own_files["inputs"] = first.resolved["inputs"];
   CHECK(with_its_own_files == first.resolved);
   CHECK(again.scene.contacts.at(0).friction == 0.1);
-  CHECK(again.scene.faces[0][1] == tasks::Face::open);
+  CHECK_FALSE(components::traits_of(again.scene.faces[0][1]).is_wall());
   CHECK(again.scene.artificial_viscosity->quadratic == 2.0);
   CHECK(std::get<components::TabularCap>(again.scene.materials.at(1).model).crush_pressure(0.1) == 2e7);
 }
