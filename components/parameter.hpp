@@ -26,4 +26,10 @@ struct Parameter {
   bool optional = false;
 };
 
+template <class Object>
+constexpr bool has_parameters = requires
+{
+  Object::parameters();
+};
+
 }  // namespace tamp::components

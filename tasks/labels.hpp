@@ -5,6 +5,7 @@
 
 #include "components/anti_locking/cell_average.hpp"
 #include "components/contact/logistic_plane.hpp"
+#include "components/contact/normals.hpp"
 #include "components/loads/pressure_load.hpp"
 #include "components/shapes/node_sums.hpp"
 #include "components/tensors.hpp"
@@ -116,6 +117,9 @@ template <int D>
 inline const runtime::NodeLabel<components::RegressionSums<D>, "regression sums"> regression_sums;
 template <int D>
 inline const runtime::NodeLabel<components::EdgeSums<D>, "edge sums"> edge_sums;
+/// Only where a contact finds any.
+template <int D>
+inline const runtime::NodeLabel<components::ContactFace<D>, "contact face"> contact_face;
 /// The last term u_j of a transfer's passes, and the sum of those that the transfer takes [m/s].
 template <int D>
 inline const runtime::NodeLabel<components::NodeVector<D>, "velocity term"> velocity_term;

@@ -69,7 +69,7 @@ Method<D>::Method(const Scene& given)
     }
   }
   for (const SceneContact& pair : scene.contacts)
-    contacts.set(pair.material_a, pair.material_b, pair.friction, pair.normal_of);
+    contacts.set(pair.material_a, pair.material_b, pair.friction, pair.normal);
 }
 
 template <int D>

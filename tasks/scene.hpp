@@ -179,8 +179,7 @@ struct SceneContact {
   int material_a;
   int material_b;
   double friction;
-  /// The material whose surface gives the normal, or one of the ways of ContactTable.
-  int normal_of = components::ContactTable::flatter;
+  components::ContactNormal normal = components::FlatterNormal();
 };
 
 /// Fields of particles, and of nodes as "nodes/NAME", by their names in field files.

@@ -30,10 +30,4 @@ void with_wall(const Face& face, const Visit& visit)
       face);
 }
 
-template <class Kind>
-constexpr bool has_parameters = requires
-{
-  Kind::parameters();
-};
-
 }  // namespace tamp::components

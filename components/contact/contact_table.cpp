@@ -25,31 +25,33 @@ std::size_t n_pairs(int n_groups)
 }  // namespace
 
 ContactTable::ContactTable(int n_groups, double friction)
-    : n_groups_(n_groups), pairs_(n_pairs(n_groups), Pair{checked(friction), flatter})
+    : n_groups_(n_groups), pairs_(n_pairs(n_groups), Pair{checked(friction), FlatterNormal()})
 {
 }
 
-void ContactTable::set(int a, int b, double friction, int normal_of)
+void ContactTable::set(int a, int b, double friction, const ContactNormal& normal)
 {
   if (a < 0 || b < 0 || a >= n_groups_ || b >= n_groups_ || a == b) {
     throw BadValue("contact groups " + std::to_string(a) + " and " + std::to_string(b),
                    "two different groups from 0 to " + std::to_string(n_groups_ - 1));
   }
-  if (normal_of != flatter && normal_of != regression && normal_of != a && normal_of != b) {
-    throw BadValue("the normal of group " + std::to_string(normal_of), "that of one of the two");
+  if (const auto* own = std::get_if<OwnNormal>(&normal); own != nullptr && own->owner != a && own->owner != b) {
+    throw BadValue("the normal of group " + std::to_string(own->owner), "that of one of the two");
   }
-  pairs_[place(a, b)] = pairs_[place(b, a)] = {checked(friction), normal_of};
+  pairs_[place(a, b)] = pairs_[place(b, a)] = {checked(friction), normal};
 }
 
-bool ContactTable::has_regression() const
+bool ContactTable::finds_faces() const
 {
-  return std::any_of(pairs_.begin(), pairs_.end(), [](const Pair& pair) { return pair.normal_of == regression; });
+  return std::any_of(pairs_.begin(), pairs_.end(),
+                     [](const Pair& pair) { return components::finds_faces(pair.normal); });
 }
 
 bool ContactTable::needs_surface_of(int group) const
 {
   for (int other = 0; other < n_groups_; ++other) {
-    if (other != group && normal_of(group, other) != other) return true;
+    const auto asks = [&](const auto& kind) { return kind.needs_surface_of(group); };
+    if (other != group && std::visit(asks, normal(group, other))) return true;
   }
   return false;
 }

@@ -4,20 +4,18 @@
 #include <limits>
 #include <vector>
 
+#include "components/contact/normals.hpp"
+
 namespace tamp::components
 {
 
-/// How any two of `n_groups` contact groups meet: their coefficient of friction, and whose surface gives the normal.
+/// How any two of `n_groups` contact groups meet: their coefficient of friction, and where their normal comes from.
 /// Every pair starts with one coefficient and the normal of the flatter surface.
 class ContactTable
 {
  public:
   /// Touching bodies never slide on each other; they may still part.
   static constexpr double no_slip = std::numeric_limits<double>::infinity();
-  /// In place of a group: the normal is that of the flatter surface at each node, see `facing`.
-  static constexpr int flatter = -1;
-  /// The normal is that of the plane that parts the materials' particles, see logistic_plane.hpp.
-  static constexpr int regression = -2;
 
   /// Throws BadValue for a coefficient below 0 or not a number, or fewer than one group.
   explicit ContactTable(int n_groups, double friction = 0);
@@ -25,20 +23,20 @@ class ContactTable
   int n_groups() const { return n_groups_; }
 
   double friction(int a, int b) const { return pairs_[place(a, b)].friction; }
-  /// The group whose surface gives the normal, or `flatter`, or `regression`.
-  int normal_of(int a, int b) const { return pairs_[place(a, b)].normal_of; }
-  bool has_regression() const;
+  const ContactNormal& normal(int a, int b) const { return pairs_[place(a, b)].normal; }
+  /// Whether any pair does.
+  bool finds_faces() const;
   /// Whether the surface of this group takes part in the normal of any pair.
   bool needs_surface_of(int group) const;
 
   /// Sets the contact of a with b, which is that of b with a. Throws BadValue for a coefficient below 0 or not a
   /// number, for groups that are not two different ones of the table, and for the normal of a third.
-  void set(int a, int b, double friction, int normal_of = flatter);
+  void set(int a, int b, double friction, const ContactNormal& normal = FlatterNormal());
 
  private:
   struct Pair {
     double friction;
-    int normal_of;
+    ContactNormal normal;
   };
 
   std::size_t place(int a, int b) const { return static_cast<std::size_t>(a * n_groups_ + b); }

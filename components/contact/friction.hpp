@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <optional>
 #include <span>
+#include <variant>
 
 #include "components/contact/contact_table.hpp"
 #include "components/tensors.hpp"
@@ -17,8 +19,8 @@ namespace tamp::components
 struct ContactThresholds {
   /// kg
   double mass = 0;
-  /// Length of the vector that the normal comes from, see `facing` [m^(D-1)]; a small part, such as 1e-9, of (cell
-  /// size)^(D-1) distinguishes it from round-off.
+  /// Length of the vector that the normal comes from [m^(D-1)]; a small part, such as 1e-9, of (cell size)^(D-1)
+  /// distinguishes it from round-off.
   double surface_gradient = 0;
 };
 
@@ -66,43 +68,46 @@ ContactImpulse<D> collide(double mass_a, double mass_b, const Vector<D>& normal,
   return impulse;
 }
 
-/// The direction in which two materials face each other, from a to b; not of unit length, and zero where there is none.
-/// `gradient_a` and `gradient_b` are G = sum_p V_p grad S_ip, which points out of a material.
-///
-/// At a flat surface G is as long as it gets; at an edge, part of the surroundings is missing and G is shorter and
-/// leans. So the longer of the two speaks for both, and the shorter joins in only as it comes to the same length: a
-/// block's lower edges then slide along the ground instead of ploughing into it.
+/// The surfaces of all materials at one node; one entry of each span a material, in the order of the table.
 template <int D>
-Vector<D> facing(const Vector<D>& gradient_a, const Vector<D>& gradient_b)
-{
-  constexpr double joins_from = 0.9;
-  const double length_a = gradient_a.norm(), length_b = gradient_b.norm();
-  const double ratio = std::min(length_a, length_b) / std::max(length_a, length_b);
-  const double share = std::max(0.0, (ratio - joins_from) / (1 - joins_from));
-  return length_a > length_b ? Vector<D>(gradient_a - share * gradient_b) : Vector<D>(share * gradient_a - gradient_b);
-}
+struct NodeSurfaces {
+  std::span<const Vector<D>> gradient;
+  /// Empty where no contact finds any.
+  std::span<const ContactFace<D>> face{};
+};
 
-/// The direction from a to b in which the two meet, as the table has it; not of unit length.
+/// The unit normal from a to b along which the two meet at a node. None where they do not touch, or where it comes from
+/// a vector no longer than `least_length`.
 template <int D>
-Vector<D> outward_of(const ContactTable& table, int a, int b, const Vector<D>& gradient_a, const Vector<D>& gradient_b)
+std::optional<Vector<D>> normal_at(const ContactTable& table, int a, int b, const NodeSurfaces<D>& at,
+                                   double least_length)
 {
-  const int owner = table.normal_of(a, b);
-  if (owner == a) return gradient_a;
-  if (owner == b) return -gradient_b;
-  return facing<D>(gradient_a, gradient_b);
+  const auto first = static_cast<std::size_t>(a), second = static_cast<std::size_t>(b);
+  Vector<D> outward;
+  if (!at.face.empty() && at.face[first].is_there()) {
+    if (at.face[first].gap > 0) return std::nullopt;
+    outward = at.face[first].outward;
+  } else {
+    outward = std::visit(
+        [&](const auto& kind) {
+          return kind.template outward<D>({a, at.gradient[first]}, {b, at.gradient[second]});
+        },
+        table.normal(a, b));
+  }
+  const double length = outward.norm();
+  if (!(length > least_length)) return std::nullopt;
+  return Vector<D>(outward / length);
 }
 
 /// Contact between all materials at one node; one entry of each span a material (contact group), in the order of the
-/// table. `surface_gradient` of a material is G_a = sum_p V_p grad S_ip, which points out of the material.
+/// table.
 /// Two materials share one normal, so that the impulse on one is exactly minus that on the other.
 /// Pairs a < b are resolved one after another, in that order, each with the velocities that the pairs before it left:
 /// with three or more materials a later pair may leave an earlier one with some approach, which the next step ends. A
-/// pair is left alone, sliding and all, where one of its masses is not above the threshold or where that normal is too
-/// short to have a direction.
+/// pair is left alone, sliding and all, where one of its masses is not above the threshold, or without a normal.
 template <int D>
-ContactOutcome resolve_contact(std::span<const double> mass, std::span<const Vector<D>> surface_gradient,
-                               const ContactTable& table, const ContactThresholds& thresholds,
-                               std::span<Vector<D>> velocity)
+ContactOutcome resolve_contact(std::span<const double> mass, const NodeSurfaces<D>& surfaces, const ContactTable& table,
+                               const ContactThresholds& thresholds, std::span<Vector<D>> velocity)
 {
   ContactOutcome outcome;
   for (std::size_t a = 0; a < mass.size(); ++a) {
@@ -110,12 +115,10 @@ ContactOutcome resolve_contact(std::span<const double> mass, std::span<const Vec
     for (std::size_t b = a + 1; b < mass.size(); ++b) {
       if (!(mass[b] > thresholds.mass)) continue;
       const int first = static_cast<int>(a), second = static_cast<int>(b);
-      const Vector<D> outward = outward_of<D>(table, first, second, surface_gradient[a], surface_gradient[b]);
-      const double length = outward.norm();
-      if (!(length > thresholds.surface_gradient)) continue;
-      const double coefficient = table.friction(first, second);
+      const auto normal = normal_at<D>(table, first, second, surfaces, thresholds.surface_gradient);
+      if (!normal) continue;
       const ContactImpulse<D> impulse =
-          collide<D>(mass[a], mass[b], outward / length, coefficient, velocity[a], velocity[b]);
+          collide<D>(mass[a], mass[b], *normal, table.friction(first, second), velocity[a], velocity[b]);
       outcome.dissipated_energy += impulse.dissipated_energy;
       outcome.approach_speed = std::max(outcome.approach_speed, impulse.approach_speed);
     }

@@ -87,12 +87,14 @@ runtime::TaskList contact(const Method<D>& method)
   return {runtime::task("contact")
               .over_patches()
               .sparse(runtime::Sparsity::no_pair)
-              .reads(rigid_states.previous(), node::sums<D>.halo(method.halo).every_group())
+              .reads(rigid_states.previous(), node::sums<D>.halo(method.halo).every_group(),
+                     node::contact_face<D>.halo(method.halo).every_group().when(method.contacts.finds_faces()))
               .updates(node::motion<D>.halo(method.halo).every_group())
               .reduces(step_totals, contact_impulses)
               .body([&method](const TaskContext& at, auto data) {
                 const auto sums = data[node::sums<D>];
                 const auto motions = data[node::motion<D>];
+                const auto faces = data[node::contact_face<D>];
                 const RigidStates& at_step_start = data[rigid_states.previous()];
                 StepTotals& totals = data[step_totals];
                 ContactImpulses& impulses = data[contact_impulses];
@@ -101,14 +103,14 @@ runtime::TaskList contact(const Method<D>& method)
                 const runtime::IndexBox counted = counted_nodes(method, at);
                 NodeOfMaterials<D> node;
                 for_each(sums[0].box(), [&](const Index& i) {
-                  if (!node.gather(method, sums, motions, i)) return;
+                  if (!node.gather(method, sums, motions, faces, i)) return;
                   const RigidBody* rigid = node.rigid_body(method, at_step_start);
                   if (rigid != nullptr) {
                     node.mass[static_cast<std::size_t>(rigid->material)] = std::numeric_limits<double>::infinity();
                   }
-                  const auto outcome = components::resolve_contact<D>(
-                      std::span(node.mass.data(), n_groups), std::span(node.surface_gradient.data(), n_groups),
-                      method.contacts, thresholds, std::span(node.velocity.data(), n_groups));
+                  const auto outcome = components::resolve_contact<D>(std::span(node.mass.data(), n_groups),
+                                                                      node.surfaces(), method.contacts, thresholds,
+                                                                      std::span(node.velocity.data(), n_groups));
                   if (outcome.approach_speed == 0) return;
                   const Vector<D> x = node_position<D>(at.layout.grid(), i);
                   const NodeImpulses<D> done = give_back(method, node, rigid, at_step_start, sums, motions, i, x);

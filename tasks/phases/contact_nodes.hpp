@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cmath>
+#include <span>
 
 #include "components/contact/friction.hpp"
 #include "components/portable_math.hpp"
@@ -27,12 +28,18 @@ struct NodeOfMaterials {
   std::array<double, max_groups> mass;
   std::array<Vector<D>, max_groups> surface_gradient;
   std::array<Vector<D>, max_groups> velocity;
+  std::array<components::ContactFace<D>, max_groups> face;
 
-  /// Whether at least two of the groups have mass here: only then all of them are gathered.
+  /// Whether at least two of the groups have mass here: only then all of them are gathered. `faces` are none where no
+  /// contact finds any.
   template <class Motions>
   bool gather(const Method<D>& method, const runtime::PerGroup<runtime::GridView<const components::NodeSums<D>>>& sums,
-              const Motions& motions, const runtime::Index& i)
+              const Motions& motions,
+              const runtime::PerGroup<runtime::GridView<const components::ContactFace<D>>>& faces,
+              const runtime::Index& i)
   {
+    n_groups_ = sums.size();
+    has_faces_ = faces.size() > 0;
     int n_present = 0;
     for (std::size_t g = 0; g < sums.size(); ++g) {
       mass[g] = sums[g][i].mass();
@@ -42,8 +49,14 @@ struct NodeOfMaterials {
     for (std::size_t g = 0; g < sums.size(); ++g) {
       surface_gradient[g] = sums[g][i].surface_gradient();
       velocity[g] = motions[g][i].velocity();
+      if (has_faces_) face[g] = faces[g][i];
     }
     return true;
+  }
+
+  components::NodeSurfaces<D> surfaces() const
+  {
+    return {std::span(surface_gradient.data(), n_groups_), std::span(face.data(), has_faces_ ? n_groups_ : 0)};
   }
 
   /// The rigid body here, or null. Throws SimulationError where two meet, whose impulse no node can tell.
@@ -62,6 +75,10 @@ struct NodeOfMaterials {
     }
     return found;
   }
+
+ private:
+  std::size_t n_groups_ = 0;
+  bool has_faces_ = false;
 };
 
 }  // namespace tamp::tasks

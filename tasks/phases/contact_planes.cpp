@@ -12,6 +12,7 @@
 namespace tamp::tasks
 {
 
+using components::ContactFace;
 using components::ContactPlane;
 using components::EdgeSums;
 using components::NodeMotion;
@@ -33,8 +34,8 @@ std::optional<MaterialPair> pair_at(const Method<D>& method, const PerGroup<Grid
 {
   const auto pair = pair_alone_at(method, sums, i);
   if (!pair) return {};
-  const int owner = method.contacts.normal_of(static_cast<int>(pair->first), static_cast<int>(pair->second));
-  return owner == components::ContactTable::regression ? pair : std::nullopt;
+  const auto& normal = method.contacts.normal(static_cast<int>(pair->first), static_cast<int>(pair->second));
+  return std::holds_alternative<components::RegressionNormal>(normal) ? pair : std::nullopt;
 }
 
 template <int D>
@@ -112,35 +113,36 @@ runtime::TaskDeclaration turn_planes(const Method<D>& method, std::string name)
       });
 }
 
-/// Materials touch that would close their gap within the step. They face each other along the plane's normal; others
-/// have no surface here, which leaves them alone.
+/// Where two materials face each other along the normal of a plane, as long as the surfaces of both, and what would be
+/// left of the gap between them.
 template <int D>
-runtime::TaskDeclaration align_contact_normals(const Method<D>& method)
+runtime::TaskDeclaration find_contact_faces(const Method<D>& method)
 {
-  return runtime::task("align contact normals")
+  return runtime::task("find contact faces")
       .over_patches()
       .sparse(runtime::Sparsity::no_pair)
       .reads(node::contact_plane<D>.halo(method.halo).every_group(), node::edge_sums<D>.halo(method.halo).every_group(),
-             node::motion<D>.halo(method.halo).every_group())
-      .updates(node::sums<D>.halo(method.halo).every_group())
+             node::motion<D>.halo(method.halo).every_group(), node::sums<D>.halo(method.halo).every_group())
+      .computes(node::contact_face<D>.halo(method.halo).every_group())
       .body([&method](const TaskContext& at, auto data) {
         const auto planes = data[node::contact_plane<D>];
         const auto edges = data[node::edge_sums<D>];
         const auto motions = data[node::motion<D>];
         const auto sums = data[node::sums<D>];
+        const auto faces = data[node::contact_face<D>];
         const auto edge = [&](std::size_t g, const Index& i) { return edge_at<D>(method, g, edges[g][i]); };
         for_each(planes[0].box(), [&](const Index& i) {
+          for (const GridView<ContactFace<D>>& face : faces) face[i] = {};
           const auto pair = parted_at(planes, i);
           if (!pair) return;
           const auto& [a, b] = *pair;
           if (!(edges[a][i].weight > 0 && edges[b][i].weight > 0)) return;
           const Vector<D> normal = planes[a][i].normal();
           const double approach = (motions[a][i].velocity() - motions[b][i].velocity()).dot(normal);
-          const bool touch = -(edge(a, i) + edge(b, i)) <= at.step.size * approach;
-          const double length =
-              touch ? std::max(sums[a][i].surface_gradient().norm(), sums[b][i].surface_gradient().norm()) : 0;
-          sums[a][i].set_surface_gradient(length * normal);
-          sums[b][i].set_surface_gradient(-length * normal);
+          const double gap = -(edge(a, i) + edge(b, i)) - at.step.size * approach;
+          const double length = std::max(sums[a][i].surface_gradient().norm(), sums[b][i].surface_gradient().norm());
+          faces[a][i] = {2 * (length * normal), gap};
+          faces[b][i] = {-2 * (length * normal), gap};
         });
       });
 }
@@ -157,7 +159,7 @@ runtime::TaskDeclaration find_edges(const Method<D>& method)
 template <int D>
 runtime::TaskList contact_planes(const Method<D>& method)
 {
-  if (!method.contacts.has_regression()) return {};
+  if (!method.contacts.finds_faces()) return {};
   const auto regress = [](const auto&... all) { components::add_regression<D>(all...); };
   return {lay_planes(method),
           sum_at_planes(method, "regress contact 1", node::regression_sums<D>, regress),
@@ -165,7 +167,7 @@ runtime::TaskList contact_planes(const Method<D>& method)
           sum_at_planes(method, "regress contact 2", node::regression_sums<D>, regress),
           turn_planes(method, "turn contact planes 2"),
           find_edges(method),
-          align_contact_normals(method)};
+          find_contact_faces(method)};
 }
 
 template runtime::TaskDeclaration find_edges(const Method<2>&);

@@ -31,13 +31,12 @@ void add_node(const Method<D>& method, const RigidBody& body, const RigidStates&
   for (const int g : method.deformable_materials) {
     const auto other = static_cast<std::size_t>(g);
     if (!(node.mass[other] > method.least_node_mass)) continue;
-    const Vector<D> outward = components::outward_of<D>(method.contacts, body.material, g, node.surface_gradient[self],
-                                                        node.surface_gradient[other]);
-    const double length = outward.norm();
-    if (!(length > contact_thresholds(method).surface_gradient)) continue;
-    const NodeContact contact = components::node_contact(
-        node.mass[other], in_space<D>(outward / length), method.contacts.friction(body.material, g),
-        in_space<D>(node.velocity[self]), in_space<D>(node.velocity[other]));
+    const auto normal = components::normal_at<D>(method.contacts, body.material, g, node.surfaces(),
+                                                 contact_thresholds(method).surface_gradient);
+    if (!normal) continue;
+    const NodeContact contact =
+        components::node_contact(node.mass[other], in_space<D>(*normal), method.contacts.friction(body.material, g),
+                                 in_space<D>(node.velocity[self]), in_space<D>(node.velocity[other]));
     couplings.by_material[self].add(contact, in_space<D>(x) - states.of(body).centre);
   }
 }
@@ -85,16 +84,18 @@ runtime::TaskList gather_rigid_contact(const Method<D>& method)
               .over_patches()
               .sparse(runtime::Sparsity::no_pair)
               .reads(rigid_states.previous(), node::sums<D>.halo(method.halo).every_group(),
-                     node::motion<D>.halo(method.halo).every_group())
+                     node::motion<D>.halo(method.halo).every_group(),
+                     node::contact_face<D>.halo(method.halo).every_group().when(method.contacts.finds_faces()))
               .reduces(rigid_couplings)
               .body([&method](const TaskContext& at, auto data) {
                 const auto sums = data[node::sums<D>];
                 const auto motions = data[node::motion<D>];
+                const auto faces = data[node::contact_face<D>];
                 const RigidStates& states = data[rigid_states.previous()];
                 RigidCouplings& couplings = data[rigid_couplings];
                 NodeOfMaterials<D> node;
                 for_each(at.layout.owned_nodes(at.patch), [&](const Index& i) {
-                  if (!node.gather(method, sums, motions, i)) return;
+                  if (!node.gather(method, sums, motions, faces, i)) return;
                   if (const RigidBody* body = node.rigid_body(method, states)) {
                     add_node(method, *body, states, node, node_position<D>(at.layout.grid(), i), couplings);
                   }

@@ -22,7 +22,7 @@ template <int D>
 bool may_push_early(const Method<D>& method, int a, int b)
 {
   const bool are_rigid = method.rigid_body(a) != nullptr && method.rigid_body(b) != nullptr;
-  return !are_rigid && method.contacts.normal_of(a, b) != components::ContactTable::regression;
+  return !are_rigid && !components::finds_faces(method.contacts.normal(a, b));
 }
 
 template <int D>
@@ -55,15 +55,15 @@ runtime::TaskDeclaration lay_planes_of_contact(const Method<D>& method)
         for_each(sums[0].box(), [&](const Index& i) {
           for (const GridView<ContactPlane<D>>& plane : planes) plane[i] = {};
           const auto pair = pair_alone_at(method, sums, i);
-          if (!pair || !node.gather(method, sums, motions, i)) return;
+          if (!pair || !node.gather(method, sums, motions, {}, i)) return;
           const auto [a, b] = *pair;
           if (!may_push_early(method, static_cast<int>(a), static_cast<int>(b))) return;
-          const Vector<D> outward = components::outward_of<D>(method.contacts, static_cast<int>(a), static_cast<int>(b),
-                                                              node.surface_gradient[a], node.surface_gradient[b]);
-          if (!(outward.norm() > threshold && (node.velocity[a] - node.velocity[b]).dot(outward) > 0)) return;
+          const auto normal = components::normal_at<D>(method.contacts, static_cast<int>(a), static_cast<int>(b),
+                                                       node.surfaces(), threshold);
+          if (!normal || !((node.velocity[a] - node.velocity[b]).dot(*normal) > 0)) return;
           planes[a][i].side = -1;
           planes[b][i].side = 1;
-          planes[a][i].coefficients.template head<D>() = planes[b][i].coefficients.template head<D>() = outward;
+          planes[a][i].coefficients.template head<D>() = planes[b][i].coefficients.template head<D>() = *normal;
         });
         spread_planes(method, at, planes);
       });
@@ -110,7 +110,7 @@ runtime::TaskDeclaration measure_gaps(const Method<D>& method)
         NodeOfMaterials<D> node;
         for_each(planes[0].box(), [&](const Index& i) {
           const auto pair = parted_at(planes, i);
-          if (!pair || !counted.contains(i) || !node.gather(method, sums, motions, i)) return;
+          if (!pair || !counted.contains(i) || !node.gather(method, sums, motions, {}, i)) return;
           const auto& [a, b] = *pair;
           if (!(edges[a][i].weight > 0 && edges[b][i].weight > 0)) return;
           const double impulse = normal_impulse<D>(method, node, *pair, planes[a][i].normal());

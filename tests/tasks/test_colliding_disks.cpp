@@ -12,7 +12,7 @@ namespace
 {
 
 /// Two soft disks run at each other along the diagonal of a box of 1 m (Sulsky, Chen & Schreyer 1994, section 7.3).
-Scene disks(int n_cells, int normal_of)
+Scene disks(int n_cells, const components::ContactNormal& normal)
 {
   Scene scene = empty_scene(2, {n_cells, n_cells, 1}, 1.0 / n_cells);
   scene.n_patches = {2, 2, 1};
@@ -20,7 +20,7 @@ Scene disks(int n_cells, int normal_of)
   const int a = add_elastic(scene, 1000, 1000, 0.3), b = add_elastic(scene, 1000, 1000, 0.3);
   add_disk(scene, a, 0.3, 0.3, 0.2, {0.1, 0.1, 0});
   add_disk(scene, b, 0.7, 0.7, 0.2, {-0.1, -0.1, 0});
-  scene.contacts.push_back({a, b, 0, normal_of});
+  scene.contacts.push_back({a, b, 0, normal});
   return scene;
 }
 
@@ -38,9 +38,9 @@ struct Rebound {
 };
 
 /// 3 s of the collision; energies over that of the start.
-Rebound rebound(int n_cells, int normal_of)
+Rebound rebound(int n_cells, const components::ContactNormal& normal)
 {
-  const auto simulation = Simulation::make(disks(n_cells, normal_of), 2);
+  const auto simulation = Simulation::make(disks(n_cells, normal), 2);
   const double energy = simulation->report().kinetic;
   const double momentum = std::sqrt(0.5) * 0.2 * simulation->report().bodies[0].mass;
   Rebound seen;
@@ -68,8 +68,9 @@ Rebound rebound(int n_cells, int normal_of)
 
 TEST_CASE("disks rebound with their momentum, symmetry and nearly all their energy")
 {
-  const int normal_of = GENERATE(components::ContactTable::flatter, components::ContactTable::regression);
-  const Rebound coarse = rebound(20, normal_of), fine = rebound(40, normal_of);
+  const auto normal = GENERATE(components::ContactNormal(components::FlatterNormal()),
+                               components::ContactNormal(components::RegressionNormal()));
+  const Rebound coarse = rebound(20, normal), fine = rebound(40, normal);
 
   // At the turn all but the swinging within the disks is stored, and comes back as motion and vibration.
   CHECK(fine.least_kinetic < 0.05);

@@ -25,7 +25,7 @@ Scene block()
 }
 
 /// Two blocks that approach each other across a gap; cells are 0.1 m, and of 2 x 2 patches.
-Scene two_blocks(double gap, int normal_of)
+Scene two_blocks(double gap, const components::ContactNormal& normal)
 {
   Scene scene = empty_scene(2, {16, 16, 1}, 0.1);
   scene.n_patches = {2, 2, 1};
@@ -33,7 +33,7 @@ Scene two_blocks(double gap, int normal_of)
   const int lower = add_elastic(scene, 1000, 1e6, 0.3), upper = add_elastic(scene, 1000, 1e6, 0.3);
   add_box(scene, lower, {0.4, 0.4, 0}, {1.2, 0.8 - gap / 2, 0});
   add_box(scene, upper, {0.4, 0.8 + gap / 2, 0}, {1.2, 1.2, 0}, {0, -0.01, 0});
-  scene.contacts.push_back({lower, upper, 0, normal_of});
+  scene.contacts.push_back({lower, upper, 0, normal});
   return scene;
 }
 
@@ -166,8 +166,8 @@ TEST_CASE("matter that has swollen by a fifth, and yet bears load, is told with 
 TEST_CASE("contact is early where bodies push each other across a gap, and not where they lie on each other")
 {
   const double gap = GENERATE(0.0, 0.1);
-  const auto simulation = Simulation::make(two_blocks(gap, components::ContactTable::flatter), 1);
-  const auto by_regression = Simulation::make(two_blocks(gap, components::ContactTable::regression), 1);
+  const auto simulation = Simulation::make(two_blocks(gap, components::FlatterNormal()), 1);
+  const auto by_regression = Simulation::make(two_blocks(gap, components::RegressionNormal()), 1);
 
   const SampledShare& seen = records_after(*simulation, 5).early_contact;
 
@@ -215,7 +215,7 @@ TEST_CASE("samples of swollen matter are the same on any ranks and threads", "[r
 
 TEST_CASE("samples of contact are the same on any ranks and threads", "[ranks]")
 {
-  const Scene scene = two_blocks(0.1, components::ContactTable::flatter);
+  const Scene scene = two_blocks(0.1, components::FlatterNormal());
   const auto alone = Simulation::make(scene, 1);
   const SampledShare& expected = records_after(*alone, 10).early_contact;
 

@@ -12,18 +12,19 @@ using namespace tamp::test;
 namespace
 {
 
-constexpr int flatter = components::ContactTable::flatter, regression = components::ContactTable::regression;
+constexpr components::FlatterNormal flatter;
+constexpr components::RegressionNormal regression;
 constexpr double h = 0.05;
 
 /// Two blocks of 0.3 m, `gap` apart along x; the left one runs at `speed` against the right one, which rests.
-Scene blocks(int dimension, double gap, double speed, int normal_of)
+Scene blocks(int dimension, double gap, double speed, const components::ContactNormal& normal)
 {
   Scene scene = empty_scene(dimension, {32, 12, dimension == 3 ? 12 : 1}, h);
   scene.time.multiplier = 0.5;
   const int left = add_elastic(scene, 1000, 1e5, 0.2), right = add_elastic(scene, 1000, 1e5, 0.2);
   add_box(scene, left, {0.3, 0.15, 0.15}, {0.6, 0.45, 0.45}, {speed, 0, 0});
   add_box(scene, right, {0.6 + gap, 0.15, 0.15}, {0.9 + gap, 0.45, 0.45});
-  scene.contacts.push_back({left, right, 0.1, normal_of});
+  scene.contacts.push_back({left, right, 0.1, normal});
   return scene;
 }
 
@@ -33,10 +34,10 @@ double momentum(Simulation& simulation, std::size_t body)
 }
 
 /// How far apart the blocks are, in cells, when the right one is first pushed.
-double gap_at_first_push(int dimension, int normal_of)
+double gap_at_first_push(int dimension, const components::ContactNormal& normal)
 {
   const double gap = 2 * h, speed = 0.5;
-  const auto simulation = Simulation::make(blocks(dimension, gap, speed, normal_of), 2);
+  const auto simulation = Simulation::make(blocks(dimension, gap, speed, normal), 2);
   double time = 0;
   while (momentum(*simulation, 1) == 0 && simulation->time() < 2 * gap / speed) {
     time = simulation->time();

@@ -288,7 +288,7 @@ TEST_CASE("the surface of a pressed material is known, also where another's give
   Scene scene = free_block(everywhere(pressure));
   add_box(scene, add_elastic(scene, density, E, nu), {0.3, 0.1, 0}, {0.9, 0.3, 0});
   const int of_other = 1;
-  scene.contacts.push_back({0, 1, 0.3, of_other});
+  scene.contacts.push_back({0, 1, 0.3, components::OwnNormal{of_other}});
   const bool pressed = GENERATE(true, false);
   if (!pressed) scene.bodies[0].pressure.reset();
 

@@ -334,7 +334,7 @@ Scene driven_in(bool rigid)
   scene.materials.push_back({"projectile", 5000, components::NeoHookean{4e11, 4e11}});
   add_box(scene, 0, {0, 0, 0}, {0.48, 0.16, 0});
   add_box(scene, 1, {0.2, 0.16, 0}, {0.28, 0.22, 0}, {0, -60, 0}).rigid = rigid;
-  scene.contacts.push_back({0, 1, 0.1, 1});
+  scene.contacts.push_back({0, 1, 0.1, components::OwnNormal{1}});
   return scene;
 }
 

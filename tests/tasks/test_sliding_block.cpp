@@ -14,7 +14,7 @@ namespace
 constexpr double g = 10;
 
 /// A block of 0.4 m x 0.1 m slides at 1 m/s on a slab between smooth walls.
-Scene sliding_block(double friction, int normal_of = components::ContactTable::flatter)
+Scene sliding_block(double friction, const components::ContactNormal& normal = components::FlatterNormal())
 {
   constexpr int n_per_metre = 40;
   Scene scene = empty_scene(2, {n_per_metre, n_per_metre / 2, 1}, 1.0 / n_per_metre);
@@ -26,7 +26,7 @@ Scene sliding_block(double friction, int normal_of = components::ContactTable::f
   const int ground = add_elastic(scene, 2000, 1e7, 0.2), block = add_elastic(scene, 2000, 1e7, 0.2);
   add_box(scene, ground, {0, 0, 0}, {1, 0.1, 0});
   add_box(scene, block, {0.2, 0.1, 0}, {0.6, 0.2, 0}, {1, 0, 0});
-  scene.contacts.push_back({ground, block, friction, normal_of});
+  scene.contacts.push_back({ground, block, friction, normal});
   return scene;
 }
 
@@ -51,8 +51,9 @@ TEST_CASE("without friction a block slides on at its speed")
 TEST_CASE("friction stops a block after the way that Coulomb's law gives it")
 {
   const double friction = 0.3, stop = 1 / (friction * g);
-  const int normal_of = GENERATE(components::ContactTable::flatter, components::ContactTable::regression);
-  const auto simulation = Simulation::make(sliding_block(friction, normal_of), 2);
+  const auto normal = GENERATE(components::ContactNormal(components::FlatterNormal()),
+                               components::ContactNormal(components::RegressionNormal()));
+  const auto simulation = Simulation::make(sliding_block(friction, normal), 2);
 
   advance_to(*simulation, 0.5 * stop);
   CHECK(way(*simulation) == Approx(0.375 * stop).epsilon(0.02));

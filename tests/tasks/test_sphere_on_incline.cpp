@@ -49,7 +49,7 @@ Scene sphere_on_incline(int dimension, const Incline& incline)
     add_body(scene, stone, components::Solid<3>(ball), {0, 0, 0});
   }
   scene.bodies.back().rigid = true;
-  scene.contacts.push_back({ground, stone, friction, ground});
+  scene.contacts.push_back({ground, stone, friction, components::OwnNormal{ground}});
   return scene;
 }
 
@@ -64,7 +64,7 @@ TEST_CASE("a rigid sphere slides down an incline as gravity and Coulomb's fricti
   const double end = std::sqrt(2 * way / acceleration);
   // With the ground's own normal, as an edge of its particles' staircase should not be felt.
   Scene scene = sphere_on_incline(dimension, {4, friction, 60, 14});
-  scene.contacts[0].normal_of = 0;
+  scene.contacts[0].normal = components::OwnNormal{0};
   const auto simulation = Simulation::make(scene, 2);
 
   advance_to(*simulation, end);
@@ -91,7 +91,7 @@ TEST_CASE("a rigid sphere with enough friction rolls down an incline")
   // Otherwise the load that a cylinder is to the ground from one moment on makes it bounce, and slip whenever it is
   // light.
   if (dimension == 2) scene.local_damping = 0.1;
-  scene.contacts[0].normal_of = components::ContactTable::regression;
+  scene.contacts[0].normal = components::RegressionNormal();
   const double inertia = dimension == 2 ? 0.5 : 0.4, acceleration = sine / (1 + inertia), way = 6;
   const double end = std::sqrt(2 * way / acceleration);
   const auto simulation = Simulation::make(scene, 2);

@@ -58,7 +58,7 @@ void check_contact_of_transfer(const JsonReader& reader, const tasks::Scene& sce
   }
   const int n_materials = static_cast<int>(scene.materials.size());
   const auto n_by_regression = std::count_if(scene.contacts.begin(), scene.contacts.end(), [](const auto& contact) {
-    return contact.normal_of == components::ContactTable::regression;
+    return components::finds_faces(contact.normal);
   });
   if (n_by_regression == n_materials * (n_materials - 1) / 2) return;
   reader.add_problem("transfer", fmpm + " with materials that do not meet by regression",

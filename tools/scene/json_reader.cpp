@@ -315,27 +315,46 @@ std::string JsonReader::one_of(const std::string& key, const std::vector<std::st
 std::string JsonReader::word(const std::string& key)
 {
   write_default(key);
-  const auto& choice = declared_as<Choice>(key);
-  std::vector<std::string> shown_instead;
-  for (const Instead& instead : choice.instead) shown_instead.push_back(instead.shown);
-  return one_of(key, choice.words, fmt::format("{}", fmt::join(shown_instead, ", ")));
+  return one_of(key, declared_as<Choice>(key).words, shown_instead(key));
 }
 
-const Instead& JsonReader::object_instead(const std::string& key, const Choice& choice) const
+/// The objects that may stand at a key in place of a word or a name.
+const std::vector<Instead>& JsonReader::instead(const std::string& key) const
+{
+  static const std::vector<Instead> nothing;
+  const Value& value = declared(key).value;
+  if (const auto* choice = std::get_if<Choice>(&value)) return choice->instead;
+  if (const auto* name = std::get_if<Name>(&value)) return name->instead;
+  return nothing;
+}
+
+std::string JsonReader::shown_instead(const std::string& key) const
+{
+  std::vector<std::string> shown;
+  for (const Instead& object : instead(key)) shown.push_back(object.shown);
+  return fmt::format("{}", fmt::join(shown, ", "));
+}
+
+const Instead& JsonReader::object_instead(const std::string& key) const
 {
   const std::vector<std::string> members = members_of(key);
-  const auto has_one = [&](const Instead& instead) {
-    return std::ranges::any_of(instead.keys().keys,
-                               [&](const Key& own) { return std::ranges::find(members, own.name) != members.end(); });
-  };
-  const auto at = std::ranges::find_if(choice.instead, has_one);
-  return at == choice.instead.end() ? choice.instead.front() : *at;
+  const auto is_there = [&](const Key& own) { return std::ranges::find(members, own.name) != members.end(); };
+  const std::vector<Instead>& objects = instead(key);
+  const auto at = std::ranges::find_if(
+      objects, [&](const Instead& object) { return std::ranges::any_of(object.keys().keys, is_there); });
+  return at == objects.end() ? objects.front() : *at;
+}
+
+std::optional<int> JsonReader::value_of_object(const std::string& key) const
+{
+  if (instead(key).empty() || !is_object(key)) return std::nullopt;
+  return object_instead(key).value;
 }
 
 int JsonReader::value_of_choice(const std::string& key)
 {
+  if (const auto value = value_of_object(key)) return *value;
   const auto& choice = declared_as<Choice>(key);
-  if (!choice.instead.empty() && is_object(key)) return object_instead(key, choice).value;
   const auto at = std::find(choice.words.begin(), choice.words.end(), word(key));
   return at == choice.words.end() ? choice.values.front()
                                   : choice.values.at(static_cast<std::size_t>(at - choice.words.begin()));
@@ -382,7 +401,7 @@ std::string JsonReader::name(const std::string& key, const std::vector<std::stri
   write_default(key);
   std::vector<std::string> words = declared_as<Name>(key).words;
   words.insert(words.end(), names.begin(), names.end());
-  return one_of(key, words);
+  return one_of(key, words, shown_instead(key));
 }
 
 std::string JsonReader::name(const std::string& key, const std::vector<std::string>& names,
@@ -463,7 +482,7 @@ JsonReader JsonReader::object(const std::string& key)
 {
   write_default(key);
   const Value& value = declared(key).value;
-  if (const auto* choice = std::get_if<Choice>(&value)) return at(key, object_instead(key, *choice).keys());
+  if (!instead(key).empty()) return at(key, object_instead(key).keys());
   if (const auto* members = std::get_if<Members>(&value)) return at(key, members->keys());
   return at(key, std::get<Object>(value).keys());
 }

@@ -54,6 +54,9 @@ class JsonReader
   /// The word at "type", whose keys are keys from now on; empty if it is none, or stands over another type of the file
   /// that the object names, with keys that go with that type alone.
   std::string type();
+  /// The value of the object that stands at the key in place of a word or a name; none where it is no object, or none
+  /// may stand there.
+  std::optional<int> value_of_object(const std::string& key) const;
   /// One of `names`, or of the words that may stand there instead; empty if it is none.
   std::string name(const std::string& key, const std::vector<std::string>& names);
   /// With a default that only the reader knows.
@@ -92,8 +95,10 @@ class JsonReader
 
  private:
   std::vector<const std::vector<Key>*> declared() const;
+  const std::vector<Instead>& instead(const std::string& key) const;
+  std::string shown_instead(const std::string& key) const;
   /// Which of those that may stand there: the first that has a key of the one that does.
-  const Instead& object_instead(const std::string& key, const Choice& choice) const;
+  const Instead& object_instead(const std::string& key) const;
   const Key& declared(const std::string& key) const;
   /// Notes a type that is not that of the file from which keys come; whether there is one.
   bool is_over_type_of_file(const std::string& type) const;

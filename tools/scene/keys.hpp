@@ -43,10 +43,18 @@ struct Flag {
 };
 struct File {
 };
+/// An object that may stand in place of a word, with parameters of what it chooses.
+struct Instead {
+  KeysOf keys;
+  /// As a message shows it.
+  std::string shown;
+  int value;
+};
 /// The name of a material, which the user chose; a reader knows which there are.
 struct Name {
   /// May stand there instead; the names may not be one of them.
   std::vector<std::string> words{};
+  std::vector<Instead> instead{};
 };
 struct Names {
   Length length;
@@ -76,13 +84,6 @@ struct WholeNumbers {
 /// A list of lists of numbers.
 struct Rows {
   Length length;
-};
-/// An object that may stand in place of a word, with parameters of what it chooses.
-struct Instead {
-  KeysOf keys;
-  /// As a message shows it.
-  std::string shown;
-  int value;
 };
 struct Choice {
   std::vector<std::string> words;
@@ -183,8 +184,6 @@ Key choice(std::string name, T default_value, const std::vector<components::Word
 inline constexpr int most_particles_per_axis = 16;
 /// Outputs of a run whose scene does not say how many.
 inline constexpr int usual_field_outputs = 50, usual_history_rows = 1000;
-/// Words of the contact key "normal", beside the names of materials.
-inline constexpr char flatter[] = "flatter", regression[] = "regression";
 
 const ObjectKeys& scene_keys();
 const ObjectKeys& centrifuge_keys();

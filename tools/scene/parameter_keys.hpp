@@ -7,6 +7,7 @@
 #include <variant>
 #include <vector>
 
+#include "components/alternatives.hpp"
 #include "components/parameter.hpp"
 #include "tools/scene/json_reader.hpp"
 #include "tools/scene/keys.hpp"
@@ -49,6 +50,42 @@ std::vector<Key> keys_of_parameters()
   return keys;
 }
 
+/// The kinds of a list, as a key may have them: by their words, or those with parameters as an object of these.
+struct KindKeys {
+  std::vector<components::Word<int>> words{};  ///< the values are places in the list
+  std::vector<Instead> objects{};
+  std::string meanings{};
+};
+
+template <class Kind>
+const ObjectKeys& parameters_of()
+{
+  static const ObjectKeys keys{"", keys_of_parameters<Kind>()};
+  return keys;
+}
+
+/// Kinds that have neither are for the reader to tell.
+template <class Kinds>
+KindKeys keys_of_kinds()
+{
+  KindKeys keys;
+  int place = 0;
+  std::string of_objects;
+  components::for_each_alternative<Kinds>([&]<class Kind>(std::type_identity<Kind>) {
+    if constexpr (requires { Kind::shown; }) {
+      of_objects += fmt::format("; `{}`: {}", Kind::shown, Kind::meaning);
+      if constexpr (components::has_parameters<Kind>) {
+        keys.objects.push_back({parameters_of<Kind>, std::string(Kind::shown), place});
+      }
+    } else {
+      keys.words.push_back({Kind::word, place, Kind::meaning});
+    }
+    ++place;
+  });
+  keys.meanings = meanings_of(keys.words) + of_objects;
+  return keys;
+}
+
 template <class Owner>
 void read_parameter(const components::Parameter<Owner>& parameter, JsonReader& reader, Owner& owner)
 {
@@ -77,6 +114,22 @@ template <class Owner>
 void read_parameters(JsonReader& reader, Owner& owner)
 {
   for (const components::Parameter<Owner>& parameter : Owner::parameters()) read_parameter(parameter, reader, owner);
+}
+
+/// The kind at a place of the list, with the parameters that stand at the key if it has any.
+template <class Kinds>
+Kinds read_kind(JsonReader& reader, const std::string& key, int place)
+{
+  return components::with_alternative<Kinds>(static_cast<std::size_t>(place),
+                                             [&]<class Kind>(std::type_identity<Kind>) -> Kinds {
+                                               Kind kind{};
+                                               if constexpr (components::has_parameters<Kind>) {
+                                                 JsonReader own = reader.object(key);
+                                                 read_parameters(own, kind);
+                                                 own.finish();
+                                               }
+                                               return kind;
+                                             });
 }
 
 }  // namespace tamp::tools

@@ -107,7 +107,7 @@ void check_contact(const tasks::Scene& scene, Warnings& warnings)
   const bool are_splines =
       components::with_shape<1>(scene.interpolator, 1, [](const auto& shape) { return shape.is_spline; });
   for (std::size_t i = 0; are_splines && i < scene.contacts.size(); ++i) {
-    if (scene.contacts[i].normal_of != components::ContactTable::flatter) continue;
+    if (!std::holds_alternative<components::FlatterNormal>(scene.contacts[i].normal)) continue;
     warnings.push_back(
         fmt::format("/contact/{}/normal: with \"flatter\" and splines the sides of a body catch on what it "
                     "slides over; with \"regression\", or the flatter material's name, they do not",
@@ -160,7 +160,7 @@ void check_approach(const tasks::Scene& scene, Warnings& warnings)
 {
   for (std::size_t i = 0; i < scene.contacts.size(); ++i) {
     const tasks::SceneContact& contact = scene.contacts[i];
-    if (contact.normal_of == components::ContactTable::regression) continue;
+    if (components::finds_faces(contact.normal)) continue;
     const bool moves = std::any_of(scene.bodies.begin(), scene.bodies.end(), [&](const tasks::SceneBody& body) {
       return (body.material == contact.material_a || body.material == contact.material_b) &&
              way_of(scene, body).norm() > 0;

@@ -140,25 +140,12 @@ class SceneReader
     JsonReader reader = root_.object("boundaries");
     for (std::size_t axis = 0; axis < dimension(); ++axis) {
       for (std::size_t side = 0; side < 2; ++side) {
-        scene_.faces[axis][side] = read_face(reader, {"xyz"[axis], "-+"[side]});
+        const std::string key{"xyz"[axis], "-+"[side]};
+        scene_.faces[axis][side] = read_kind<tasks::Face>(reader, key, reader.choice<int>(key));
       }
       read_periodic(reader, axis, grid_is_good);
     }
     reader.finish();
-  }
-
-  static tasks::Face read_face(JsonReader& faces, const std::string& key)
-  {
-    return components::with_alternative<tasks::Face>(static_cast<std::size_t>(faces.choice<int>(key)),
-                                                     [&]<class Kind>(std::type_identity<Kind>) -> tasks::Face {
-                                                       Kind face;
-                                                       if constexpr (components::has_parameters<Kind>) {
-                                                         JsonReader reader = faces.object(key);
-                                                         read_parameters(reader, face);
-                                                         reader.finish();
-                                                       }
-                                                       return face;
-                                                     });
   }
 
   void read_periodic(JsonReader& reader, std::size_t axis, bool grid_is_good)
@@ -287,8 +274,9 @@ class SceneReader
   void read_materials()
   {
     if (!has_room_for("materials")) return;
+    const auto words = keys_of_kinds<components::ContactNormal>().words;
     for (const std::string& name : root_.members_of("materials")) {
-      if (name == flatter || name == regression) {
+      if (std::ranges::any_of(words, [&](const auto& word) { return word.word == name; })) {
         document_.add_problem(root_.pointer("materials") / name, "a word of the contact key normal",
                               "expected another name");
       }
@@ -332,7 +320,7 @@ class SceneReader
     for (JsonReader& reader : root_.objects("contact")) {
       const std::vector<std::string> names = reader.names("materials", material_names_);
       const double friction = reader.number("friction");
-      const std::string normal = read_normal(reader, names);
+      const components::ContactNormal normal = read_normal(reader, names);
       reader.finish();
       if (names.empty()) continue;
       const int a = material_number(names[0]), b = material_number(names[1]);
@@ -341,10 +329,7 @@ class SceneReader
       } else if (is_listed(a, b)) {
         reader.add_problem("materials", "a pair that is listed before", "expected every pair once");
       }
-      const int normal_of = normal == flatter      ? components::ContactTable::flatter
-                            : normal == regression ? components::ContactTable::regression
-                                                   : material_number(normal);
-      scene_.contacts.push_back({a, b, friction, normal_of});
+      scene_.contacts.push_back({a, b, friction, normal});
     }
     if (!scene_.is_periodic()) add_other_contacts();
     return document_.problems.size() == n_before && scene_.materials.size() == material_names_.size();
@@ -363,16 +348,28 @@ class SceneReader
     const int n = static_cast<int>(scene_.materials.size());
     for (int a = 0; a < n; ++a) {
       for (int b = a + 1; b < n; ++b) {
-        if (!is_listed(a, b)) scene_.contacts.push_back({a, b, 0, components::ContactTable::regression});
+        if (!is_listed(a, b)) scene_.contacts.push_back({a, b, 0, components::RegressionNormal()});
       }
     }
   }
 
-  /// The word for the flatter surface or for regression, or one of the two materials.
-  std::string read_normal(JsonReader& reader, const std::vector<std::string>& materials) const
+  /// By its word or its parameters, or the name of one of the two materials.
+  components::ContactNormal read_normal(JsonReader& reader, const std::vector<std::string>& materials) const
   {
-    const std::string normal = reader.name("normal", materials, scene_.is_periodic() ? flatter : regression);
-    if (normal == regression && scene_.is_periodic()) {
+    using components::ContactNormal;
+    std::optional<int> place = reader.value_of_object("normal");
+    ContactNormal normal;
+    if (!place) {
+      const std::string_view usual =
+          scene_.is_periodic() ? components::FlatterNormal::word : components::RegressionNormal::word;
+      const std::string name = reader.name("normal", materials, std::string(usual));
+      normal = components::OwnNormal{material_number(name)};
+      for (const auto& word : keys_of_kinds<ContactNormal>().words) {
+        if (word.word == name) place = word.value;
+      }
+    }
+    if (place) normal = read_kind<ContactNormal>(reader, "normal", *place);
+    if (components::finds_faces(normal) && scene_.is_periodic()) {
       reader.add_problem("normal", "regression, whose planes have one place each, between periodic boundaries",
                          "expected another normal");
     }

@@ -1,6 +1,5 @@
 #include <fmt/core.h>
 
-#include "components/alternatives.hpp"
 #include "tasks/scene.hpp"
 #include "tools/scene/keys.hpp"
 #include "tools/scene/parameter_keys.hpp"
@@ -27,38 +26,14 @@ const ObjectKeys& grid_keys()
   return keys;
 }
 
-template <class Kind>
-const ObjectKeys& parameters_of()
-{
-  static const ObjectKeys keys{"", keys_of_parameters<Kind>()};
-  return keys;
-}
-
-/// Kinds of faces by their words, those with parameters as objects; the value of each is its place among them.
-Key face_key(const std::string& name)
-{
-  int place = 0;
-  std::vector<components::Word<int>> words;
-  std::vector<Instead> objects;
-  std::string of_objects;
-  components::for_each_alternative<tasks::Face>([&]<class Kind>(std::type_identity<Kind>) {
-    if constexpr (components::has_parameters<Kind>) {
-      objects.push_back({parameters_of<Kind>, std::string(Kind::shown), place++});
-      of_objects += fmt::format("; `{}`: {}", Kind::shown, Kind::meaning);
-    } else {
-      words.push_back({Kind::word, place++, Kind::meaning});
-    }
-  });
-  return choice<int>(name, 0, words, meanings_of(words) + of_objects, std::move(objects));
-}
-
 const ObjectKeys& boundary_keys()
 {
   static const ObjectKeys keys = [] {
+    const KindKeys kinds = keys_of_kinds<tasks::Face>();
     ObjectKeys faces;
     for (const char axis : {'x', 'y', 'z'}) {
       for (const char side : {'-', '+'}) {
-        faces.keys.push_back(face_key({axis, side}));
+        faces.keys.push_back(choice<int>({axis, side}, 0, kinds.words, kinds.meanings, kinds.objects));
         faces.keys.back().only_in = axis == 'z' ? 3 : 0;
       }
     }
@@ -257,20 +232,19 @@ const ObjectKeys& centrifuge_keys()
 
 const ObjectKeys& contact_keys()
 {
-  static const ObjectKeys keys{
-      "contact",
-      {{"materials", Names{just(2)}, "", compulsory, "A and B, names from `materials`"},
-       {"friction", Number{zero_or_above}, "", compulsory, "Coulomb's coefficient of friction"},
-       {"normal",
-        Name{{flatter, regression}},
-        "",
-        {nullptr, "`\"regression\"`, or `\"flatter\"` between periodic boundaries"},
-        "whose surface gives the normal that both share: `\"regression\"` parts their particles by a plane at each "
-        "node, whose normal jitters less, and lets them push each other only where they touch; `\"flatter\"` takes the "
-        "flatter surface at each node, and may push before bodies touch; A or B takes that material's, as suits a "
-        "stiff "
-        "body that is driven into a soft one. Where three materials meet at a node, that of the flatter surface is "
-        "taken there"}}};
+  static const ObjectKeys keys = [] {
+    const KindKeys kinds = keys_of_kinds<components::ContactNormal>();
+    Name normal{{}, kinds.objects};
+    for (const auto& word : kinds.words) normal.words.emplace_back(word.word);
+    return ObjectKeys{"contact",
+                      {{"materials", Names{just(2)}, "", compulsory, "A and B, names from `materials`"},
+                       {"friction", Number{zero_or_above}, "", compulsory, "Coulomb's coefficient of friction"},
+                       {"normal",
+                        std::move(normal),
+                        "",
+                        {nullptr, "`\"regression\"`, or `\"flatter\"` between periodic boundaries"},
+                        "which normal both share: " + kinds.meanings}}};
+  }();
   return keys;
 }
 

@@ -83,7 +83,12 @@ class SchemaWriter
   Json of(const Text&, Extent) { return {{"type", "string"}}; }
   Json of(const Flag&, Extent) { return {{"type", "boolean"}}; }
   Json of(const File&, Extent) { return {{"type", "string"}}; }
-  Json of(const Name&, Extent) { return {{"type", "string"}, {"pattern", plain_name}}; }
+  Json of(const Name& name, Extent extent)
+  {
+    std::vector<Json> either{{{"type", "string"}, {"pattern", plain_name}}};
+    for (const Instead& instead : name.instead) either.push_back(object(instead.keys(), extent));
+    return one_schema_of(either);
+  }
   Json of(const Names& names, Extent extent) { return list_of(of(Name{}, extent), names.length); }
   Json of(const SomeNames&, Extent)
   {

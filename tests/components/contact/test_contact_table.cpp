@@ -40,25 +40,25 @@ TEST_CASE("coefficients below 0 and pairs that are none are refused")
 TEST_CASE("the normal of a pair is that of the flatter surface or of one of the two")
 {
   ContactTable table(3);
-  table.set(0, 2, 0.1, 2);
+  table.set(0, 2, 0.1, OwnNormal{2});
 
-  CHECK(table.normal_of(0, 1) == ContactTable::flatter);
-  CHECK(table.normal_of(0, 2) == 2);
-  CHECK(table.normal_of(2, 0) == 2);
-  CHECK_THROWS_AS(table.set(0, 1, 0.1, 2), BadValue);
+  CHECK(table.normal(0, 1) == ContactNormal(FlatterNormal()));
+  CHECK(table.normal(0, 2) == ContactNormal(OwnNormal{2}));
+  CHECK(table.normal(2, 0) == ContactNormal(OwnNormal{2}));
+  CHECK_THROWS_AS(table.set(0, 1, 0.1, OwnNormal{2}), BadValue);
 }
 
 TEST_CASE("the surface of a group is needed unless each other group gives the normal of its pair with it")
 {
   ContactTable table(3);
-  table.set(0, 1, 0.1, 1);
-  table.set(0, 2, 0.1, 2);
-  table.set(1, 2, 0.1, 1);
+  table.set(0, 1, 0.1, OwnNormal{1});
+  table.set(0, 2, 0.1, OwnNormal{2});
+  table.set(1, 2, 0.1, OwnNormal{1});
 
   CHECK(!table.needs_surface_of(0));
   CHECK(table.needs_surface_of(1));
   CHECK(table.needs_surface_of(2));
-  const int shared = GENERATE(as<int>(), ContactTable::flatter, ContactTable::regression);
+  const auto shared = GENERATE(ContactNormal(FlatterNormal()), ContactNormal(RegressionNormal()));
   table.set(0, 2, 0.1, shared);
   CHECK(table.needs_surface_of(0));
   CHECK(!ContactTable(1).needs_surface_of(0));

@@ -23,10 +23,11 @@ struct Node {
   std::vector<double> mass;
   std::vector<Vector<D>> velocity;
   std::vector<Vector<D>> surface_gradient;
+  std::vector<ContactFace<D>> face{};
 
   ContactOutcome resolve(const ContactTable& friction, const ContactThresholds& thresholds = {})
   {
-    return resolve_contact<D>(mass, surface_gradient, friction, thresholds, velocity);
+    return resolve_contact<D>(mass, {surface_gradient, face}, friction, thresholds, velocity);
   }
 
   Vector<D> momentum() const
@@ -248,12 +249,30 @@ TEST_CASE("without a normal, or with a mass at the threshold, nothing happens")
 
 TEST_CASE("a pair's normal may be that of either surface alone")
 {
-  const Vector<2> of_a(1, 0), of_b(-0.5, -1);
+  const std::vector<Vector<2>> gradient{{1, 0}, {-0.5, -1}};
   ContactTable table(2);
-  table.set(0, 1, 0.3, 0);
-  CHECK(outward_of<2>(table, 0, 1, of_a, of_b) == of_a);
-  table.set(0, 1, 0.3, 1);
-  CHECK(outward_of<2>(table, 0, 1, of_a, of_b) == -of_b);
+  table.set(0, 1, 0.3, OwnNormal{0});
+  CHECK(normal_at<2>(table, 0, 1, {gradient}, 0) == gradient[0]);
+  table.set(0, 1, 0.3, OwnNormal{1});
+  CHECK(normal_at<2>(table, 0, 1, {gradient}, 0)->isApprox(-gradient[1].normalized(), 1e-15));
+  CHECK(normal_at<2>(table, 1, 0, {gradient}, 0)->isApprox(gradient[1].normalized(), 1e-15));
+}
+
+TEST_CASE("materials meet along the face that their contact has found, where it leaves no gap")
+{
+  Node<2> node = body_on_body(4, 10);
+  node.face = {{Vector<2>(3, 0), 0.001}, {Vector<2>(-3, 0), 0.001}};
+  const auto before = node.velocity;
+
+  node.resolve(ContactTable(2));
+
+  CHECK(node.velocity == before);
+  node.face[0].gap = node.face[1].gap = 0;
+
+  node.resolve(ContactTable(2));
+
+  CHECK(node.velocity[0].x() == Approx(node.velocity[1].x()));
+  CHECK(node.velocity[0].y() == before[0].y());
 }
 
 }  // namespace test_friction
