@@ -6,6 +6,7 @@
 #include "tests/components/materials/concrete_sand.hpp"
 #include "tests/runtime/shared_cores.hpp"
 #include "tests/tasks/scenes.hpp"
+#include "tests/tools/rehearsal.hpp"
 
 namespace test_energy_filter
 {
@@ -247,9 +248,10 @@ TEST_CASE("with what particles filter out the energy of a punch in sand is all t
   scene.transfer = GENERATE(Transfer("flip"), Transfer("tflip"));
   const double given = kinetic_at_start(scene);
 
-  const Closing seen = closing(scene, 5e-4);
+  const Closing seen = closing(scene, end_of(5e-4));
 
   CAPTURE(seen.filtered / given, seen.error / given);
+  if (is_rehearsal) return;
   CHECK(std::abs(seen.filtered) > 0.001 * given);
   CHECK(seen.error < 0.06 * std::abs(seen.filtered));
 }

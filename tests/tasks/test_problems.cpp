@@ -3,6 +3,7 @@
 
 #include "components/problems/problem.hpp"
 #include "tests/tasks/scenes.hpp"
+#include "tests/tools/rehearsal.hpp"
 
 namespace test_problems
 {
@@ -39,8 +40,9 @@ struct WorstError {
 };
 
 /// Over a run, of the first body.
-WorstError worst_error(const Scene& scene, double end)
+WorstError worst_error(const Scene& scene, double whole)
 {
+  const double end = end_of(whole);
   const auto simulation = Simulation::make(scene, 2);
   WorstError worst;
   while (simulation->time() < end) {
@@ -86,6 +88,7 @@ TEST_CASE("the error against the axis-aligned solution is of second order in the
     CHECK(errors.back().rms > 0);
   }
 
+  if (is_rehearsal) return;
   CHECK(errors[0].rms < block.bound.rms * amplitude);
   CHECK(errors[0].greatest < block.bound.greatest * amplitude);
   for (std::size_t k = 1; k < errors.size(); ++k) {
@@ -100,6 +103,7 @@ TEST_CASE("at strains of 16 % particles of constant size keep the error from fal
   std::vector<WorstError> errors;
   for (const int n : {8, 16, 32}) errors.push_back(worst_error(aligned_block(2, 2, n, 0.05), half_period));
 
+  if (is_rehearsal) return;
   CHECK(errors[0].rms < 0.069 * 0.05);
   CHECK(std::log2(errors[0].rms / errors[1].rms) == Approx(1.87).margin(0.02));
   CHECK(std::log2(errors[1].rms / errors[2].rms) == Approx(1.63).margin(0.02));
@@ -121,6 +125,7 @@ TEST_CASE("particles whose size follows the deformation, and cubic splines, keep
 
   const double order =
       std::log(errors.front().rms / errors.back().rms) / std::log(1.0 * n_cells.back() / n_cells.front());
+  if (is_rehearsal) return;
   CHECK(order > (dimension == 2 ? 1.95 : 1.9));
   CHECK(order < 2.2);
 }
@@ -170,6 +175,7 @@ TEST_CASE("the error against the vortex falls with the cell size, at rest and ca
   const double coarse = worst_error(vortex_scene(30, velocity), 0.5).rms;
   const double fine = worst_error(vortex_scene(60, velocity), 0.5).rms;
 
+  if (is_rehearsal) return;
   // Second order, less what rims across the cells cost with 2 particles an axis.
   CHECK(coarse < 0.065);
   CHECK(std::log2(coarse / fine) > 1.4);
@@ -182,6 +188,7 @@ TEST_CASE("the error against the ring falls with the cell size where strains are
   const double coarse = worst_error(ring_scene(32, amplitude), quarter_period).rms / amplitude;
   const double fine = worst_error(ring_scene(64, amplitude), quarter_period).rms / amplitude;
 
+  if (is_rehearsal) return;
   // Its free rims do not lie on nodes.
   CHECK(coarse < 1.6e-3);
   CHECK(std::log2(coarse / fine) > 1.6);
@@ -198,6 +205,7 @@ TEST_CASE("parallelograms along the sectors in which particles lie keep their or
 
   const double coarse = error_of(32), fine = error_of(64);
 
+  if (is_rehearsal) return;
   // Along the grid they would overlap and leave gaps from the start.
   CHECK(coarse < 0.012);
   CHECK(std::log2(coarse / fine) > 1.7);
@@ -221,6 +229,7 @@ TEST_CASE("the error against the compacted column is of second order where it is
 
   const double coarse = error_of(20), fine = error_of(40);
 
+  if (is_rehearsal) return;
   CHECK(coarse < 5.5e-4);
   CHECK(std::log2(coarse / fine) == Approx(2).margin(0.03));
 }
@@ -246,6 +255,7 @@ TEST_CASE("the error against the cavity falls with the cell size where strains a
 
   const double coarse = error_of(32), fine = error_of(64);
 
+  if (is_rehearsal) return;
   CHECK(coarse < 0.023);
   CHECK(std::log2(coarse / fine) > 1.8);
 }

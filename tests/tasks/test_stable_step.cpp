@@ -7,6 +7,7 @@
 
 #include "tasks/simulation_error.hpp"
 #include "tests/tasks/scenes.hpp"
+#include "tests/tools/rehearsal.hpp"
 
 namespace test_stable_step
 {
@@ -65,7 +66,7 @@ double growth(Scene scene, double multiplier)
   };
   const double start = inner_energy();
   try {
-    for (int n = 0; n < 600; ++n) simulation->advance(1e30);
+    for (int n = 0; n < n_steps_of(600); ++n) simulation->advance(1e30);
   } catch (const SimulationError&) {
     return std::numeric_limits<double>::infinity();
   }
@@ -83,12 +84,15 @@ TEST_CASE("free elastic bodies stay bounded up to the bound on the step, and not
   scene.interpolator = smooth ? Interpolator("quadratic_spline") : Interpolator("gimp");
   CAPTURE(body.name, body.dimension, viscous, tflip, smooth);
 
-  CHECK(growth(scene, Scene{}.time.multiplier) < 1);
-  CHECK(growth(scene, 1) < 1);
+  const double usual = growth(scene, Scene{}.time.multiplier), at_bound = growth(scene, 1);
   // Viscosity acts in half of the steps, while the material closes; the bound counts on all of them. Nor does it count
   // on what velocity gradients bring back to the nodes, which is more where the weights are smoother.
   const double brought_back = !tflip ? 0 : smooth ? 0.7 : 0.2;
-  CHECK(growth(scene, (viscous ? 1.8 : 1.5) + brought_back) > 1e3);
+  const double beyond = growth(scene, (viscous ? 1.8 : 1.5) + brought_back);
+  if (is_rehearsal) return;
+  CHECK(usual < 1);
+  CHECK(at_bound < 1);
+  CHECK(beyond > 1e3);
 }
 
 TEST_CASE("with the other interpolators too, free elastic bodies stay bounded up to the bound on the step")
@@ -98,9 +102,11 @@ TEST_CASE("with the other interpolators too, free elastic bodies stay bounded up
   scene.interpolator = GENERATE(Interpolator("cpgimp"), Interpolator("cpdi"), Interpolator("cubic_spline"));
   CAPTURE(body.name, body.dimension, static_cast<int>(scene.interpolator));
 
-  CHECK(growth(scene, Scene{}.time.multiplier) < 1);
-  CHECK(growth(scene, 1) < 1);
-  CHECK(growth(scene, 3) > 1e3);
+  const double usual = growth(scene, Scene{}.time.multiplier), at_bound = growth(scene, 1), beyond = growth(scene, 3);
+  if (is_rehearsal) return;
+  CHECK(usual < 1);
+  CHECK(at_bound < 1);
+  CHECK(beyond > 1e3);
 }
 
 TEST_CASE("free elastic bodies stay bounded up to the bound on the step with transfers that filter too")
@@ -117,7 +123,9 @@ TEST_CASE("free elastic bodies stay bounded up to the bound on the step with tra
   scene.interpolator = smooth ? Interpolator("quadratic_spline") : Interpolator("gimp");
   CAPTURE(body.dimension, viscous, smooth, static_cast<int>(transfer), order);
 
-  CHECK(growth(scene, 1) < 1);
+  const double at_bound = growth(scene, 1);
+  if (is_rehearsal) return;
+  CHECK(at_bound < 1);
 }
 
 }  // namespace test_stable_step

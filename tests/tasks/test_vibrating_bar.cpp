@@ -5,6 +5,7 @@
 
 #include "components/problems/vibrating_bar.hpp"
 #include "tests/tasks/scenes.hpp"
+#include "tests/tools/rehearsal.hpp"
 
 namespace test_vibrating_bar
 {
@@ -28,7 +29,7 @@ constexpr double wave_speed = 10;
 Scene bar(int n_cells, bool held)
 {
   Scene scene = empty_scene(2, {n_cells + (held ? 0 : 4), 2, 1}, length / n_cells);
-  scene.faces[0] = {components::SymmetryFace(), held ? components::SymmetryFace() : components::OpenFace()};
+  scene.faces[0] = {components::SymmetryFace(), held ? Face(components::SymmetryFace()) : Face(components::OpenFace())};
   add_walls(scene, 1);
   add_box(scene, add_elastic(scene, density, modulus / uniaxial_modulus(1, poisson), poisson), {0, 0, 0},
           {length, 1e9, 0});
@@ -66,7 +67,7 @@ Vibration swing(Scene scene, double k, int n_periods)
   start_in_mode(scene, 1e-3, k);
   const auto simulation = Simulation::make(scene, 1);
   const auto start = particles_of(*simulation);
-  const double period = 2 * pi / (k * wave_speed), end = n_periods * period;
+  const double period = 2 * pi / (k * wave_speed), end = end_of(n_periods * period);
 
   double first_crossing = 0, last_crossing = 0, amplitude_before = 0, time_before = 0;
   double energy_first = 0, energy_last = 0;
@@ -112,6 +113,7 @@ TEST_CASE("a bar swings at the frequency of its length and waves, and goes on sw
 
   const Vibration vibration = swing(scene, pi / ((held ? 1 : 2) * length), 20);
 
+  if (is_rehearsal) return;
   CHECK(std::abs(vibration.frequency_error) < 1e-3);
   CHECK(std::abs(vibration.energy_drift) < 1e-3);
 }
@@ -124,6 +126,7 @@ TEST_CASE("whenever stress follows the motion, a bar swings at its frequency in 
 
   const Vibration vibration = swing(scene, pi / (2 * length), 4);
 
+  if (is_rehearsal) return;
   CHECK(std::abs(vibration.frequency_error) < 1e-3);
   CHECK(std::abs(vibration.energy_drift) < 1e-3);
 }
