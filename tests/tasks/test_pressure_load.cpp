@@ -283,6 +283,21 @@ TEST_CASE("a strip on soil stands at Prandtl's load and sinks in 5 % above it")
   CHECK(settling(1.05) > 0.01);
 }
 
+TEST_CASE("the force of a load is its pressure times the surface also beneath another body, near or touching")
+{
+  Scene scene = empty_scene(2, {12, 12, 1}, 0.1);
+  add_walls(scene, 0);
+  scene.faces[1][0] = components::SymmetryFace();
+  add_box(scene, add_elastic(scene, density, E, nu), {0, 0, 0}, {1.2, 0.5, 0}).pressure = everywhere(pressure);
+  const double top = 0.5 + GENERATE(0.0, 0.05);
+  add_box(scene, add_elastic(scene, density, E, nu), {0.3, top, 0}, {0.9, top + 0.2, 0});
+  scene.contacts.push_back({0, 1, 0, components::RegressionNormal()});
+
+  const Eigen::Vector3d force = first_force(scene);
+
+  CHECK(force[1] == Approx(-pressure * 1.2).epsilon(1e-12));
+}
+
 TEST_CASE("the surface of a pressed material is known, also where another's gives the normal of their contact")
 {
   Scene scene = free_block(everywhere(pressure));
