@@ -96,7 +96,8 @@ def circles():
             seen |= new
             front.extend(new)
         reached[start] = seen
-    return {tuple(sorted(b for b in reached if b in reached[a] and a in reached[b])) for a in reached if a in reached[a]}
+    in_circles = [a for a in reached if a in reached[a]]
+    return {tuple(b for b in sorted(in_circles) if b in reached[a] and a in reached[b]) for a in in_circles}
 
 
 def print_table(found):

@@ -17,23 +17,24 @@ if not __package__:  # called by the folder's name, which Python then takes for 
 from tamp import failure  # noqa: E402
 
 # Modules by command. What a command does is the first line of its module.
-COMMANDS = {
-    "import": "laboratory.import_tests", "concrete-sand": "laboratory.concrete_sand", "fit": "fit.command",
-    "history": "history", "picture": "picture", "projectile-mesh": "projectile_mesh",
-    "draw": "charts.draw", "failure": "charts.failure", "look-at-page": "charts.look_at_page",
-    "report": "report.command",
-    "cavity": "material.cavity", "companion": "material.companion", "hugoniot": "material.hugoniot",
-    "material-paths": "material.material_paths", "modulus-sizes": "material.modulus_sizes",
-    "return-path": "material.return_path", "smooth-sand": "material.smooth_sand",
-    "localisation": "methods.localisation", "pressure-alternation": "methods.pressure_alternation",
-    "projectile": "methods.projectile", "separation": "methods.separation", "stable-step": "methods.stable_step",
-    "stress-tolerance": "methods.stress_tolerance",
-    "digests": "checks.digests", "failing-calls": "checks.failing_calls", "failures": "checks.failures",
-    "forecasts": "checks.forecasts",
-    "kill-and-restart": "checks.kill_and_restart", "many-patches": "checks.many_patches",
-    "mutations": "checks.mutations", "same-bits": "checks.same_bits", "savings": "checks.savings",
-    "scaling": "checks.scaling", "schema": "checks.schema",
+FOR_USERS = {
+    "import": "laboratory.import_tests", "fit": "fit.command", "draw": "charts.draw", "history": "history",
+    "picture": "picture", "projectile-mesh": "projectile_mesh",
 }
+RESEARCH = {
+    "cavity": "material.cavity", "companion": "material.companion", "concrete-sand": "concrete_sand",
+    "failure": "failure_chart", "hugoniot": "material.hugoniot", "localisation": "methods.localisation",
+    "material-paths": "material.material_paths", "modulus-sizes": "material.modulus_sizes",
+    "pressure-alternation": "methods.pressure_alternation", "projectile": "methods.projectile",
+    "report": "report.command", "return-path": "material.return_path", "separation": "methods.separation",
+    "smooth-sand": "material.smooth_sand", "stable-step": "methods.stable_step",
+    "stress-tolerance": "methods.stress_tolerance",
+}
+CHECKS = {name: name.replace("-", "_") for name in [
+    "digests", "failing-calls", "failures", "forecasts", "kill-and-restart", "look-at-page", "many-patches",
+    "mutations", "same-bits", "savings", "scaling", "schema"]}
+COMMANDS = {**FOR_USERS, **{name: f"research.{module}" for name, module in RESEARCH.items()},
+            **{name: f"checks.{module}" for name, module in CHECKS.items()}}
 
 
 def summary(module):
@@ -46,10 +47,20 @@ def parser_of(program, text, epilog=None):
     return argparse.ArgumentParser(prog=program, description=text, epilog=epilog, formatter_class=how)
 
 
+def listed(title, names):
+    return f"{title}:\n" + "\n".join(f"  {name:21} {summary(COMMANDS[name])}" for name in names) + "\n"
+
+
 def overview(words):
     """What commands there are; ends with it, or with what is wrong about the words."""
-    listed = "commands:\n" + "\n".join(f"  {name:21} {summary(module)}" for name, module in COMMANDS.items())
-    parser = parser_of(failure.PROGRAM, __doc__, listed)
+    text = listed("commands", FOR_USERS)
+    if "--all" in words:
+        text += "\n" + listed("what remakes figures, tables and shipped data", RESEARCH)
+        text += "\n" + listed("checks of the program", CHECKS)
+    else:
+        text += "\n--help --all lists those too that remake figures and shipped data, and check the program."
+    parser = parser_of(failure.PROGRAM, __doc__, text)
+    parser.add_argument("--all", action="store_true", help="with --help: all commands")
     parser.add_argument("command", choices=COMMANDS, metavar="COMMAND ...", help="one of those below")
     parser.parse_args(words)
 
@@ -57,12 +68,16 @@ def overview(words):
 def main():
     name, words = "".join(sys.argv[1:2]), sys.argv[2:]
     if name not in COMMANDS:
-        overview(sys.argv[1:2])
+        overview(sys.argv[1:2] + (["--all"] if "--all" in words else []))
     command = importlib.import_module(f"tamp.{COMMANDS[name]}")
     parser = parser_of(f"{failure.PROGRAM} {name}", command.__doc__)
     command.add_arguments(parser)
     return command.main(parser.parse_args(words))
 
 
-if __name__ == "__main__":
+def guarded():
     failure.guard(main)
+
+
+if __name__ == "__main__":
+    guarded()

@@ -42,7 +42,8 @@ def guard(main):
     except ModuleNotFoundError as error:
         if package_of(error) is None:
             raise
-        end(f"{sys.executable}: has no {error.name}; expected Debian's package {package_of(error)}", NO_PACKAGE)
+        expected = f"Debian's package {package_of(error)}{elsewhere()}"
+        end(f"{sys.executable}: has no {error.name}; expected {expected}", NO_PACKAGE)
     except MemoryError:
         end("more memory than there is; expected a smaller input or a smaller model", Failure.code)
     except OSError as error:  # what is read is looked at in files.py
@@ -53,6 +54,13 @@ def guard(main):
 def package_of(error):
     """Debian's package of a module that is missing; None of one of our own."""
     return PACKAGES.get(error.name.split(".")[0])
+
+
+def elsewhere():
+    """Debian's packages are for Debian's Python, which need not be the first one of the path."""
+    of_debian = "/usr/bin/python3"
+    is_another = os.path.exists(of_debian) and os.path.realpath(sys.executable) != os.path.realpath(of_debian)
+    return f", and {of_debian}, which finds it" if is_another else ""
 
 
 def end(text, code):

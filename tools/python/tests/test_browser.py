@@ -15,7 +15,7 @@ import tempfile
 import unittest
 
 from tamp import program
-from tamp.charts import look_at_page
+from tamp.checks import look_at_page
 
 SCENE = program.INPUTS / "punch/quick.json"
 TAMP = program.USUAL

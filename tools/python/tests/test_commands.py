@@ -10,7 +10,7 @@ import sys
 import unittest
 
 from tamp import failure, program
-from tamp.__main__ import COMMANDS, summary
+from tamp.__main__ import COMMANDS, FOR_USERS, summary
 from tamp.checks import forecasts
 
 
@@ -30,9 +30,10 @@ class Commands(unittest.TestCase):
 
     def test_they_are_called_by_the_folder_and_as_a_module(self):
         for how, folder in ((["tools/python/tamp"], program.ROOT), (["-m", "tamp"], program.ROOT / "tools/python")):
-            done = subprocess.run([sys.executable, *how, "--help"], cwd=folder, capture_output=True, text=True)
-            self.assertEqual((done.returncode, done.stderr), (0, ""))
-            self.assertTrue(all(f"  {name} " in done.stdout for name in COMMANDS))
+            for words, names in ((["--help"], FOR_USERS), (["--help", "--all"], COMMANDS)):
+                done = subprocess.run([sys.executable, *how, *words], cwd=folder, capture_output=True, text=True)
+                self.assertEqual((done.returncode, done.stderr), (0, ""))
+                self.assertEqual([name for name in COMMANDS if f"  {name} " in done.stdout], list(names))
 
     def test_one_that_there_is_not_is_refused(self):
         done = subprocess.run([sys.executable, "-m", "tamp", "fitt"], cwd=program.ROOT / "tools/python",

@@ -8,7 +8,7 @@ import unittest
 import numpy as np
 
 from tamp import program, results
-from tamp.report import cost, drawing, numbers, projectile, punch, punch_numbers, sand, scenes
+from tamp.research.report import cost, drawing, numbers, projectile, punch, punch_numbers, sand, scenes
 
 HAS_H5PY = importlib.util.find_spec("h5py") is not None
 

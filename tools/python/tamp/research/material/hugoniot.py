@@ -12,7 +12,7 @@ import math
 import pathlib
 
 from tamp import files, program
-from tamp.material.drive import TIGHT, diagonal, drive
+from tamp.research.material.drive import TIGHT, diagonal, drive
 from tamp.options import add_settings, finite, positive
 
 MOST_COMPACTED = 0.3

@@ -3,8 +3,8 @@
 import numpy as np
 
 from tamp import results
-from tamp.report.numbers import of, of_sand
-from tamp.report.projectile import LAST, MICRO, MILLI, PLASTIC, PRESSURE, SHEAR, TIMES, surface_of
+from tamp.research.report.numbers import of, of_sand
+from tamp.research.report.projectile import LAST, MICRO, MILLI, PLASTIC, PRESSURE, SHEAR, TIMES, surface_of
 
 EARLY = (20e-6, 50e-6, 100e-6)
 TIP, NEAR = 5e-3, 10e-3  # how far the sand at the nose's tip and near it reaches

@@ -4,7 +4,7 @@ import numpy as np
 
 from tamp import results
 from tamp.program import MODELS
-from tamp.report.drawing import (
+from tamp.research.report.drawing import (
     COLOURS, FAINT, Field, chart, colour_bar, coloured, frame, growth, panels, squares, three_digits,
 )
 

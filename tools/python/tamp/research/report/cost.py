@@ -3,8 +3,8 @@
 import numpy as np
 
 from tamp import results
-from tamp.report.drawing import COLOURS, chart
-from tamp.report.numbers import of
+from tamp.research.report.drawing import COLOURS, chart
+from tamp.research.report.numbers import of
 
 MICRO, MEGA = 1e-6, 1e6
 

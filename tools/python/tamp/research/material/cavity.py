@@ -11,7 +11,7 @@ import pathlib
 import numpy as np
 
 from tamp import files, program
-from tamp.material.drive import TIGHT, diagonal, drive
+from tamp.research.material.drive import TIGHT, diagonal, drive
 
 N_ROWS, N_RINGS = 400, 2000
 LEAST_INCREMENT = 1e-5

@@ -9,8 +9,8 @@ import numpy as np
 from tamp import program, results
 from tamp.charts import theme
 from tamp.program import SAND
-from tamp.report.drawing import COLOURS, chart, logarithmic
-from tamp.report.numbers import Number, of
+from tamp.research.report.drawing import COLOURS, chart, logarithmic
+from tamp.research.report.numbers import Number, of
 
 CRUSHED = 0.325  # p3, the plastic volumetric strain at which all pores are crushed
 MEGA, GIGA, PERCENT = 1e6, 1e9, 0.01

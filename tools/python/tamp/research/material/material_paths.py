@@ -14,7 +14,7 @@ import numpy as np
 
 from tamp import program, results
 from tamp.markdown import print_table
-from tamp.material.drive import diagonal, drive, legs
+from tamp.research.material.drive import diagonal, drive, legs
 from tamp.program import MODELS, SAND
 
 FORMS = ["state", "rate"]

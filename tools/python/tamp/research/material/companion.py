@@ -19,11 +19,11 @@ from tamp import files, program, results
 from tamp.fit.network import changed_copy
 from tamp.fit.support_vectors import SupportVectors
 from tamp.markdown import print_table
-from tamp.material.companion_paths import (
+from tamp.research.material.companion_paths import (
     COMBINATIONS, COMPANION, MULTIAXIAL, NAMES, UNITS, Point, answer, at_time, companion_number, companion_text,
     compared, multiaxial, off, read_texts, uniaxial, write_paths,
 )
-from tamp.material.drive import TIGHT
+from tamp.research.material.drive import TIGHT
 from tamp.options import positive
 from tamp.program import MODELS, SAND
 

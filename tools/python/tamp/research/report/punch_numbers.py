@@ -3,8 +3,8 @@
 import numpy as np
 
 from tamp import results
-from tamp.report.numbers import of, of_sand
-from tamp.report.punch import CAP, ELASTIC, MIDDLE, MILLI, MODULUS, PLASTIC, PRESSURE, SHEAR, SURFACE
+from tamp.research.report.numbers import of, of_sand
+from tamp.research.report.punch import CAP, ELASTIC, MIDDLE, MILLI, MODULUS, PLASTIC, PRESSURE, SHEAR, SURFACE
 
 DEPTH_TIMES = (0.5e-3, 1e-3, 1.5e-3, 2e-3, 2.6e-3, 3e-3, 4e-3)
 PEAK_TIMES = (0.5e-3, 1e-3, 2e-3, 2.6e-3, 2.7e-3)

@@ -9,7 +9,7 @@ import math
 import pathlib
 import random
 
-from tamp.material.drive import write_path
+from tamp.research.material.drive import write_path
 from tamp.program import INPUTS
 
 SEED, N_RANDOM = 17, 24

@@ -12,10 +12,10 @@ import pathlib
 
 from tamp import files, program
 from tamp.options import add_settings, count, finite
-from tamp.report import cost, projectile, projectile_numbers, punch, punch_numbers, sand
-from tamp.report.drawing import Album
-from tamp.report.numbers import write
-from tamp.report.scenes import PROJECTILES, finish, projectile_runs, punch_runs, with_stiffer_network
+from tamp.research.report import cost, projectile, projectile_numbers, punch, punch_numbers, sand
+from tamp.research.report.drawing import Album
+from tamp.research.report.numbers import write
+from tamp.research.report.scenes import PROJECTILES, finish, projectile_runs, punch_runs, with_stiffer_network
 
 PARTS = ("sand", "punch", "projectile", "cost")
 

@@ -10,7 +10,7 @@ times.
 import statistics
 
 from tamp.markdown import print_head, print_row
-from tamp.methods.stress_tolerance import add_options_of_runs, depth_difference, run
+from tamp.research.methods.stress_tolerance import add_options_of_runs, depth_difference, run
 from tamp.options import count
 
 FORMS, ANSWERS = ("rate", "state"), ("false", "true")

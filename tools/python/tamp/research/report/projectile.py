@@ -7,7 +7,7 @@ from mpl_toolkits.mplot3d.art3d import Poly3DCollection
 from tamp import projectile_mesh, results
 from tamp.charts import theme
 from tamp.program import INPUTS
-from tamp.report.drawing import (
+from tamp.research.report.drawing import (
     COLOURS, Field, chart, colour_bar, coloured, frame, growth, panels, squares, three_digits,
 )
 

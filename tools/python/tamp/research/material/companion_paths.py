@@ -6,7 +6,7 @@ import math
 import pathlib
 
 from tamp import files, results
-from tamp.material.drive import diagonal, drive, legs, write_path
+from tamp.research.material.drive import diagonal, drive, legs, write_path
 from tamp.program import INPUTS, MODELS, SAND
 
 COMPANION = INPUTS / "studies/companion"

@@ -1,0 +1,1 @@
+"""What remakes the figures and tables of the documentation, and the data that TAMP ships."""
