@@ -4,8 +4,9 @@
 
 #include <cstddef>
 #include <fstream>
+#include <map>
 #include <mutex>
-#include <set>
+#include <optional>
 #include <span>
 #include <utility>
 
@@ -21,11 +22,21 @@ namespace tamp::tools
 namespace
 {
 
-/// Those that the program has read. A reader is so free to be called from anywhere, and none can be forgotten.
+using Identity = std::pair<dev_t, ino_t>;
+
+/// Those that the program has read, each with a name of it. A reader is so free to be called from anywhere, and none
+/// can be forgotten.
 struct FilesRead {
   std::mutex mutex;
-  std::set<std::pair<dev_t, ino_t>> identities;
+  std::map<Identity, std::filesystem::path> names;
 };
+
+std::optional<Identity> identity_of(const std::filesystem::path& file)
+{
+  const auto state = runtime::state_of(file);
+  if (!state) return std::nullopt;
+  return Identity(state->device, state->number);
+}
 
 FilesRead& files_read()
 {
@@ -37,10 +48,10 @@ FilesRead& files_read()
 
 void note_input(const std::filesystem::path& file)
 {
-  const auto state = runtime::state_of(file);
-  if (!state) return;
+  const auto identity = identity_of(file);
+  if (!identity) return;
   const std::scoped_lock lock(files_read().mutex);
-  files_read().identities.emplace(state->device, state->number);
+  files_read().names.insert_or_assign(*identity, std::filesystem::absolute(file));
 }
 
 void note_shipped_inputs()
@@ -55,10 +66,12 @@ void note_shipped_inputs()
 
 bool is_input(const std::filesystem::path& file)
 {
-  const auto state = runtime::state_of(file);
-  if (!state) return false;
+  const auto identity = identity_of(file);
+  if (!identity) return false;
   const std::scoped_lock lock(files_read().mutex);
-  return files_read().identities.contains({state->device, state->number});
+  const auto read = files_read().names.find(*identity);
+  // The number of a file that has been removed since is another file's soon.
+  return read != files_read().names.end() && identity_of(read->second) == identity;
 }
 
 void expect_input_file(const std::filesystem::path& file)

@@ -4,6 +4,7 @@
 #include <thread>
 
 #include "runtime/file_error.hpp"
+#include "runtime/storage/file_state.hpp"
 #include "tests/tools/temporary_folder.hpp"
 #include "tools/run/run_folder.hpp"
 #include "tools/scene/input_file.hpp"
@@ -156,6 +157,23 @@ TEST_CASE("a file of a run that is a link to what the run reads is refused, and 
 
   CHECK_THROWS_WITH(use(folder.path() / "run", go_on), Catch::Contains(name + ": one of the files that are read"));
   CHECK(test::read_text(scene) == "{}");
+}
+
+TEST_CASE("a file that gets the number of one that was read and removed is none that is read")
+{
+  const TemporaryFolder folder;
+  const fs::path scene = folder.write("mine.json", "{}");
+  tools::read_input_file(scene);
+  REQUIRE(tools::is_input(scene));
+  const auto number = runtime::state_of(scene)->number;
+  fs::remove(scene);
+
+  for (int n = 0; n < 100; ++n) {
+    const fs::path other = folder.write("other_" + std::to_string(n), "");
+    CHECK_FALSE(tools::is_input(other));
+    if (runtime::state_of(other)->number == number) return;
+  }
+  WARN("no file got the number of the one that was removed");
 }
 
 TEST_CASE("a folder whose mark is a link to what the run reads is not marked")
