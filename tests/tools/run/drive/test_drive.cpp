@@ -131,7 +131,7 @@ TEST_CASE("the report's sand has the stress of its companion's single particle i
   const auto points = points_along(sand, path_through({identity, diagonal(0.6, 1, 1)}));
 
   const auto& end = points.back();
-  const double s11 = -end.stress(0, 0), s22 = -end.stress(1, 1);
+  const double s11 = -end.stress[0], s22 = -end.stress[1];
   const auto& state = std::any_cast<const components::CapState&>(end.state);
   const double cap = std::get<components::TabularCap>(sand.model).crush_pressure(state.plastic_volumetric);
   CHECK(s11 == Approx(4.4e9).margin(0.1e9));
