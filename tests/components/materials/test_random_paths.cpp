@@ -2,6 +2,7 @@
 
 #include "tests/components/materials/concrete_sand.hpp"
 #include "tests/components/materials/random_paths.hpp"
+#include "tests/tools/rehearsal.hpp"
 
 namespace test_random_paths
 {
@@ -13,7 +14,7 @@ TEST_CASE("on random paths of steps up to 5 % the sand never fails and never lea
   for (const ElasticUpdate form : {ElasticUpdate::state, ElasticUpdate::rate}) {
     const TabularCap sand = concrete_sand::sand(form);
 
-    const random_paths::Outcome outcome = random_paths::follow(sand, 2000);
+    const random_paths::Outcome outcome = random_paths::follow(sand, tamp::test::n_steps_of(2000));
 
     CAPTURE(form == ElasticUpdate::state, outcome.n_steps, outcome.counts.split_updates);
     CHECK(outcome.counts.failures == 0);
