@@ -15,7 +15,7 @@
 ///  - `State`, what a particle keeps from step to step beside its stress, or NoState;
 ///  - `type`, its name in scenes;
 ///  - `parameters()`, the numbers that a scene gives it, and `check()` where they have to agree, see parameter.hpp;
-///    or a `read_model` of its own in tools/scene/read_material.cpp;
+///    or a `read_model` of its own in tools/scene/materials/read_material.cpp;
 ///  - `initial_moduli()`, K and G without strain;
 ///  - `update(model, batch, counts)`, which answers a batch of particles;
 ///  - where it may lose all stiffness, `may_separate()`;

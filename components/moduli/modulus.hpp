@@ -17,7 +17,7 @@ namespace tamp::components
 ///
 ///  - `type`, the name in scenes, and `meaning`, what the model is, for people;
 ///  - either `parameters()`, the numbers that it consists of (parameter.hpp), or `file`, what its file is, for people;
-///    tools/scene/read_modulus.cpp then reads it;
+///    tools/scene/materials/read_modulus.cpp then reads it;
 ///  - `compile_tolerance`, to which `tamp compare` compiles it, see ModulusSurface.
 ///
 /// Tables are converted to logarithmic strain when they are read; a model that was fitted to strains stands here as an

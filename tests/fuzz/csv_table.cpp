@@ -1,4 +1,4 @@
-#include "tools/scene/csv_table.hpp"
+#include "tools/scene/tables/csv_table.hpp"
 
 #include "tests/fuzz/readers.hpp"
 

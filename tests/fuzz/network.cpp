@@ -1,4 +1,4 @@
-#include "tools/scene/read_network.hpp"
+#include "tools/scene/materials/read_network.hpp"
 
 #include "components/errors.hpp"
 #include "tests/fuzz/readers.hpp"

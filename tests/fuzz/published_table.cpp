@@ -1,4 +1,4 @@
-#include "tools/scene/published_table.hpp"
+#include "tools/scene/tables/published_table.hpp"
 
 #include "tests/fuzz/readers.hpp"
 

@@ -2,9 +2,9 @@
 #include <sstream>
 
 #include "tests/fuzz/readers.hpp"
-#include "tools/scene/input_file.hpp"
-#include "tools/scene/parse_json.hpp"
-#include "tools/scene/print_json.hpp"
+#include "tools/scene/files/input_file.hpp"
+#include "tools/scene/json/parse_json.hpp"
+#include "tools/scene/json/print_json.hpp"
 #include "tools/study/point_results.hpp"
 
 namespace

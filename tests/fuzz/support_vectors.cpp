@@ -1,6 +1,6 @@
 #include "tests/fuzz/readers.hpp"
-#include "tools/scene/read_modulus.hpp"
-#include "tools/scene/read_support_vectors.hpp"
+#include "tools/scene/materials/read_modulus.hpp"
+#include "tools/scene/materials/read_support_vectors.hpp"
 
 void tamp::fuzz::support_vectors(const std::filesystem::path& file)
 {

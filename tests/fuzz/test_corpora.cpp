@@ -5,7 +5,7 @@
 
 #include "tests/fuzz/input_file.hpp"
 #include "tests/fuzz/readers.hpp"
-#include "tools/scene/input_file.hpp"
+#include "tools/scene/files/input_file.hpp"
 
 namespace test_corpora
 {

@@ -1,4 +1,4 @@
-#include "tools/scene/unloading_curves.hpp"
+#include "tools/scene/materials/unloading_curves.hpp"
 
 #include "components/errors.hpp"
 #include "components/moduli/unloading_table.hpp"

@@ -1,4 +1,4 @@
-#include "tools/scene/yield_table.hpp"
+#include "tools/scene/materials/yield_table.hpp"
 
 #include "components/errors.hpp"
 #include "components/materials/yield_surface.hpp"

@@ -47,19 +47,26 @@ USES = {
     "tools": ["runtime", "components", "tasks"],
     "tools/system": [],
     "tools/scene": ["tools/system"],
-    "tools/run": ["tools/system", "tools/scene"],
-    "tools/study": ["tools/system", "tools/scene", "tools/run"],
+    "tools/scene/files": [],
+    "tools/scene/json": ["tools/scene/files"],
+    "tools/scene/tables": ["tools/scene/files", "tools/scene/json"],
+    "tools/scene/materials": ["tools/scene/files", "tools/scene/json", "tools/scene/tables"],
+    "tools/scene/bodies": ["tools/scene/files", "tools/scene/json"],
+    "tools/scene/keys": ["tools/scene/json", "tools/scene/materials"],
+    "tools/advice": ["tools/scene"],
+    "tools/run": ["tools/system", "tools/scene", "tools/advice"],
+    "tools/study": ["tools/system", "tools/scene", "tools/advice", "tools/run"],
     "tools/bench": ["tools/system", "tools/scene"],
-    "tools/commands": ["tools/system", "tools/scene", "tools/run", "tools/study", "tools/bench"],
+    "tools/commands": ["tools/system", "tools/scene", "tools/advice", "tools/run", "tools/study", "tools/bench"],
 }
 ROOMS = [room for room in USES if "/" not in room]
 INCLUDE = re.compile(r'^#\s*include "([^"]+)"', re.MULTILINE)
 
 
 def rooms_of(path):
-    """The room of a file, and the folder there that it is in."""
+    """The room of a file, the folder there that it is in, and the folder in that."""
     parts = path.split("/")
-    return [room for room in (parts[0], "/".join(parts[:2])) if room in USES]
+    return [room for room in ("/".join(parts[:n]) for n in (1, 2, 3)) if room in USES]
 
 
 def includes():
@@ -81,13 +88,20 @@ def arrows():
     return found
 
 
+def place_of(path):
+    """The innermost room of a file; the file itself, as .hpp and .cpp alike, where it stands beside folders."""
+    room = (rooms_of(path) or [""])[-1]
+    has_folders = any(other.startswith(room + "/") for other in USES)
+    return str(pathlib.PurePath(path).with_suffix("")) if has_folders else room
+
+
 def circles():
     """Folders of a room, and files beside them, that include each other, as a list of those in each circle."""
     used = collections.defaultdict(set)
     for path, included in includes():
-        start, end = (pathlib.PurePath("/".join(name.split("/")[:2])).with_suffix("") for name in (path, included))
+        start, end = place_of(path), place_of(included)
         if start != end:
-            used[str(start)].add(str(end))
+            used[start].add(end)
     reached = {}
     for start in list(used):
         seen, front = set(), [start]
@@ -118,8 +132,8 @@ def main():
     in_circles = circles()
     for circle in in_circles:
         print(f"{', '.join(circle)} include each other")
-    folders = {"/".join(path.split("/")[:2]) for path, _ in includes() if path.count("/") > 1}
-    homeless = folders - set(USES) | {f"tools/{file.name}" for file in (ROOT / "tools").glob("*.?pp")}
+    homeless = {path for path, _ in includes() if path.count("/") > len(rooms_of(path)) and place_of(path) not in USES}
+    homeless |= {f"tools/{file.name}" for file in (ROOT / "tools").glob("*.?pp")}
     for path in sorted(homeless):
         print(f"{path}: lies in no room")
     sys.exit(1 if against or in_circles or homeless else 0)

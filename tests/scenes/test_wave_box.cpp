@@ -5,9 +5,9 @@
 
 #include "tests/tasks/scenes.hpp"
 #include "tests/tools/rehearsal.hpp"
-#include "tools/scene/penetration.hpp"
+#include "tools/advice/penetration.hpp"
+#include "tools/advice/wave_box.hpp"
 #include "tools/scene/read_scene.hpp"
-#include "tools/scene/wave_box.hpp"
 
 /// The box that `tamp check` advises, beside the whole one.
 namespace test_wave_box

@@ -14,9 +14,9 @@
 #include "tools/bench/bench.hpp"
 #include "tools/bench/peak_rate.hpp"
 #include "tools/bench/plain_moduli.hpp"
-#include "tools/scene/read_network.hpp"
-#include "tools/scene/read_support_vectors.hpp"
-#include "tools/scene/unloading_curves.hpp"
+#include "tools/scene/materials/read_network.hpp"
+#include "tools/scene/materials/read_support_vectors.hpp"
+#include "tools/scene/materials/unloading_curves.hpp"
 #include "tools/system/processor_time.hpp"
 #include "tools/system/statistics.hpp"
 

@@ -13,7 +13,7 @@
 #include "tools/commands/command_line/option_checks.hpp"
 #include "tools/commands/commands.hpp"
 #include "tools/run/forecast.hpp"
-#include "tools/scene/print_json.hpp"
+#include "tools/scene/json/print_json.hpp"
 #include "tools/study/compare/comparison_report.hpp"
 #include "tools/study/compare/grid_error.hpp"
 #include "tools/study/compare/peak_memory.hpp"

@@ -16,9 +16,9 @@
 #include "tools/run/drive/drive.hpp"
 #include "tools/run/drive/drive_costs.hpp"
 #include "tools/run/drive/read_path.hpp"
-#include "tools/scene/output_file.hpp"
-#include "tools/scene/print_json.hpp"
-#include "tools/scene/read_material.hpp"
+#include "tools/scene/files/output_file.hpp"
+#include "tools/scene/json/print_json.hpp"
+#include "tools/scene/materials/read_material.hpp"
 #include "tools/system/console.hpp"
 #include "tools/system/errors.hpp"
 

@@ -16,7 +16,7 @@
 #include "tools/commands/command_line/option_checks.hpp"
 #include "tools/commands/commands.hpp"
 #include "tools/run/profile_text.hpp"
-#include "tools/scene/output_file.hpp"
+#include "tools/scene/files/output_file.hpp"
 #include "tools/scene/read_scene.hpp"
 #include "tools/system/console.hpp"
 #include "tools/system/errors.hpp"

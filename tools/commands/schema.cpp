@@ -7,8 +7,8 @@
 #include "tools/commands/command_line/help_text.hpp"
 #include "tools/commands/command_line/option_checks.hpp"
 #include "tools/commands/commands.hpp"
-#include "tools/scene/print_json.hpp"
-#include "tools/scene/schema.hpp"
+#include "tools/scene/json/print_json.hpp"
+#include "tools/scene/keys/schema.hpp"
 #include "tools/system/console.hpp"
 
 namespace tamp::tools

@@ -9,8 +9,8 @@
 
 #include "runtime/file_error.hpp"
 #include "runtime/ranks/on_all_ranks.hpp"
-#include "tools/scene/parse_json.hpp"
-#include "tools/scene/print_json.hpp"
+#include "tools/scene/json/parse_json.hpp"
+#include "tools/scene/json/print_json.hpp"
 #include "tools/system/console.hpp"
 #include "tools/system/errors.hpp"
 

@@ -9,7 +9,7 @@
 
 #include "runtime/ranks/on_all_ranks.hpp"
 #include "runtime/storage/whole_file.hpp"
-#include "tools/scene/csv_table.hpp"
+#include "tools/scene/tables/csv_table.hpp"
 #include "tools/system/capacity.hpp"
 #include "tools/system/processor_time.hpp"
 

@@ -4,9 +4,9 @@
 #include "tools/run/run_document.hpp"
 #include "tools/run/run_folder.hpp"
 #include "tools/run/scene_pictures.hpp"
-#include "tools/scene/chosen_words.hpp"
-#include "tools/scene/output_file.hpp"
-#include "tools/scene/print_json.hpp"
+#include "tools/scene/files/output_file.hpp"
+#include "tools/scene/json/print_json.hpp"
+#include "tools/scene/keys/chosen_words.hpp"
 
 namespace tamp::tools
 {

@@ -6,7 +6,7 @@
 #include <string>
 
 #include "runtime/file_error.hpp"
-#include "tools/scene/parse_json.hpp"
+#include "tools/scene/json/parse_json.hpp"
 
 namespace tamp::tools
 {

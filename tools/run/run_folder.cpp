@@ -14,8 +14,8 @@
 
 #include "runtime/file_error.hpp"
 #include "runtime/storage/whole_file.hpp"
-#include "tools/scene/input_file.hpp"
-#include "tools/scene/output_file.hpp"
+#include "tools/scene/files/input_file.hpp"
+#include "tools/scene/files/output_file.hpp"
 #include "tools/system/errors.hpp"
 
 namespace tamp::tools

@@ -11,7 +11,7 @@
 #include "components/portable_math.hpp"
 #include "runtime/ranks/on_all_ranks.hpp"
 #include "tasks/set_up/initial_moduli.hpp"
-#include "tools/scene/csv_table.hpp"
+#include "tools/scene/tables/csv_table.hpp"
 
 namespace tamp::tools
 {

@@ -7,9 +7,9 @@
 #include <cmath>
 #include <vector>
 
+#include "tools/advice/penetration.hpp"
 #include "tools/run/monitors.hpp"
-#include "tools/scene/penetration.hpp"
-#include "tools/scene/symmetry.hpp"
+#include "tools/scene/bodies/symmetry.hpp"
 #include "tools/system/version.hpp"
 
 namespace tamp::tools

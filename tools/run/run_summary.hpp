@@ -8,7 +8,7 @@
 #include "tools/run/forecast.hpp"
 #include "tools/run/run_history.hpp"
 #include "tools/run/run_output.hpp"
-#include "tools/scene/document.hpp"
+#include "tools/scene/json/document.hpp"
 
 namespace tamp::tools
 {

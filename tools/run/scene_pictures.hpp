@@ -2,7 +2,7 @@
 
 #include <filesystem>
 
-#include "tools/scene/document.hpp"
+#include "tools/scene/json/document.hpp"
 
 namespace tamp::tools
 {

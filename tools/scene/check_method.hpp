@@ -1,7 +1,7 @@
 #pragma once
 
 #include "tasks/scene.hpp"
-#include "tools/scene/json_reader.hpp"
+#include "tools/scene/json/json_reader.hpp"
 
 namespace tamp::tools
 {

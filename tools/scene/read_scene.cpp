@@ -10,13 +10,13 @@
 #include "tasks/method.hpp"
 #include "tasks/report/field_columns.hpp"
 #include "tasks/report/report.hpp"
+#include "tools/scene/bodies/check_bodies.hpp"
+#include "tools/scene/bodies/read_body.hpp"
 #include "tools/scene/check_axisymmetry.hpp"
-#include "tools/scene/check_bodies.hpp"
 #include "tools/scene/check_method.hpp"
-#include "tools/scene/json_reader.hpp"
-#include "tools/scene/parameter_keys.hpp"
-#include "tools/scene/read_body.hpp"
-#include "tools/scene/read_material.hpp"
+#include "tools/scene/json/json_reader.hpp"
+#include "tools/scene/json/parameter_keys.hpp"
+#include "tools/scene/materials/read_material.hpp"
 
 namespace tamp::tools
 {

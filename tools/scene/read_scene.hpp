@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "tasks/scene.hpp"
-#include "tools/scene/document.hpp"
+#include "tools/scene/json/document.hpp"
 
 namespace tamp::tools
 {

@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <map>
 
-#include "tools/scene/input_file.hpp"
-#include "tools/scene/print_json.hpp"
-#include "tools/scene/read_material.hpp"
+#include "tools/scene/files/input_file.hpp"
+#include "tools/scene/json/print_json.hpp"
+#include "tools/scene/materials/read_material.hpp"
 #include "tools/scene/read_scene.hpp"
 #include "tools/system/shell_word.hpp"
 

@@ -13,9 +13,9 @@
 #include "runtime/file_error.hpp"
 #include "runtime/storage/checksum.hpp"
 #include "runtime/storage/whole_file.hpp"
-#include "tools/scene/csv_table.hpp"
-#include "tools/scene/parse_json.hpp"
-#include "tools/scene/print_json.hpp"
+#include "tools/scene/json/parse_json.hpp"
+#include "tools/scene/json/print_json.hpp"
+#include "tools/scene/tables/csv_table.hpp"
 #include "tools/system/statistics.hpp"
 
 namespace tamp::tools::study

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "tools/scene/document.hpp"
+#include "tools/scene/json/document.hpp"
 #include "tools/study/study.hpp"
 
 namespace tamp::tools::study

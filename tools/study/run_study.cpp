@@ -6,8 +6,8 @@
 
 #include "runtime/storage/whole_file.hpp"
 #include "tasks/simulation_error.hpp"
-#include "tools/scene/output_file.hpp"
-#include "tools/scene/print_json.hpp"
+#include "tools/scene/files/output_file.hpp"
+#include "tools/scene/json/print_json.hpp"
 #include "tools/study/run_points.hpp"
 #include "tools/study/study_folder.hpp"
 #include "tools/study/study_map_report.hpp"

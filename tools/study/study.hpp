@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "tools/scene/document.hpp"
+#include "tools/scene/json/document.hpp"
 
 /// Content of a study file: what is measured, with which settings, and against what.
 namespace tamp::tools::study

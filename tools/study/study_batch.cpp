@@ -7,7 +7,7 @@
 #include <fstream>
 
 #include "runtime/file_error.hpp"
-#include "tools/scene/output_file.hpp"
+#include "tools/scene/files/output_file.hpp"
 #include "tools/system/child_process.hpp"
 #include "tools/system/console.hpp"
 #include "tools/system/errors.hpp"

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "tools/scene/document.hpp"
+#include "tools/scene/json/document.hpp"
 
 namespace tamp::tools::study
 {

@@ -4,9 +4,9 @@
 
 #include "runtime/file_error.hpp"
 #include "runtime/storage/whole_file.hpp"
-#include "tools/scene/document.hpp"
-#include "tools/scene/input_file.hpp"
-#include "tools/scene/parse_json.hpp"
+#include "tools/scene/files/input_file.hpp"
+#include "tools/scene/json/document.hpp"
+#include "tools/scene/json/parse_json.hpp"
 #include "tools/system/errors.hpp"
 #include "tools/system/machine.hpp"
 #include "tools/system/version.hpp"

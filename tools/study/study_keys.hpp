@@ -1,6 +1,6 @@
 #pragma once
 
-#include "tools/scene/keys.hpp"
+#include "tools/scene/json/keys.hpp"
 
 namespace tamp::tools::study
 {

@@ -7,7 +7,7 @@
 #include <array>
 #include <set>
 
-#include "tools/scene/csv_text.hpp"
+#include "tools/scene/tables/csv_text.hpp"
 #include "tools/study/study_map_report.hpp"
 #include "tools/system/machine.hpp"
 #include "tools/system/version.hpp"

@@ -4,8 +4,8 @@
 
 #include <Eigen/Core>
 
-#include "tools/scene/parse_json.hpp"
-#include "tools/scene/penetration.hpp"
+#include "tools/advice/penetration.hpp"
+#include "tools/scene/json/parse_json.hpp"
 #include "tools/system/errors.hpp"
 
 namespace tamp::tools::study

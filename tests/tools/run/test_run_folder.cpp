@@ -7,7 +7,7 @@
 #include "runtime/storage/file_state.hpp"
 #include "tests/tools/temporary_folder.hpp"
 #include "tools/run/run_folder.hpp"
-#include "tools/scene/input_file.hpp"
+#include "tools/scene/files/input_file.hpp"
 #include "tools/system/errors.hpp"
 
 namespace test_run_folder

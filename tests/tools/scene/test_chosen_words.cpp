@@ -2,7 +2,7 @@
 #include <catch2/catch.hpp>
 
 #include "tests/tools/scene/small_scene.hpp"
-#include "tools/scene/chosen_words.hpp"
+#include "tools/scene/keys/chosen_words.hpp"
 
 namespace test_chosen_words
 {

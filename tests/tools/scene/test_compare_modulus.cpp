@@ -7,7 +7,7 @@
 
 #include "tests/tools/scene/small_models.hpp"
 #include "tests/tools/scene/small_scene.hpp"
-#include "tools/scene/plausibility.hpp"
+#include "tools/advice/plausibility.hpp"
 
 namespace test_compare_modulus
 {

@@ -1,4 +1,4 @@
-#include "tools/scene/csv_text.hpp"
+#include "tools/scene/tables/csv_text.hpp"
 
 #include <catch2/catch.hpp>
 

@@ -3,9 +3,9 @@
 
 #include "tests/tools/program.hpp"
 #include "tests/tools/scene/small_scene.hpp"
-#include "tools/scene/print_json.hpp"
-#include "tools/scene/read_material.hpp"
-#include "tools/scene/schema.hpp"
+#include "tools/scene/json/print_json.hpp"
+#include "tools/scene/keys/schema.hpp"
+#include "tools/scene/materials/read_material.hpp"
 
 namespace test_old_words
 {

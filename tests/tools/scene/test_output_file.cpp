@@ -1,4 +1,4 @@
-#include "tools/scene/output_file.hpp"
+#include "tools/scene/files/output_file.hpp"
 
 #include <catch2/catch.hpp>
 #include <filesystem>

@@ -6,8 +6,8 @@
 #include "tests/tools/problems.hpp"
 #include "tests/tools/scene/small_models.hpp"
 #include "tests/tools/scene/small_scene.hpp"
-#include "tools/scene/read_material.hpp"
-#include "tools/scene/read_modulus.hpp"
+#include "tools/scene/materials/read_material.hpp"
+#include "tools/scene/materials/read_modulus.hpp"
 
 namespace test_read_modulus
 {

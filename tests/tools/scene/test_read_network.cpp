@@ -6,7 +6,7 @@
 #include "tests/tools/problems.hpp"
 #include "tests/tools/scene/keras_file.hpp"
 #include "tests/tools/scene/small_models.hpp"
-#include "tools/scene/read_network.hpp"
+#include "tools/scene/materials/read_network.hpp"
 
 namespace test_read_network
 {

@@ -1,7 +1,7 @@
 #include <catch2/catch.hpp>
 
 #include "tests/tools/scene/small_scene.hpp"
-#include "tools/scene/print_json.hpp"
+#include "tools/scene/json/print_json.hpp"
 
 namespace test_read_problem
 {

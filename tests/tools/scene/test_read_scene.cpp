@@ -4,7 +4,7 @@
 #include "runtime/file_error.hpp"
 #include "tasks/set_up/body_sites.hpp"
 #include "tests/tools/scene/small_scene.hpp"
-#include "tools/scene/print_json.hpp"
+#include "tools/scene/json/print_json.hpp"
 
 namespace test_read_scene
 {

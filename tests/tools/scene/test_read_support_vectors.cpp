@@ -5,7 +5,7 @@
 #include "runtime/file_error.hpp"
 #include "tests/tools/problems.hpp"
 #include "tests/tools/scene/small_models.hpp"
-#include "tools/scene/read_support_vectors.hpp"
+#include "tools/scene/materials/read_support_vectors.hpp"
 
 namespace test_read_support_vectors
 {

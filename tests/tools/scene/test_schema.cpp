@@ -2,7 +2,7 @@
 
 #include <fstream>
 
-#include "tools/scene/schema.hpp"
+#include "tools/scene/keys/schema.hpp"
 
 namespace test_schema
 {

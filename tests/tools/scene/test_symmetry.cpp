@@ -1,9 +1,9 @@
-#include "tools/scene/symmetry.hpp"
+#include "tools/scene/bodies/symmetry.hpp"
 
 #include <catch2/catch.hpp>
 
 #include "tests/tools/scene/small_scene.hpp"
-#include "tools/scene/round_scene.hpp"
+#include "tools/advice/round_scene.hpp"
 
 namespace test_symmetry_of_scenes
 {

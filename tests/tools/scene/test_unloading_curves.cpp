@@ -5,7 +5,7 @@
 
 #include "components/moduli/unloading_table.hpp"
 #include "tests/tools/problems.hpp"
-#include "tools/scene/unloading_curves.hpp"
+#include "tools/scene/materials/unloading_curves.hpp"
 
 namespace test_unloading_curves
 {

@@ -3,7 +3,7 @@
 
 #include "components/materials/tabular_cap.hpp"
 #include "tests/tools/scene/small_scene.hpp"
-#include "tools/scene/read_material.hpp"
+#include "tools/scene/materials/read_material.hpp"
 
 namespace test_yield_table
 {

@@ -10,7 +10,7 @@
 #include "tests/tools/background_program.hpp"
 #include "tests/tools/program.hpp"
 #include "tests/tools/scene/small_scene.hpp"
-#include "tools/scene/input_file.hpp"
+#include "tools/scene/files/input_file.hpp"
 
 namespace test_study_command
 {

@@ -9,8 +9,8 @@
 #include <sstream>
 
 #include "components/errors.hpp"
-#include "tools/scene/csv_table.hpp"
-#include "tools/scene/input_file.hpp"
+#include "tools/scene/files/input_file.hpp"
+#include "tools/scene/tables/csv_table.hpp"
 
 namespace tamp::tools
 {

@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "tools/run/modulus/modulus_timing.hpp"
-#include "tools/scene/csv_table.hpp"
+#include "tools/scene/tables/csv_table.hpp"
 #include "tools/system/processor_time.hpp"
 #include "tools/system/statistics.hpp"
 

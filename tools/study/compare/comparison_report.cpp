@@ -7,7 +7,7 @@
 #include <cmath>
 #include <limits>
 
-#include "tools/scene/csv_text.hpp"
+#include "tools/scene/tables/csv_text.hpp"
 #include "tools/system/usable_cores.hpp"
 #include "tools/system/version.hpp"
 

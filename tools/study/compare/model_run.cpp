@@ -8,7 +8,7 @@
 
 #include "runtime/storage/whole_file.hpp"
 #include "tasks/simulation_error.hpp"
-#include "tools/scene/print_json.hpp"
+#include "tools/scene/json/print_json.hpp"
 
 namespace tamp::tools::compare
 {

@@ -7,9 +7,9 @@
 
 #include "runtime/file_error.hpp"
 #include "runtime/storage/whole_file.hpp"
-#include "tools/scene/output_file.hpp"
-#include "tools/scene/parse_json.hpp"
-#include "tools/scene/print_json.hpp"
+#include "tools/scene/files/output_file.hpp"
+#include "tools/scene/json/parse_json.hpp"
+#include "tools/scene/json/print_json.hpp"
 #include "tools/study/limit/limit_report.hpp"
 #include "tools/study/measurement.hpp"
 #include "tools/study/quantities.hpp"

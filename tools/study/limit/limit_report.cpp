@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-#include "tools/scene/csv_text.hpp"
+#include "tools/scene/tables/csv_text.hpp"
 #include "tools/system/machine.hpp"
 #include "tools/system/version.hpp"
 

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "tools/scene/parse_json.hpp"
+#include "tools/scene/json/parse_json.hpp"
 #include "tools/study/points.hpp"
 
 namespace tamp::tools::study

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "tools/scene/json_reader.hpp"
+#include "tools/scene/json/json_reader.hpp"
 #include "tools/study/study.hpp"
 #include "tools/study/study_keys.hpp"
 

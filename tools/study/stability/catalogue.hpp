@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "tools/scene/document.hpp"
+#include "tools/scene/json/document.hpp"
 #include "tools/study/study.hpp"
 
 /// The failure catalogue: what was told of methods, and whether they did it.

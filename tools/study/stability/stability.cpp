@@ -5,9 +5,9 @@
 
 #include "runtime/storage/whole_file.hpp"
 #include "tasks/simulation_error.hpp"
-#include "tools/scene/input_file.hpp"
-#include "tools/scene/output_file.hpp"
-#include "tools/scene/print_json.hpp"
+#include "tools/scene/files/input_file.hpp"
+#include "tools/scene/files/output_file.hpp"
+#include "tools/scene/json/print_json.hpp"
 #include "tools/study/stability/catalogue.hpp"
 #include "tools/system/console.hpp"
 #include "tools/system/machine.hpp"

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "tools/scene/document.hpp"
+#include "tools/scene/json/document.hpp"
 
 /// Results of a verification, as tables for people.
 namespace tamp::tools::verify

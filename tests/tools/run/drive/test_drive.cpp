@@ -9,7 +9,7 @@
 #include "tests/components/materials/random_paths.hpp"
 #include "tools/run/drive/columns.hpp"
 #include "tools/run/drive/drive_costs.hpp"
-#include "tools/scene/read_material.hpp"
+#include "tools/scene/materials/read_material.hpp"
 
 namespace test_drive
 {

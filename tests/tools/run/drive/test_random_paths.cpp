@@ -3,7 +3,7 @@
 #include <catch2/catch.hpp>
 
 #include "tests/components/materials/random_paths.hpp"
-#include "tools/scene/read_material.hpp"
+#include "tools/scene/materials/read_material.hpp"
 
 namespace test_random_paths
 {
