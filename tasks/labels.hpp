@@ -11,8 +11,8 @@
 #include "components/tensors.hpp"
 #include "runtime/data/label.hpp"
 #include "tasks/energy_ledger.hpp"
+#include "tasks/occurrences.hpp"
 #include "tasks/rigid_body.hpp"
-#include "tasks/sightings.hpp"
 #include "tasks/step_totals.hpp"
 
 /// Every field of the method, by where it lives. SI units, tension positive unless the name says otherwise; in plane
@@ -149,7 +149,7 @@ inline const runtime::GlobalLabel<EnergyLedger, "energy ledger"> energy_ledger;
 /// The longest next step that is stable, before the multiplier [s].
 inline const runtime::GlobalLabel<double, "longest step"> longest_step;
 /// Tries of steps that were refused, since the start.
-inline const runtime::GlobalLabel<Sightings, "refused steps"> refused_steps;
+inline const runtime::GlobalLabel<Occurrences, "refused steps"> refused_steps;
 
 /// Where rigid bodies are and how they move; like the velocities of particles, their momenta are half a step behind.
 inline const runtime::GlobalLabel<RigidStates, "rigid states"> rigid_states;

@@ -4,7 +4,7 @@
 #include <tuple>
 
 #include "runtime/data/label.hpp"
-#include "tasks/sightings.hpp"
+#include "tasks/occurrences.hpp"
 #include "tasks/step_totals.hpp"
 
 /// What a run looks at, every so many steps, to say how far it can be trusted.
@@ -89,7 +89,7 @@ struct SampledShare {
   Share all;
   double greatest = 0;
   /// Of samples above the scene's limit.
-  Sightings above;
+  Occurrences above;
 
   void add(const Share& share, double limit, std::int64_t n_steps, double time, const ParticlePlace& place = {});
 };
@@ -99,7 +99,7 @@ struct SampledShare {
 struct BorneShare {
   Share greatest;
   /// Of samples in which the part bears more than the scene's limit of the most so far.
-  Sightings above;
+  Occurrences above;
 
   void add(const Share& sample, double limit, std::int64_t n_steps, double time, const ParticlePlace& place);
 };
@@ -120,12 +120,12 @@ struct MonitorRecords {
   BorneShare looser_than_tested;
   double greatest_load = 0;  ///< Load::pressure [Pa]
   /// Samples in which the share since the start was above its limit.
-  Sightings missed_substeps, out_of_range;
+  Occurrences missed_substeps, out_of_range;
 };
 
 /// Kinetic energy of deformable particles in a step, and that of what no node sees of their motion,
 /// v_p - sum S_ip v_i [J]; in steps that are sampled.
-inline const runtime::ReductionLabel<Share, "unseen motion"> unseen_motion;
+inline const runtime::ReductionLabel<Share, "motion in the null space"> null_space_motion;
 inline const runtime::ReductionLabel<StateSample, "state sample"> state_sample;
 inline const runtime::ReductionLabel<SwollenSample, "swollen sample"> swollen_sample;
 inline const runtime::ReductionLabel<ContactSample, "contact sample"> contact_sample;

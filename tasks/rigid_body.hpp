@@ -103,7 +103,7 @@ components::RigidState at_rest_across_mirrors(const RigidBody& body, const compo
 /// Do the nodes that a particle at `x` reaches lie within the grid, whose edges nothing is known to hold, but for the
 /// `touchable` ones? `reach` is how far it reaches in cells.
 template <int D>
-bool is_off_edges(const runtime::Grid& grid, double reach, const Sides& touchable, const Vector<D>& x)
+bool is_clear_of_edges(const runtime::Grid& grid, double reach, const Sides& touchable, const Vector<D>& x)
 {
   const double distance = reach * grid.cell_size;
   for (int k = 0; k < D; ++k) {

@@ -130,7 +130,7 @@ void Simulation::sample_state()
   const StateSample& sample = warehouse().result(state_sample);
   const SceneLimits& limits = scene_.limits;
   MonitorRecords& records = warehouse().global_state(monitor_records);
-  Share unseen = warehouse().result(unseen_motion);
+  Share unseen = warehouse().result(null_space_motion);
   unseen.whole += std::max(0.0, energies().elastic);
   records.null_space.add(unseen, limits.null_space, n_steps(), time());
   records.uneven_pressure.add(sample.uneven_pressure, limits.uneven_pressure, n_steps(), time());

@@ -80,7 +80,7 @@ class Simulation
   const LostParticles& lost() const { return warehouse().total(lost_particles); }
 
   /// Tries of steps that were refused since the start.
-  const Sightings& refused() const { return warehouse().global_state(refused_steps); }
+  const Occurrences& refused() const { return warehouse().global_state(refused_steps); }
 
   /// Of the samples since the start, one every so many steps of the scene.
   const MonitorRecords& monitors() const { return warehouse().global_state(monitor_records); }
@@ -103,7 +103,6 @@ class Simulation
   virtual runtime::FieldCopy fields(const FieldChoice& choice, bool with_nodes) = 0;
   /// All fields, this rank's part, valid until they are asked for again.
   std::vector<runtime::ParticleBlock> particle_columns() { return (particles_ = fields({}, false)).particles; }
-  runtime::NodeBlock node_columns() { return (nodes_ = fields({}, true)).nodes.value(); }
   /// A hash of every particle's state in the order of their ids, for all materials; 16 hexadecimal digits.
   std::string digest();
 
@@ -137,7 +136,6 @@ class Simulation
 
   /// Last asked for.
   runtime::FieldCopy particles_;
-  runtime::FieldCopy nodes_;
 };
 
 }  // namespace tamp::tasks

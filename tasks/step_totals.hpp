@@ -14,7 +14,7 @@
 #include "components/materials/state_columns.hpp"
 #include "runtime/data/combine.hpp"
 #include "runtime/data/views.hpp"
-#include "tasks/sightings.hpp"
+#include "tasks/occurrences.hpp"
 
 namespace tamp::tasks
 {

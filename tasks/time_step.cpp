@@ -47,13 +47,13 @@ template <int D>
 runtime::TaskList time_step(const Method<D>& method)
 {
   // Where particles deform by other velocities, what they bring of these tells the masses too.
-  const bool tells_masses = method.stress_timing == StressTiming::usl;
+  const bool computes_inverse_mass = method.stress_timing == StressTiming::usl;
   const std::initializer_list<Phase> phases{{"stress", update_stress_first(method)},
                                             {"stress", share_stress(method)},
                                             {"particles to grid", particles_to_grid(method)},
                                             {"loads", press(method)},
                                             {"loads", body_force(method)},
-                                            {"motion of nodes", accelerate_nodes(method, tells_masses)},
+                                            {"motion of nodes", accelerate_nodes(method, computes_inverse_mass)},
                                             {"rigid bodies", accelerate_rigid_bodies(method)},
                                             {"rigid bodies", rigid_nodes_before_contact(method)},
                                             {"contact", contact_planes(method)},
@@ -104,7 +104,7 @@ runtime::HostData host_data(const Method<D>& method)
                           &refused_steps,
                           &monitor_records},
                          {}};
-  if (!method.deformable_materials.empty()) data.results.push_back(&unseen_motion);
+  if (!method.deformable_materials.empty()) data.results.push_back(&null_space_motion);
   for (const SceneMaterial& material : method.materials) add_state_of(material.model, data);
   if (method.scene.is_periodic()) data.state.push_back(&particle::laps);
   if (method.axisymmetric) data.state.push_back(&particle::hoop_stretch);

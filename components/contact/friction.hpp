@@ -24,19 +24,11 @@ struct ContactThresholds {
   double surface_gradient = 0;
 };
 
-/// Effect of contact at one node.
-struct ContactOutcome {
-  /// Kinetic energy lost, to friction and to the impact itself [J]; never below 0.
-  double dissipated_energy = 0;
-  /// The fastest approach of two materials along their normal before their impulse [m/s]; 0 if none approach.
-  double approach_speed = 0;
-};
-
 /// The impulse on b, and so minus the impulse on a, with which two materials meet.
 template <int D>
 struct ContactImpulse {
   Vector<D> on_second = Vector<D>::Zero();
-  double dissipated_energy = 0;
+  /// Along the normal, before the impulse [m/s]; 0 where they do not approach.
   double approach_speed = 0;
 };
 
@@ -59,9 +51,6 @@ ContactImpulse<D> collide(double mass_a, double mass_b, const Vector<D>& normal,
 
   ContactImpulse<D> impulse;
   impulse.on_second = reduced_mass * (approach * normal + held * sliding);
-  // The impulse times the mean of the relative velocities before and after it; each term is 0 or above.
-  impulse.dissipated_energy =
-      0.5 * reduced_mass * (approach * approach + held * (2 - held) * sliding_speed * sliding_speed);
   impulse.approach_speed = approach;
   velocity_a -= impulse.on_second / mass_a;
   velocity_b += impulse.on_second / mass_b;
@@ -105,11 +94,12 @@ std::optional<Vector<D>> normal_at(const ContactTable& table, int a, int b, cons
 /// Pairs a < b are resolved one after another, in that order, each with the velocities that the pairs before it left:
 /// with three or more materials a later pair may leave an earlier one with some approach, which the next step ends. A
 /// pair is left alone, sliding and all, where one of its masses is not above the threshold, or without a normal.
+/// Returns the fastest approach of a pair [m/s]; 0 if none approach.
 template <int D>
-ContactOutcome resolve_contact(std::span<const double> mass, const NodeSurfaces<D>& surfaces, const ContactTable& table,
-                               const ContactThresholds& thresholds, std::span<Vector<D>> velocity)
+double resolve_contact(std::span<const double> mass, const NodeSurfaces<D>& surfaces, const ContactTable& table,
+                       const ContactThresholds& thresholds, std::span<Vector<D>> velocity)
 {
-  ContactOutcome outcome;
+  double approach_speed = 0;
   for (std::size_t a = 0; a < mass.size(); ++a) {
     if (!(mass[a] > thresholds.mass)) continue;
     for (std::size_t b = a + 1; b < mass.size(); ++b) {
@@ -119,11 +109,10 @@ ContactOutcome resolve_contact(std::span<const double> mass, const NodeSurfaces<
       if (!normal) continue;
       const ContactImpulse<D> impulse =
           collide<D>(mass[a], mass[b], *normal, table.friction(first, second), velocity[a], velocity[b]);
-      outcome.dissipated_energy += impulse.dissipated_energy;
-      outcome.approach_speed = std::max(outcome.approach_speed, impulse.approach_speed);
+      approach_speed = std::max(approach_speed, impulse.approach_speed);
     }
   }
-  return outcome;
+  return approach_speed;
 }
 
 }  // namespace tamp::components

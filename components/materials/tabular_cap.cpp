@@ -176,9 +176,9 @@ class CapBatch
   {
     for (std::size_t first = 0; first < batch_.stress.size(); first += tile_.size) {
       const std::size_t n = std::min(tile_.size, batch_.stress.size() - first);
-      for (std::size_t i = 0; i < n; i += n_lanes) take_in(first, i, std::min(n_lanes, n - i));
+      for (std::size_t i = 0; i < n; i += n_lanes) load_lanes(first, i, std::min(n_lanes, n - i));
       tile_.advance();
-      for (std::size_t i = 0; i < n; i += n_lanes) give_back(first, i, std::min(n_lanes, n - i));
+      for (std::size_t i = 0; i < n; i += n_lanes) store_lanes(first, i, std::min(n_lanes, n - i));
     }
     counts.add(counts_);
     counts.add(integrator_.counts());
@@ -189,7 +189,7 @@ class CapBatch
   using Tensors = SymmetricTensor<D, Lanes>;
 
   /// The n particles from number `i` of the tile on, which begins with particle `first`.
-  void take_in(std::size_t first, std::size_t i, std::size_t n)
+  void load_lanes(std::size_t first, std::size_t i, std::size_t n)
   {
     const std::size_t begin = first + i;
     const Parted parted = parted_of(begin, n);
@@ -257,7 +257,7 @@ class CapBatch
                : model_.rate_modulus(at.pressure, at.elastic_volumetric, at.plastic_volumetric);
   }
 
-  void give_back(std::size_t first, std::size_t i, std::size_t n)
+  void store_lanes(std::size_t first, std::size_t i, std::size_t n)
   {
     const std::size_t begin = first + i;
     const auto [now, error] = tile_.lanes_at(i);

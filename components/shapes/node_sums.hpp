@@ -51,7 +51,6 @@ struct NodeSums : NodeValues<D, D == 2 ? 8 : 12, 1, 4, 4 + D> {
   double mass() const { return this->values[0]; }
   /// sum m_p v_p S_ip [kg m/s]
   Vector<D> momentum() const { return this->vector(1); }
-  void add_momentum(const Vector<D>& momentum) { this->set_vector(1, this->vector(1) + momentum); }
   /// -sum V_p (sigma_p - q_p I) . grad S_ip [N], and what loads on the particles add to it.
   Vector<D> internal_force() const { return this->vector(at_force); }
   void add_force(const Vector<D>& force) { this->set_vector(at_force, internal_force() + force); }

@@ -152,7 +152,7 @@ void reserve_room(const std::filesystem::path& file, std::int64_t n_bytes)
   throw FileError(file.string(), std::string(std::strerror(cause)) + (left_as_it_was ? "" : ", and is now damaged"));
 }
 
-void give_back_room(const std::filesystem::path& file, std::uintmax_t size)
+void release_room(const std::filesystem::path& file, std::uintmax_t size)
 {
   std::error_code error;
   const std::uintmax_t now = std::filesystem::file_size(file, error);

@@ -66,6 +66,6 @@ void publish_file(const std::filesystem::path& part, const std::filesystem::path
 void reserve_room(const std::filesystem::path& file, std::int64_t n_bytes);
 
 /// Cuts a file to the `size` that is in use of it, unless it is shorter. Throws FileError.
-void give_back_room(const std::filesystem::path& file, std::uintmax_t size);
+void release_room(const std::filesystem::path& file, std::uintmax_t size);
 
 }  // namespace tamp::runtime

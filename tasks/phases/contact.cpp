@@ -37,12 +37,12 @@ struct NodeImpulses {
   }
 };
 
-/// Hands on the velocities after the impulses, at the node `i` at `x`; a rigid body's stays, and it takes what the
+/// Gives the node `i` at `x` its velocities after the impulses; a rigid body's stays, and it takes what the
 /// others together gave.
 template <int D>
-NodeImpulses<D> give_back(const Method<D>& method, const NodeOfMaterials<D>& node, const RigidBody* rigid,
-                          const RigidStates& at_step_start, const PerGroup<GridView<const NodeSums<D>>>& sums,
-                          const PerGroup<GridView<NodeMotion<D>>>& motions, const Index& i, const Vector<D>& x)
+NodeImpulses<D> write_back(const Method<D>& method, const NodeOfMaterials<D>& node, const RigidBody* rigid,
+                           const RigidStates& at_step_start, const PerGroup<GridView<const NodeSums<D>>>& sums,
+                           const PerGroup<GridView<NodeMotion<D>>>& motions, const Index& i, const Vector<D>& x)
 {
   const auto at_start = [&](std::size_t g) { return Vector<D>(sums[g][i].momentum() / sums[g][i].mass()); };
   NodeImpulses<D> done;
@@ -108,19 +108,19 @@ runtime::TaskList contact(const Method<D>& method)
                   if (rigid != nullptr) {
                     node.mass[static_cast<std::size_t>(rigid->material)] = std::numeric_limits<double>::infinity();
                   }
-                  const auto outcome = components::resolve_contact<D>(std::span(node.mass.data(), n_groups),
-                                                                      node.surfaces(), method.contacts, thresholds,
-                                                                      std::span(node.velocity.data(), n_groups));
-                  if (outcome.approach_speed == 0) return;
+                  const double approach_speed = components::resolve_contact<D>(
+                      std::span(node.mass.data(), n_groups), node.surfaces(), method.contacts, thresholds,
+                      std::span(node.velocity.data(), n_groups));
+                  if (approach_speed == 0) return;
                   const Vector<D> x = node_position<D>(at.layout.grid(), i);
-                  const NodeImpulses<D> done = give_back(method, node, rigid, at_step_start, sums, motions, i, x);
+                  const NodeImpulses<D> done = write_back(method, node, rigid, at_step_start, sums, motions, i, x);
                   // Nodes on a seam are worked on by every patch around it, and counted by one.
                   if (!counted.contains(i)) return;
                   totals.contact += done.energy;
                   add_impulses(method, node, at_step_start, done, x, impulses);
                   if (method.time_step_rule == StepRule::viscous) {
-                    totals.stable_step = std::min(
-                        totals.stable_step, components::contact_time_step(method.cell_size, outcome.approach_speed));
+                    totals.stable_step =
+                        std::min(totals.stable_step, components::contact_time_step(method.cell_size, approach_speed));
                   }
                 });
               })};

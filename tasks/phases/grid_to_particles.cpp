@@ -68,11 +68,11 @@ void add_filtered_momentum(const Data& data, std::size_t first, Motions<D> motio
 
 /// Adds the motion of particles, and what of it the nodes do not see.
 template <int D, class Data>
-void add_unseen(const Data& data, std::size_t first, Motions<D> motion)
+void add_null_space(const Data& data, std::size_t first, Motions<D> motion)
 {
   const auto mass = data[particle::mass.previous()];
   const auto velocity = data[particle::velocity<D>];
-  Share& sum = data[unseen_motion];
+  Share& sum = data[null_space_motion];
   for (std::size_t i = 0; i < motion.size(); ++i) {
     const std::size_t p = first + i;
     sum.whole += 0.5 * mass[p] * velocity[p].squaredNorm();
@@ -129,7 +129,7 @@ runtime::TaskList grid_to_particles(const Method<D>& method)
                   .computes(particle::position<D>, particle::velocity<D>,
                             particle::velocity_gradient<D>.when(method.brings_gradients()),
                             particle::velocity_moment<D>.when(method.brings_moments()))
-                  .reduces(grid_totals, unseen_motion);
+                  .reduces(grid_totals, null_space_motion);
   return {deforming(method, std::move(task), deforms).body([=, &method](const TaskContext& at, auto data) {
     const auto nodes = data[node::motion<D>];
     const auto terms = data[node::velocity_terms<D>];
@@ -156,7 +156,7 @@ runtime::TaskList grid_to_particles(const Method<D>& method)
       data[grid_totals].gained_by_particles += gained<D>(data, first, size);
       count_gravity<D>(method, at.step.size, data, first, size);
       if (filters) add_filtered_momentum<D>(data, first, motion);
-      if (is_sampled) add_unseen<D>(data, first, motion);
+      if (is_sampled) add_null_space<D>(data, first, motion);
       if (deforms) take_gradients<D>(method, at, data, block, nodes.data(), inverse_mass, first, motion);
     }
   })};

@@ -138,7 +138,7 @@ runtime::TaskDeclaration move_particles(const Method<D>& method, int material)
             add_gravity_work<D>(method, at.step.size, mass[p], before(reference[p]), position[p], velocity[p],
                                 of_gravity);
           }
-          if (!is_off_edges<D>(at.layout.grid(), method.scene.reach_of(at.group), body.touchable, position[p])) {
+          if (!is_clear_of_edges<D>(at.layout.grid(), method.scene.reach_of(at.group), body.touchable, position[p])) {
             throw SimulationError("a rigid body reaches the edge of the domain, where nothing is known to hold it",
                                   method.materials[static_cast<std::size_t>(at.group)].name, id[p],
                                   {position[p].begin(), position[p].end()});

@@ -31,7 +31,7 @@ runtime::TaskList work_of_body_force(const Method<D>& method);
 /// Nodes of deformable materials are accelerated by their forces, gravity and what the turning of the frame adds. The
 /// inverses of their masses are for those who ask.
 template <int D>
-runtime::TaskList accelerate_nodes(const Method<D>& method, bool tells_masses);
+runtime::TaskList accelerate_nodes(const Method<D>& method, bool computes_inverse_mass);
 
 /// Rigid bodies are accelerated by gravity and what the turning of the frame adds.
 template <int D>

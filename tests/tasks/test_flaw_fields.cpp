@@ -86,7 +86,7 @@ TEST_CASE(
   advance_to(*simulation, 2e-4);
 
   const auto out = numbers_of(*simulation, "out_of_range"), p = numbers_of(*simulation, "p");
-  const Sightings& seen = simulation->monitors().out_of_range;
+  const Occurrences& seen = simulation->monitors().out_of_range;
   CHECK(sum(out) > 0);
   CHECK(sum(out) < 0.75 * static_cast<double>(out.size()));
   for (std::size_t i = 0; i < out.size(); ++i) {

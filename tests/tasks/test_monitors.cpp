@@ -91,7 +91,7 @@ TEST_CASE("a share beyond its limit is counted in each sample, with the first")
   scene.bodies[0].functions.velocity = [](const Vector<3>& x) { return Vector<3>(noise(x), 0, 0); };
   const auto simulation = Simulation::make(scene, 1);
 
-  const Sightings& above = records_after(*simulation, 22).null_space.above;
+  const Occurrences& above = records_after(*simulation, 22).null_space.above;
 
   CHECK(above.count == 4);
   CHECK(above.first_step == 5);

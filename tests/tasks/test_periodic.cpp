@@ -177,7 +177,8 @@ TEST_CASE("the field of nodes shows the nodes of both ends of a periodic domain,
 
   advance_to(*simulation, 0.08);
 
-  const runtime::NodeBlock block = simulation->node_columns();
+  const runtime::FieldCopy fields = simulation->fields({}, true);
+  const runtime::NodeBlock& block = fields.nodes.value();
   const auto density = numbers_of(block.columns, "density"), velocity = numbers_of(block.columns, "velocity");
   std::array<std::array<double, 3>, 5> first{}, last{};
   int n_nodes = 0;

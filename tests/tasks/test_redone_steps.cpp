@@ -56,7 +56,7 @@ TEST_CASE("a step that goes wrong is taken in shorter ones")
 
   simulation->advance(1e30);
 
-  const Sightings& refused = simulation->refused();
+  const Occurrences& refused = simulation->refused();
   CHECK(refused.count > 0);
   CHECK(refused.first_step == 0);
   CHECK(refused.first_time == 0);

@@ -113,9 +113,10 @@ TEST_CASE("the particles of a rigid disk on rings stay sectors of it, whatever t
   disk.rigid = true;
   disk.functions.layout = components::PolarLayout{{0.6, 0.6}, 0, 0.3};
   const auto density_of_nodes = [](Simulation& simulation) {
-    const auto nodes = simulation.node_columns();
-    const auto values = std::get<std::span<const double>>(nodes.columns.front().values);
-    REQUIRE(nodes.columns.front().name == "density");
+    const runtime::FieldCopy fields = simulation.fields({}, true);
+    const runtime::Column& density = fields.nodes->columns.front();
+    REQUIRE(density.name == "density");
+    const auto values = std::get<std::span<const double>>(density.values);
     return std::vector<double>(values.begin(), values.end());
   };
   const auto simulation = Simulation::make(scene, 1);

@@ -32,9 +32,9 @@ std::unique_ptr<Simulation> on_all_ranks(const Scene& scene)
 /// Mass and momentum that the nodes of all ranks show.
 Eigen::Vector3d shown_by_nodes(Simulation& simulation)
 {
-  const runtime::NodeBlock nodes = simulation.node_columns();
-  const auto density = std::get<std::span<const double>>(nodes.columns[0].values);
-  const auto velocity = std::get<std::span<const double>>(nodes.columns[1].values);
+  const runtime::FieldCopy fields = simulation.fields({}, true);
+  const auto density = std::get<std::span<const double>>(fields.nodes->columns[0].values);
+  const auto velocity = std::get<std::span<const double>>(fields.nodes->columns[1].values);
   std::array<double, 3> own{};
   for (std::size_t i = 0; i < density.size(); ++i) {
     const double mass = density[i] * h * h;
@@ -143,7 +143,7 @@ TEST_CASE("a rank is heard when all of its patches are empty", "[ranks]")
   const runtime::Communicator& all = simulation->communicator();
   advance_to(*simulation, 0.5);
   REQUIRE(simulation->n_particles(0) == 0);
-  const auto n_boxes = all.gather_value(simulation->node_columns().boxes->size());
+  const auto n_boxes = all.gather_value(simulation->fields({}, true).nodes->boxes->size());
 
   for (int speaker = 0; speaker < all.size(); ++speaker) {
     // A rank may have no patch at all.

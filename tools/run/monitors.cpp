@@ -27,7 +27,7 @@ std::vector<Monitor> of_steps(const tasks::Simulation& simulation)
 {
   const tasks::SceneLimits& limits = simulation.scene().limits;
   const components::UpdateCounts& updates = simulation.updates();
-  const tasks::Sightings& refused = simulation.refused();
+  const tasks::Occurrences& refused = simulation.refused();
   const tasks::MonitorRecords& seen = simulation.monitors();
   return {
       {"redone_steps", number(refused.count), ratio(number(refused.count), number(simulation.n_steps())),
@@ -143,7 +143,7 @@ const std::string& material_name(const tasks::Scene& scene, int material)
   return scene.materials[static_cast<std::size_t>(material)].name;
 }
 
-nlohmann::ordered_json first_of(const tasks::Sightings& seen, const tasks::Scene& scene)
+nlohmann::ordered_json first_of(const tasks::Occurrences& seen, const tasks::Scene& scene)
 {
   if (seen.first_step < 0) return nullptr;
   nlohmann::ordered_json json{{"after_step", seen.first_step}, {"time_s", seen.first_time}};
@@ -159,7 +159,7 @@ nlohmann::ordered_json first_of(const tasks::Sightings& seen, const tasks::Scene
   return json;
 }
 
-std::string place_of_first(const tasks::Sightings& seen, const tasks::Scene& scene)
+std::string place_of_first(const tasks::Occurrences& seen, const tasks::Scene& scene)
 {
   if (seen.first_step < 0) return "";
   std::string words = fmt::format(", first after step {}, time {:.4g} s", seen.first_step, seen.first_time);

@@ -20,7 +20,7 @@ struct Monitor {
   /// What is held against the limit.
   double share = 0;
   double limit = 0;
-  tasks::Sightings first;
+  tasks::Occurrences first;
   /// What it means and what helps, for a share beyond the limit.
   std::string words;
   /// Whether the share is a factor, of which 1 is the best, and not a part.

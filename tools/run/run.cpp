@@ -133,7 +133,7 @@ class Runner
     } catch (const runtime::FileError& error) {
       output_.settle();
       leave_summary(error.what());
-      throw runtime::FileError(error.file, error.cause + way_on());
+      throw runtime::FileError(error.file, error.cause + how_to_go_on());
     }
     if (lost_output_) throw runtime::FileError(*lost_output_);
   }
@@ -199,20 +199,20 @@ class Runner
   {
     const auto found = checkpoint_to_restart(options_.folder, checked_, options_.communicator);
     const std::vector<std::byte> own = simulation_->engine().restart(found);
-    if (own.size() != sizeof(due_)) {
+    if (own.size() != sizeof(scheduled_)) {
       throw InputError({found.file.string(), "a checkpoint of another version of tamp",
                         "expected one that this version has written"});
     }
-    runtime::ByteReader(own).read(due_);
-    written_ = due_;
+    runtime::ByteReader(own).read(scheduled_);
+    written_ = scheduled_;
     restarted_at_ = simulation_->n_steps();
-    warn(history_.resume(options_.folder, due_.history, due_.rows));
-    machine_history_.resume(options_.folder, due_.history);
-    warn(output_.resume(due_.fields, due_.n_fields));
-    due_.rows = history_.extent();
-    due_.n_fields = output_.n_fields_at_start();
-    history_.set_largest(due_.largest);
-    history_.set_balances_above(due_.balances_above);
+    warn(history_.resume(options_.folder, scheduled_.history, scheduled_.rows));
+    machine_history_.resume(options_.folder, scheduled_.history);
+    warn(output_.resume(scheduled_.fields, scheduled_.n_fields));
+    scheduled_.rows = history_.extent();
+    scheduled_.n_fields = output_.n_fields_at_start();
+    history_.set_largest(scheduled_.largest);
+    history_.set_balances_above(scheduled_.balances_above);
     history_times_.skip_to(simulation_->time());
     field_times_.skip_to(simulation_->time());
     checkpoint_clock_.skip_to(simulation_->time());
@@ -258,13 +258,13 @@ class Runner
   {
     if (history_times_.due(simulation_->time())) {
       write_history();
-      due_.history = simulation_->n_steps();
-      due_.rows = history_.extent();
+      scheduled_.history = simulation_->n_steps();
+      scheduled_.rows = history_.extent();
     }
     if (field_times_.due(simulation_->time())) {
       write_fields();
-      due_.fields = simulation_->n_steps();
-      ++due_.n_fields;
+      scheduled_.fields = simulation_->n_steps();
+      ++scheduled_.n_fields;
     }
   }
 
@@ -340,10 +340,10 @@ class Runner
   void write_checkpoint_now()
   {
     expect_own_folder();
-    due_.largest = history_.largest();
-    due_.balances_above = history_.balances_above();
+    scheduled_.largest = history_.largest();
+    scheduled_.balances_above = history_.balances_above();
     runtime::ByteWriter own;
-    own.add(due_);
+    own.add(scheduled_);
     output_.write_checkpoint(fingerprint(checked_), own.bytes());
     checkpoint_clock_.written();
   }
@@ -408,12 +408,12 @@ class Runner
     // From a good state shorter steps may lead further.
     const std::string shorter =
         state_is_good_ ? fmt::format(" --set /time/multiplier={:.3g}", checked_.scene.time.multiplier / 2) : "";
-    throw tasks::SimulationError(reason + way_on(shorter), error.material, -1, {});
+    throw tasks::SimulationError(reason + how_to_go_on(shorter), error.material, -1, {});
   }
 
   /// After a failure, a line with the command that goes on from the newest checkpoint, with more settings; nothing if
   /// there is none.
-  std::string way_on(const std::string& settings = "") const
+  std::string how_to_go_on(const std::string& settings = "") const
   {
     const auto step = newest_step(options_.folder);
     if (!step || options_.command_to_go_on.empty()) return "";
@@ -511,8 +511,8 @@ class Runner
   OutputTimes history_times_;
   CheckpointClock checkpoint_clock_;
   double end_;
-  /// Written because it was due: what a stopped run wrote later, it wrote as it left.
-  Outputs due_;
+  /// The last that were written on schedule; what a run writes as it stops counts among `written_` alone.
+  Outputs scheduled_;
   Outputs written_;
   long restarted_at_ = -1;
   bool state_is_good_ = true;

@@ -348,7 +348,7 @@ void RunHistory::look_at_balances()
 {
   const BalanceShares now = balances();
   const tasks::SceneLimits& limits = simulation_.scene().limits;
-  const auto look = [&](double share, double limit, tasks::Sightings& above) {
+  const auto look = [&](double share, double limit, tasks::Occurrences& above) {
     if (share > limit) above.add(simulation_.n_steps(), simulation_.time());
   };
   look(now.energy_drift, limits.energy_drift, balances_above_.energy_drift);

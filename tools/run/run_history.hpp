@@ -49,7 +49,7 @@ struct BalanceShares {
 
 /// Rows of the history in which such a part was above its limit.
 struct BalanceSightings {
-  tasks::Sightings energy_drift, momentum_error, filtered_energy, damped_energy, lost_mass;
+  tasks::Occurrences energy_drift, momentum_error, filtered_energy, damped_energy, lost_mass;
 };
 
 /// Follows a simulation from its start: energies, momentum, the motion of bodies, the peaks of materials.

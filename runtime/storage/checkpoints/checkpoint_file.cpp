@@ -98,7 +98,7 @@ void write_checkpoint_file(const std::filesystem::path& file, const CheckpointCo
   opened.agree();
   opened.flush();
   opened.close();
-  on_first_rank(communicator, [&] { give_back_room(file, hdf5::used_size(file)); });
+  on_first_rank(communicator, [&] { release_room(file, hdf5::used_size(file)); });
   seal(file, communicator);
 }
 

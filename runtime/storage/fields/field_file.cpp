@@ -140,7 +140,7 @@ void FieldFile::write_step(std::int64_t step, double time, std::span<const Parti
   const std::size_t n = communicator_.sum(n_listed(steps_));
   XdmfStep written = add_step(hdf5_file_, step, time, particles, nodes, n, communicator_);
   on_first_rank(communicator_, [&] {
-    give_back_room(hdf5_file_, hdf5::used_size(hdf5_file_));
+    release_room(hdf5_file_, hdf5::used_size(hdf5_file_));
     state_ = state_of(hdf5_file_);
     steps_.push_back(std::move(written));
     write_xdmf();

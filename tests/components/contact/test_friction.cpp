@@ -25,7 +25,7 @@ struct Node {
   std::vector<Vector<D>> surface_gradient;
   std::vector<ContactFace<D>> face{};
 
-  ContactOutcome resolve(const ContactTable& friction, const ContactThresholds& thresholds = {})
+  double resolve(const ContactTable& friction, const ContactThresholds& thresholds = {})
   {
     return resolve_contact<D>(mass, {surface_gradient, face}, friction, thresholds, velocity);
   }
@@ -83,26 +83,28 @@ TEST_CASE("bodies that meet without friction lose their approach and keep their 
 {
   Node<2> node = body_on_body(4, 10);
 
-  const auto outcome = node.resolve(ContactTable(2, 0));
+  const double energy = node.kinetic_energy(), approach_speed = node.resolve(ContactTable(2, 0));
 
   // Momentum down is 2 * 10; together 5 kg go down at 4 m/s.
   CHECK(node.velocity[0].isApprox(Vector<2>(4, -4), 1e-15));
   CHECK(node.velocity[1].isApprox(Vector<2>(0, -4), 1e-15));
-  CHECK(outcome.approach_speed == Approx(10));
-  CHECK(outcome.dissipated_energy == Approx(0.5 * 1.2 * 100));
+  CHECK(approach_speed == Approx(10));
+  // Half the reduced mass times the square of the approach.
+  CHECK(energy - node.kinetic_energy() == Approx(0.5 * 1.2 * 100));
 }
 
 TEST_CASE("sliding above the Coulomb limit loses friction times the normal impulse")
 {
   Node<2> node = body_on_body(4, 10);
 
-  const auto outcome = node.resolve(ContactTable(2, 0.25));
+  const double energy = node.kinetic_energy();
+  node.resolve(ContactTable(2, 0.25));
 
   // Reduced mass 1.2 kg: normal impulse 12 N s, tangential 3 N s.
   CHECK(node.velocity[0].isApprox(Vector<2>(4 - 3 / 2.0, -10 + 12 / 2.0), 1e-14));
   CHECK(node.velocity[1].isApprox(Vector<2>(3 / 3.0, -12 / 3.0), 1e-14));
   // Friction works over the mean sliding speed, (4 + 1.5) / 2.
-  CHECK(outcome.dissipated_energy == Approx(60 + 3 * 2.75));
+  CHECK(energy - node.kinetic_energy() == Approx(60 + 3 * 2.75));
 }
 
 TEST_CASE("below the Coulomb limit the bodies stick")
@@ -131,11 +133,10 @@ TEST_CASE("bodies that part or rest on each other feel nothing, not even frictio
     Node<2> node = body_on_body(4, down);
     const auto before = node.velocity;
 
-    const auto outcome = node.resolve(ContactTable(2, friction));
+    const double approach_speed = node.resolve(ContactTable(2, friction));
 
     CHECK(node.velocity == before);
-    CHECK(outcome.dissipated_energy == 0);
-    CHECK(outcome.approach_speed == 0);
+    CHECK(approach_speed == 0);
   }
 }
 
@@ -151,7 +152,7 @@ TEST_CASE("a body of infinite mass stops the other and keeps its velocity")
   CHECK(impulse.on_second.isApprox(Vector<3>(0, 0, -18), 1e-15));
 }
 
-TEST_CASE("contact keeps momentum to round-off and accounts for all the energy it takes")
+TEST_CASE("contact keeps momentum to round-off and never adds energy")
 {
   std::mt19937 random(3);
   for (const std::size_t n_groups : {2u, 3u, 5u}) {
@@ -165,12 +166,11 @@ TEST_CASE("contact keeps momentum to round-off and accounts for all the energy i
       const Vector<3> momentum = node.momentum();
       const double energy = node.kinetic_energy();
 
-      const auto outcome = node.resolve(friction);
+      const double approach_speed = node.resolve(friction);
 
-      n_met += outcome.approach_speed > 0;
+      n_met += approach_speed > 0;
       REQUIRE((node.momentum() - momentum).norm() < 1e-14 * (1 + 20 * 100 * static_cast<double>(n)));
-      REQUIRE(outcome.dissipated_energy >= 0);
-      REQUIRE(energy - node.kinetic_energy() == Approx(outcome.dissipated_energy).margin(1e-12 * energy));
+      REQUIRE(node.kinetic_energy() <= (1 + 1e-12) * energy);
     }
     CHECK(n_met > 100);
   }
@@ -216,13 +216,13 @@ TEST_CASE("pairs are resolved in the order of the materials, each after the pair
                {Vector<2>(6, 0), Vector<2>(0, 0), Vector<2>(0, 0)},
                {Vector<2>(1, 0), Vector<2>(0, 0), Vector<2>(-1, 0)}};
 
-  const auto outcome = node.resolve(ContactTable(3, 0));
+  const double approach_speed = node.resolve(ContactTable(3, 0));
 
   // (0, 1): 3, 3, 0. (0, 2): 1.5, 3, 1.5. (1, 2): 1.5, 2.25, 2.25.
   CHECK(node.velocity[0].isApprox(Vector<2>(1.5, 0), 1e-15));
   CHECK(node.velocity[1].isApprox(Vector<2>(2.25, 0), 1e-15));
   CHECK(node.velocity[2].isApprox(Vector<2>(2.25, 0), 1e-15));
-  CHECK(outcome.approach_speed == Approx(6));
+  CHECK(approach_speed == Approx(6));
 }
 
 TEST_CASE("without a normal, or with a mass at the threshold, nothing happens")

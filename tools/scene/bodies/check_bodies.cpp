@@ -73,11 +73,11 @@ template <int D>
 void check_rigid(const tasks::Scene& scene, const tasks::SceneBody& body, const JsonReader& bodies)
 {
   const auto touchable = tasks::touchable_mirrors(scene, body);
-  const auto is_off_edges = [&](const Vector<D>& x) {
-    return tasks::is_off_edges<D>(scene.grid, scene.reach_of(body.material), touchable, x);
+  const auto is_clear_of_edges = [&](const Vector<D>& x) {
+    return tasks::is_clear_of_edges<D>(scene.grid, scene.reach_of(body.material), touchable, x);
   };
   const auto places = tasks::sites_of<D>(scene, body);
-  if (!std::all_of(places.begin(), places.end(), is_off_edges)) {
+  if (!std::all_of(places.begin(), places.end(), is_clear_of_edges)) {
     bodies.add_problem(body.name, "rigid, and less than a cell from the edge of the grid",
                        "expected all nodes that it reaches to lie within the grid, but for \"symmetry\" faces on "
                        "which it lies or along which it is driven without turning");

@@ -73,26 +73,26 @@ Json outcome_json(const std::string& method, const Outcome& outcome)
 
 bool Entry::failed() const
 {
-  return failing.ended == "unstable" || (failing.error && *failing.error >= clearly * told.threshold);
+  return failing.ended == "unstable" || (failing.error && *failing.error >= clearly * expected.threshold);
 }
 
 bool Entry::survived() const
 {
-  return surviving.error && *surviving.error < told.threshold / clearly;
+  return surviving.error && *surviving.error < expected.threshold / clearly;
 }
 
 Entry entry_of(const study::Study& study, const Json& results, const std::filesystem::path& folder)
 {
-  const study::Stability& told = *study.stability;
-  const Json& failing = point_of(results, told.fails);
-  const Json& surviving = point_of(results, told.survives);
+  const study::Stability& expected = *study.stability;
+  const Json& failing = point_of(results, expected.fails);
+  const Json& surviving = point_of(results, expected.survives);
   const Json monitors = monitors_of(failing, folder);
   return {study.file.stem(),
           study.title,
-          told,
-          outcome_of(failing, told.quantity, monitors),
-          outcome_of(surviving, told.quantity, monitors_of(surviving, folder)),
-          count_of(told.monitor, monitors)};
+          expected,
+          outcome_of(failing, expected.quantity, monitors),
+          outcome_of(surviving, expected.quantity, monitors_of(surviving, folder)),
+          count_of(expected.monitor, monitors)};
 }
 
 std::string to_markdown(const std::vector<Entry>& entries)
@@ -100,9 +100,9 @@ std::string to_markdown(const std::vector<Entry>& entries)
   std::vector<std::vector<std::string>> rows{
       {"entry", "fails", "error", "threshold", "survives", "error", "symptom", "as told"}};
   for (const Entry& entry : entries) {
-    rows.push_back({entry.name, entry.told.fails, error_text(entry.failing),
-                    fmt::format("{:.2g}", entry.told.threshold), entry.told.survives, error_text(entry.surviving),
-                    entry.told.symptom, entry.is_as_told() ? "yes" : "**NO**"});
+    rows.push_back({entry.name, entry.expected.fails, error_text(entry.failing),
+                    fmt::format("{:.2g}", entry.expected.threshold), entry.expected.survives,
+                    error_text(entry.surviving), entry.expected.symptom, entry.is_as_expected() ? "yes" : "**NO**"});
   }
   return markdown_table(rows);
 }
@@ -123,8 +123,8 @@ std::string monitors_to_markdown(const std::vector<Entry>& entries)
     }
   };
   for (const Entry& entry : entries) {
-    look(entry, entry.told.fails, entry.failing, false);
-    look(entry, entry.told.survives, entry.surviving, entry.survived());
+    look(entry, entry.expected.fails, entry.failing, false);
+    look(entry, entry.expected.survives, entry.surviving, entry.survived());
   }
   const auto share_text = [](const Seen& seen) { return seen.words.empty() ? "" : fmt::format("{:.2g}", seen.share); };
   std::vector<std::vector<std::string>> rows{
@@ -141,14 +141,14 @@ Json to_json(const std::vector<Entry>& entries)
   for (const Entry& entry : entries) {
     all.push_back({{"name", entry.name},
                    {"title", entry.title},
-                   {"quantity", entry.told.quantity},
-                   {"threshold", entry.told.threshold},
-                   {"symptom", entry.told.symptom},
-                   {"monitor", entry.told.monitor},
+                   {"quantity", entry.expected.quantity},
+                   {"threshold", entry.expected.threshold},
+                   {"symptom", entry.expected.symptom},
+                   {"monitor", entry.expected.monitor},
                    {"first_count", value_or_null(entry.first_count)},
-                   {"fails", outcome_json(entry.told.fails, entry.failing)},
+                   {"fails", outcome_json(entry.expected.fails, entry.failing)},
                    {"failed", entry.failed()},
-                   {"survives", outcome_json(entry.told.survives, entry.surviving)},
+                   {"survives", outcome_json(entry.expected.survives, entry.surviving)},
                    {"survived", entry.survived()}});
   }
   return all;
@@ -159,12 +159,12 @@ Json to_list(const std::vector<Entry>& entries)
   Json list = Json::array();
   for (const Entry& entry : entries) {
     list.push_back({{"name", entry.name},
-                    {"failing_method", entry.told.fails},
-                    {"symptom", entry.told.symptom},
+                    {"failing_method", entry.expected.fails},
+                    {"symptom", entry.expected.symptom},
                     {"failed", entry.failed()},
-                    {"surviving_method", entry.told.survives},
+                    {"surviving_method", entry.expected.survives},
                     {"survived", entry.survived()},
-                    {"monitor", entry.told.monitor},
+                    {"monitor", entry.expected.monitor},
                     {"first_count", value_or_null(entry.first_count)}});
   }
   return list;

@@ -8,7 +8,7 @@
 #include "tools/scene/json/document.hpp"
 #include "tools/study/study.hpp"
 
-/// The failure catalogue: what was told of methods, and whether they did it.
+/// The failure catalogue: what is expected of methods, and whether they did it.
 namespace tamp::tools::stability
 {
 
@@ -30,7 +30,7 @@ struct Outcome {
 /// An entry of the catalogue with what its study has found.
 struct Entry {
   std::string name, title;
-  study::Stability told;
+  study::Stability expected;
   Outcome failing, surviving;
   /// The count of its monitor in the run that fails, where it has one.
   std::optional<double> first_count;
@@ -39,7 +39,7 @@ struct Entry {
   bool failed() const;
   /// Done, and within a third of the threshold.
   bool survived() const;
-  bool is_as_told() const { return failed() && survived(); }
+  bool is_as_expected() const { return failed() && survived(); }
 };
 
 /// `results` is the `study.json` of a study in `folder`. Throws FileError where a summary there cannot be read.

@@ -47,12 +47,12 @@ std::string what_differs(const Entry& entry)
   };
   std::vector<std::string> parts;
   if (!entry.failed()) {
-    parts.push_back(fmt::format("{}: {}, expected {:.3g} at least, or unstable", entry.told.fails, found(entry.failing),
-                                clearly * entry.told.threshold));
+    parts.push_back(fmt::format("{}: {}, expected {:.3g} at least, or unstable", entry.expected.fails,
+                                found(entry.failing), clearly * entry.expected.threshold));
   }
   if (!entry.survived()) {
-    parts.push_back(fmt::format("{}: {}, expected less than {:.3g}", entry.told.survives, found(entry.surviving),
-                                entry.told.threshold / clearly));
+    parts.push_back(fmt::format("{}: {}, expected less than {:.3g}", entry.expected.survives, found(entry.surviving),
+                                entry.expected.threshold / clearly));
   }
   return fmt::format("{}: {}", entry.name, fmt::join(parts, "; "));
 }
@@ -70,7 +70,7 @@ void run_catalogue(const study::StudyBatch& batch)
   std::vector<Entry> entries;
   for (std::size_t i = 0; i < files.size(); ++i) {
     entries.push_back(entry_of(studies[i], results_of(batch, files[i]), batch.folder / files[i].stem()));
-    if (!entries.back().is_as_told()) failures.push_back(what_differs(entries.back()));
+    if (!entries.back().is_as_expected()) failures.push_back(what_differs(entries.back()));
   }
   const std::string table = to_markdown(entries);
   const Json json{

@@ -67,9 +67,9 @@ TEST_CASE("a method survives within a third of the threshold, if it comes to its
 
 TEST_CASE("an entry is as told if one method fails and the other survives")
 {
-  CHECK(entry_with(point("bad", 1), point("good", 0)).is_as_told());
-  CHECK_FALSE(entry_with(point("bad", 1), point("good", 1)).is_as_told());
-  CHECK_FALSE(entry_with(point("bad", 0), point("good", 0)).is_as_told());
+  CHECK(entry_with(point("bad", 1), point("good", 0)).is_as_expected());
+  CHECK_FALSE(entry_with(point("bad", 1), point("good", 1)).is_as_expected());
+  CHECK_FALSE(entry_with(point("bad", 0), point("good", 0)).is_as_expected());
 }
 
 TEST_CASE("the count of an entry's monitor is that of the run that fails, where it has one")

@@ -32,7 +32,7 @@ ParticlePlace place_of(std::int64_t particle, int material, const Vector<D>& x)
 }
 
 /// How often something was seen that a user should know of, and where first.
-struct Sightings {
+struct Occurrences {
   std::int64_t count = 0;
   std::int64_t first_step = -1;  ///< after so many steps; -1: never
   double first_time = 0;         ///< s
