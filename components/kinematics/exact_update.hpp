@@ -40,6 +40,8 @@ SymmetricTensor<D, Number> strain_between(const Matrix<D, Number>& f, const Matr
 struct ExactUpdate {
   static constexpr std::string_view word = "exact";
   static constexpr std::string_view meaning = "by 1 + g, with a strain free of rotations";
+  /// Whether a step that is too large turns a particle inside out, or else turns it further than the update can follow.
+  static constexpr bool inverts = true;
 
   /// f, which takes F from the start of the step to its end.
   template <int D, class Number>

@@ -27,6 +27,7 @@ Matrix<D, Number> exponential_of(const Matrix<D, Number>& a)
 struct ExponentialUpdate {
   static constexpr std::string_view word = "exponential";
   static constexpr std::string_view meaning = "by exp(g), which turns nothing inside out";
+  static constexpr bool inverts = false;
 
   template <int D, class Number>
   static Matrix<D, Number> map(const Matrix<D, Number>& g)

@@ -30,6 +30,7 @@ struct DruckerPragerState {
 struct DruckerPrager {
   using State = DruckerPragerState;
   static constexpr std::string_view type = "drucker_prager";
+  static constexpr bool is_soil = true;
   static constexpr char state_name[] = "drucker prager state";
   static std::span<const Parameter<DruckerPrager>, 6> parameters();
   static std::span<const StateColumn<DruckerPrager>, 2> columns();

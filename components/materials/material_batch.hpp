@@ -19,6 +19,7 @@
 ///  - `initial_moduli()`, K and G without strain;
 ///  - `update(model, batch, counts)`, which answers a batch of particles;
 ///  - where it may lose all stiffness, `may_separate()`;
+///  - where it is soil, `is_soil`;
 ///  - with a state, `state_name`, and `columns()` and `extremes()`, what output shows of it, see state_columns.hpp;
 ///  - where the stress follows from the deformation gradient alone, `stored_energy<D>(deformation_gradient)`.
 ///
@@ -38,6 +39,13 @@ template <class Model>
 concept Hyperelastic = requires(const Model& model, const Matrix<3>& f)
 {
   model.template stored_energy<3>(f);
+};
+
+/// Sand, clay and the like.
+template <class Model>
+concept Soil = requires
+{
+  Model::is_soil;
 };
 
 /// Elastic moduli [Pa], of one state or of as many as there are lanes.

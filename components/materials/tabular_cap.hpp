@@ -64,6 +64,7 @@ class TabularCap
  public:
   using State = CapState;
   static constexpr std::string_view type = "tabular_cap";
+  static constexpr bool is_soil = true;
   static constexpr char state_name[] = "cap state";
   /// Strains, the crush pressure X "cap", the tangent bulk modulus "K", failed updates, whether it has separated; of a
   /// single point also whether the elastic model was asked within its range, and how far the stress is outside of the

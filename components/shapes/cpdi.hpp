@@ -29,6 +29,7 @@ class Cpdi
   static constexpr std::string_view meaning = "their means over parallelograms or parallelepipeds that deform";
   static constexpr int dimension = D;
   static constexpr int support = 4;
+  static constexpr bool deforms = true;
   static constexpr bool is_spline = false;
 
   /// `n_per_axis` particles along each axis of a cell, each as large as its share at first; at least 1.

@@ -17,6 +17,7 @@
 ///    (dense_stencil.hpp);
 ///  - `reach()`, the distance in cells along an axis from a particle to the furthest node it can reach, at most 2;
 ///  - `greatest_stiffness_along_axis()`, see own_stiffness.hpp; infinity for none;
+///  - `deforms`, whether a particle's domain deforms with it, so that neighbours never part;
 ///  - `is_spline`, whether a particle's weights do not know its size and change smoothly.
 namespace tamp::components
 {

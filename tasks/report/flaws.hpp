@@ -49,12 +49,12 @@ class Tearing
   double stretch_;
 };
 
-/// In matter that flows, neighbours change; and domains that stretch with their particles stay together.
+/// In matter that flows, neighbours change; and domains that deform with their particles stay together.
 inline bool may_tear(const Scene& scene, int material)
 {
-  const bool stretches = scene.interpolator == "cpdi" || scene.interpolator == "cpgimp";
+  const bool deforms = components::with_shape<1>(scene.interpolator, 1, [](const auto& s) { return s.deforms; });
   const MaterialModel& model = scene.materials[static_cast<std::size_t>(material)].model;
-  return !stretches && std::visit([]<class Model>(const Model&) { return !components::has_state<Model>; }, model);
+  return !deforms && std::visit([]<class Model>(const Model&) { return !components::has_state<Model>; }, model);
 }
 
 /// Materials that tell where a state lies beside what was tested.

@@ -1,6 +1,7 @@
 #include "tasks/report/sample_state.hpp"
 
 #include <algorithm>
+#include <set>
 
 #include "tasks/labels.hpp"
 #include "tasks/report/flaws.hpp"
@@ -155,10 +156,15 @@ runtime::HostData sample_data(const Method<D>& method)
       {&particle::id, &particle::position<D>, &particle::volume, &particle::mass, &particle::velocity<D>,
        &particle::stress<D>, &particle::deformation_gradient<D>, &monitor_records},
       {&state_sample, &swollen_sample, &cell::pressure}};
-  const bool has_cap = std::ranges::any_of(method.deformable_materials, [&](int material) {
-    return std::holds_alternative<components::TabularCap>(method.materials[static_cast<std::size_t>(material)].model);
-  });
-  if (has_cap) data.state.push_back(&particle::state<components::TabularCap>);
+  std::set<const runtime::Label*> states;
+  for (const int material : method.deformable_materials) {
+    std::visit(
+        [&]<class Model>(const Model&) {
+          if constexpr (HasRange<Model>) states.insert(&particle::state<Model>);
+        },
+        method.materials[static_cast<std::size_t>(material)].model);
+  }
+  data.state.insert(data.state.end(), states.begin(), states.end());
   return data;
 }
 

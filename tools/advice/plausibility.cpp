@@ -43,20 +43,22 @@ void check_table(const InputFile& input, Warnings& warnings)
 }
 
 /// Soil in the units of other programs: kPa, radians and t/m3. Hardly any soil is below these bounds.
-void check_soil(const std::string& place, const tasks::SceneMaterial& material, Warnings& warnings)
+template <components::Soil Model>
+void check_soil(const std::string& place, double density, const Model& soil, Warnings& warnings)
 {
   constexpr double lightest = 200, softest = 1e5, flattest = 2;
-  const auto warn = [&](const char* key, double value, const char* unit, const char* what) {
+  const auto warn = [&](const auto& key, double value, const auto& unit, const char* what) {
     warnings.push_back(fmt::format("{}/{}: {:.4g} {} looks like {}", place, key, value, unit, what));
   };
-  const auto* soil = std::get_if<components::DruckerPrager>(&material.model);
-  if (soil == nullptr && !std::holds_alternative<components::TabularCap>(material.model)) return;
-  if (material.density >= 1 && material.density < lightest) warn("density", material.density, "kg/m3", "t/m3");
-  if (soil == nullptr) return;
-  if (soil->bulk_modulus < softest) warn("bulk_modulus", soil->bulk_modulus, "Pa", "kPa or MPa");
-  if (soil->shear_modulus < softest) warn("shear_modulus", soil->shear_modulus, "Pa", "kPa or MPa");
-  if (soil->friction_angle > 0 && soil->friction_angle < flattest) {
-    warn("friction_angle", soil->friction_angle, "degrees", "radians");
+  if (density >= 1 && density < lightest) warn("density", density, "kg/m3", "t/m3");
+  if constexpr (components::has_parameters<Model>) {
+    for (const auto& parameter : Model::parameters()) {
+      const auto* member = std::get_if<double Model::*>(&parameter.value);
+      const double value = member != nullptr ? soil.**member : 0;
+      const bool is_modulus = parameter.key.ends_with("modulus"), is_friction = parameter.key == "friction_angle";
+      if (is_modulus && value < softest) warn(parameter.key, value, parameter.unit, "kPa or MPa");
+      if (is_friction && value > 0 && value < flattest) warn(parameter.key, value, parameter.unit, "radians");
+    }
   }
 }
 
@@ -64,7 +66,11 @@ void check_material(const CheckedScene& checked, std::size_t m, Warnings& warnin
 {
   const tasks::SceneMaterial& material = checked.scene.materials[m];
   const std::string place = fmt::format("/materials/{}", material.name);
-  check_soil(place, material, warnings);
+  std::visit(
+      [&]<class Model>(const Model& model) {
+        if constexpr (components::Soil<Model>) check_soil(place, material.density, model, warnings);
+      },
+      material.model);
   if (material.density < 1 || material.density > 3e4) {
     warnings.push_back(fmt::format("{}/density: {} kg/m3 is that of no known matter", place, material.density));
   }
