@@ -4,7 +4,10 @@ With --methods of the quick punch by every interpolator and transfer. Prints a t
 differs from that of one rank and one thread.
 """
 
+import itertools
+import json
 import pathlib
+import re
 import tempfile
 
 from tamp import files, program
@@ -13,8 +16,6 @@ from tamp.options import count
 
 PUNCH = program.INPUTS / "punch"
 SCENES = ["quick", "table", "svr", "mlp"]
-INTERPOLATORS = ["linear", "gimp", "cpgimp", "cpdi", "quadratic_spline", "cubic_spline"]
-TRANSFERS = ["flip", "pic", "blend", "tflip", "apic", "tpic", "xpic", "fmpm"]
 CREWS = [(r, t) for r in (1, 2, 3, 4) for t in (1, 2, 3)]
 RESTARTS = [((1, 1), (3, 1)), ((2, 2), (1, 3)), ((4, 1), (2, 2)), ((3, 2), (4, 1))]
 
@@ -24,16 +25,22 @@ def scenes():
     return {name: (PUNCH / f"{name}.json", {}) for name in SCENES}
 
 
-def methods():
-    """The quick punch by every interpolator and transfer that go together. Linear weights have no spread on a node,
-    which "apic" needs, and no step rule of their own: by the published one, and only in short steps, they endure the
-    impact."""
-    short_steps = {"/time/rule": "published", "/time/multiplier": 0.2}
-    return {f"{interpolator}, {transfer}":
-            (PUNCH / "quick.json", {"/interpolator": interpolator, "/transfer": transfer,
-                                    **(short_steps if interpolator == "linear" else {})})
-            for interpolator in INTERPOLATORS for transfer in TRANSFERS
-            if (interpolator, transfer) != ("linear", "apic")}
+def words(tamp, key):
+    """Those that a scene may have there, as the program describes them: old ones are not described."""
+    schema = json.loads(program.call(tamp, "schema").stdout)
+    return re.findall(r'`"(\w+)"`:', schema["definitions"]["part_of_scene"]["properties"][key]["description"])
+
+
+def methods(tamp):
+    """The quick punch by every interpolator and transfer that go together. Linear weights have no step rule of their
+    own: by the published one, and only in short steps, they endure the impact."""
+    found = {}
+    for interpolator, transfer in itertools.product(words(tamp, "interpolator"), words(tamp, "transfer")):
+        short_steps = {"/time/rule": "published", "/time/multiplier": 0.2} if interpolator == "linear" else {}
+        settings = {"/interpolator": interpolator, "/transfer": transfer, **short_steps}
+        if program.answer(tamp, "check", PUNCH / "quick.json", *program.changes(settings)).returncode == 0:
+            found[f"{interpolator}, {transfer}"] = (PUNCH / "quick.json", settings)
+    return found
 
 
 def straight(tamp, scene, settings, crew, n_steps, folder):
@@ -63,7 +70,7 @@ def add_arguments(parser):
 def main(options):
     n_different = 0
     print_head(["scene", "digest of one rank, one thread", "ranks x threads with the same", "restarts with the same"])
-    for name, scene in (methods() if options.methods else scenes()).items():
+    for name, scene in (methods(options.tamp) if options.methods else scenes()).items():
         with tempfile.TemporaryDirectory() as folder:
             place = pathlib.Path(folder)
             found = {crew: straight(options.tamp, *scene, crew, options.steps, place / f"{crew[0]}x{crew[1]}")
