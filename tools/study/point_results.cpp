@@ -148,6 +148,14 @@ std::optional<PointResult> read_result(const fs::path& folder)
   }
 }
 
+Json summary_in(const fs::path& folder)
+{
+  const fs::path file = folder / "summary.json";
+  Json summary = Json::parse(std::ifstream(file), nullptr, false);
+  if (summary.is_discarded()) throw FileError(file.string(), "cannot be read");
+  return summary;
+}
+
 void write_result(const PointResult& result, const std::string& key)
 {
   Json content{{"key", key},

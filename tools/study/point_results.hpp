@@ -58,6 +58,8 @@ struct PointResult {
 /// The result that a folder keeps of the point with its name, the key of its measurement; empty where there is no such
 /// folder. Throws FileError, which names the file, where one of the folder's files is not what was written.
 std::optional<PointResult> read_result(const std::filesystem::path& folder);
+/// The summary.json that a run wrote in a folder. Throws FileError where it cannot be read.
+Json summary_in(const std::filesystem::path& folder);
 /// Keeps the result of the point with this key in its folder, with checksums of all that is there.
 void write_result(const PointResult& result, const std::string& key);
 

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <numeric>
 
 #include "runtime/file_error.hpp"
@@ -165,8 +164,7 @@ double distance_from_line(const Study& study, const Quantity& quantity, const Po
 
 double number_of_summary(const Study& study, const Quantity& quantity, const PointResult& result)
 {
-  const Json summary = Json::parse(std::ifstream(result.folder / "summary.json"), nullptr, false);
-  if (summary.is_discarded()) throw runtime::FileError((result.folder / "summary.json").string(), "cannot be read");
+  const Json summary = summary_in(result.folder);
   if (const Json* number = find_value(summary, quantity.summary); number != nullptr && number->is_number())
     return *number;
   throw InputError({study.file.string() + "#/quantities",

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <csignal>
-#include <fstream>
 #include <memory>
 
 #include "runtime/file_error.hpp"
@@ -170,9 +169,7 @@ class PointRunner
     const ChildEnd end = run_child(run);
     PointResult result{End::done, "", {}, limit, folder};
     if (end.done()) {
-      const Json summary = Json::parse(std::ifstream(folder / "summary.json"), nullptr, false);
-      if (summary.is_discarded()) throw runtime::FileError((folder / "summary.json").string(), "cannot be read");
-      result.costs.push_back(cost_of(study_, summary, end.user_s));
+      result.costs.push_back(cost_of(study_, summary_in(folder), end.user_s));
     } else {
       result.costs.push_back({{"core_s", end.user_s}});
       note_failure(end, limit, reason_of(run), result);

@@ -1,24 +1,14 @@
 #include "tools/study/study_map_report.hpp"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 
+#include "tools/scene/json/print_json.hpp"
 #include "tools/scene/tables/csv_text.hpp"
 
 namespace tamp::tools::study
 {
-
-namespace
-{
-
-Json or_null(const std::optional<double>& value)
-{
-  return value ? Json(*value) : Json(nullptr);
-}
-
-}  // namespace
 
 Json map_to_json(const StudyResults& results)
 {
@@ -49,26 +39,22 @@ Json map_to_json(const StudyResults& results)
 
 std::string map_to_csv(const StudyResults& results)
 {
-  std::string text = "sheet,rows,row,columns,column,is,distance,reason,command\n";
+  std::vector<CsvRow> rows;
   for (const MapOfSheet& one : results.map) {
     for (const MapCell& cell : one.cells) {
       const auto point = static_cast<std::size_t>(cell.point) - 1;
-      const std::vector<Json> cells{one.sheet->name,
-                                    one.sheet->rows,
-                                    one.rows[cell.row],
-                                    one.sheet->columns,
-                                    one.columns[cell.column],
-                                    to_text(cell.verdict),
-                                    or_null(cell.distance),
-                                    results.points[point].result.reason,
-                                    command_text(results.measurements[point])};
-      std::vector<std::string> texts;
-      texts.reserve(cells.size());
-      for (const Json& value : cells) texts.push_back(csv_cell(value));
-      text += fmt::format("{}\n", fmt::join(texts, ","));
+      rows.push_back({{"sheet", one.sheet->name},
+                      {"rows", one.sheet->rows},
+                      {"row", one.rows[cell.row]},
+                      {"columns", one.sheet->columns},
+                      {"column", one.columns[cell.column]},
+                      {"is", to_text(cell.verdict)},
+                      {"distance", or_null(cell.distance)},
+                      {"reason", results.points[point].result.reason},
+                      {"command", command_text(results.measurements[point])}});
     }
   }
-  return text;
+  return csv_text(rows);
 }
 
 std::string map_to_text(const StudyResults& results)

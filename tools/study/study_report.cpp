@@ -1,12 +1,12 @@
 #include "tools/study/study_report.hpp"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>
 #include <set>
 
+#include "tools/scene/json/print_json.hpp"
 #include "tools/scene/tables/csv_text.hpp"
 #include "tools/study/study_map_report.hpp"
 #include "tools/system/machine.hpp"
@@ -17,12 +17,6 @@ namespace tamp::tools::study
 
 namespace
 {
-
-template <class T>
-Json value_or_null(const std::optional<T>& value)
-{
-  return value ? Json(*value) : Json(nullptr);
-}
 
 std::string kind_text(Reference::Kind kind)
 {
@@ -35,8 +29,8 @@ Json reference_json(const Quantity& quantity, const Reference& reference)
   const bool has_value = reference.kind != Reference::Kind::none && !quantity.is_column();
   return {{"kind", kind_text(reference.kind)},
           {"value", has_value ? Json(reference.answer.value) : Json(nullptr)},
-          {"uncertainty", value_or_null(reference.uncertainty)},
-          {"order", value_or_null(reference.order)},
+          {"uncertainty", or_null(reference.uncertainty)},
+          {"order", or_null(reference.order)},
           {"bound", reference.bound},
           {"note", reference.note}};
 }
@@ -48,8 +42,8 @@ Json orders_json(const QuantityFindings& found)
     all.push_back({{"method", fit.method},
                    {"label", fit.label},
                    {"points", fit.points},
-                   {"order", value_or_null(fit.order)},
-                   {"cost_power", value_or_null(fit.cost_power)},
+                   {"order", or_null(fit.order)},
+                   {"cost_power", or_null(fit.cost_power)},
                    {"note", fit.note}});
   }
   return all;
@@ -159,12 +153,12 @@ Json budgets_json(const StudyResults& results)
                                        [&](const Quantity& q) { return q.name == budget.quantity; });
     Json parts = Json::array();
     for (const BudgetAmount& part : budget.parts) {
-      parts.push_back({{"name", part.name}, {"amount", value_or_null(part.amount)}, {"note", part.note}});
+      parts.push_back({{"name", part.name}, {"amount", or_null(part.amount)}, {"note", part.note}});
     }
     all.push_back({{"quantity", budget.quantity},
                    {"unit", unit_of(*quantity)},
                    {"of", budget.base},
-                   {"value", value_or_null(budget.value)},
+                   {"value", or_null(budget.value)},
                    {"parts", parts}});
   }
   return all;
@@ -180,7 +174,7 @@ Json expectations_json(const StudyResults& results)
                    {"label", result.label},
                    {"kind", to_text(result.kind)},
                    {"limit", has_limit ? Json(result.limit) : Json(nullptr)},
-                   {"found", value_or_null(result.found)},
+                   {"found", or_null(result.found)},
                    {"holds", result.holds},
                    {"expected", result.expected},
                    {"note", result.note},
@@ -225,11 +219,10 @@ std::vector<std::string> pointers_of(const StudyResults& results)
   return all;
 }
 
-/// A row of `points.csv`, its cells by name.
-std::vector<std::pair<std::string, Json>> row_of(const StudyResults& results, const Json& point,
-                                                 const std::vector<std::string>& pointers)
+/// A row of `points.csv`.
+CsvRow row_of(const StudyResults& results, const Json& point, const std::vector<std::string>& pointers)
 {
-  std::vector<std::pair<std::string, Json>> row{{"id", point["id"]}, {"method", point["method"]}};
+  CsvRow row{{"id", point["id"]}, {"method", point["method"]}};
   const auto cell = [](const Json& object, const std::string& key) {
     return object.contains(key) ? object.at(key) : Json(nullptr);
   };
@@ -326,30 +319,21 @@ Json to_json(const StudyResults& results)
 std::string to_csv(const StudyResults& results)
 {
   const std::vector<std::string> pointers = pointers_of(results);
-  std::string text;
-  for (const Json& point : points_json(results)) {
-    std::vector<std::string> names, cells;
-    for (const auto& [name, value] : row_of(results, point, pointers)) {
-      names.push_back(csv_cell(name));
-      cells.push_back(csv_cell(value));
-    }
-    if (text.empty()) text = fmt::format("{}\n", fmt::join(names, ","));
-    text += fmt::format("{}\n", fmt::join(cells, ","));
-  }
-  return text;
+  std::vector<CsvRow> rows;
+  for (const Json& point : points_json(results)) rows.push_back(row_of(results, point, pointers));
+  return csv_text(rows);
 }
 
 std::string expectations_to_csv(const StudyResults& results)
 {
-  const std::vector<std::string> names{"quantity", "label", "kind", "limit", "found", "holds", "note", "why"};
-  std::string text = fmt::format("{}\n", fmt::join(names, ","));
+  std::vector<CsvRow> rows;
   for (const Json& result : expectations_json(results)) {
-    std::vector<std::string> cells;
-    cells.reserve(names.size());
-    for (const std::string& name : names) cells.push_back(csv_cell(result[name]));
-    text += fmt::format("{}\n", fmt::join(cells, ","));
+    CsvRow& row = rows.emplace_back();
+    for (const char* name : {"quantity", "label", "kind", "limit", "found", "holds", "note", "why"}) {
+      row.emplace_back(name, result[name]);
+    }
   }
-  return text;
+  return csv_text(rows);
 }
 
 std::string to_text(const StudyResults& results)

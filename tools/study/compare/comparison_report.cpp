@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 
+#include "tools/scene/json/print_json.hpp"
 #include "tools/scene/tables/csv_text.hpp"
 #include "tools/system/usable_cores.hpp"
 #include "tools/system/version.hpp"
@@ -19,13 +20,7 @@ namespace
 
 using Json = nlohmann::ordered_json;
 
-template <class T>
-Json or_null(const std::optional<T>& value)
-{
-  return value ? Json(*value) : Json(nullptr);
-}
-
-Json or_null(double value)
+Json finite_or_null(double value)
 {
   return std::isfinite(value) ? Json(value) : Json(nullptr);
 }
@@ -51,8 +46,8 @@ Json figures(const Comparison& comparison, const ModelResult& model)
   json["ledger_peak_bytes"] = model.ledger_peak_bytes;
   const std::vector<double>& depth = model.samples.back().depth;
   const double common = common_time(comparison);
-  json["depth_at_common_time_m"] = or_null(depth_at(model, common));
-  json["q_at_common_time_Pa"] = or_null(q_at(model, common));
+  json["depth_at_common_time_m"] = finite_or_null(depth_at(model, common));
+  json["q_at_common_time_Pa"] = finite_or_null(q_at(model, common));
   json["depth_m"] = depth.empty() ? Json(nullptr) : Json(depth.front());
   json["depth_max_m"] = depth.empty() ? Json(nullptr) : Json(largest(model, &Sample::depth));
   json["p_max_Pa"] = largest(model, &Sample::pressure);
@@ -155,26 +150,17 @@ Json to_json(const Comparison& comparison)
   json["coarser"] = nullptr;
   if (comparison.coarser) {
     const double common = common_time(comparison);
-    json["coarser"] = {{"depth_at_common_time_m", or_null(depth_at(*comparison.coarser, common))},
-                       {"q_at_common_time_Pa", or_null(q_at(*comparison.coarser, common))}};
+    json["coarser"] = {{"depth_at_common_time_m", finite_or_null(depth_at(*comparison.coarser, common))},
+                       {"q_at_common_time_Pa", finite_or_null(q_at(*comparison.coarser, common))}};
   }
   return json;
 }
 
 std::string to_csv(const Comparison& comparison)
 {
-  std::string text;
-  for (const ModelResult& model : comparison.models) {
-    std::vector<std::string> names, cells;
-    const Json row = figures(comparison, model);
-    for (const auto& [name, value] : row.items()) {
-      names.push_back(name);
-      cells.push_back(csv_cell(value));
-    }
-    if (text.empty()) text = fmt::format("{}\n", fmt::join(names, ","));
-    text += fmt::format("{}\n", fmt::join(cells, ","));
-  }
-  return text;
+  std::vector<CsvRow> rows;
+  for (const ModelResult& model : comparison.models) rows.push_back(csv_row(figures(comparison, model)));
+  return csv_text(rows);
 }
 
 std::string to_text(const Comparison& comparison)

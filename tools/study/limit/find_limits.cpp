@@ -3,9 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <fstream>
 
-#include "runtime/file_error.hpp"
 #include "runtime/storage/whole_file.hpp"
 #include "tools/scene/files/output_file.hpp"
 #include "tools/scene/json/parse_json.hpp"
@@ -142,8 +140,7 @@ class Prober
       probe.verdict = Probe::Verdict::unstable;
       probe.why = std::move(why);
     };
-    const Json summary = Json::parse(std::ifstream(result.folder / "summary.json"), nullptr, false);
-    if (summary.is_discarded()) throw runtime::FileError((result.folder / "summary.json").string(), "cannot be read");
+    const Json summary = summary_in(result.folder);
     const std::string status = summary.at("status");
     if (!status.starts_with("completed")) return fail(status);
     probe.energy_error = summary.at("energy_error").get<double>();

@@ -1,10 +1,10 @@
 #include "tools/study/limit/limit_report.hpp"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 
+#include "tools/scene/json/print_json.hpp"
 #include "tools/scene/tables/csv_text.hpp"
 #include "tools/system/machine.hpp"
 #include "tools/system/version.hpp"
@@ -14,11 +14,6 @@ namespace tamp::tools::study
 
 namespace
 {
-
-Json or_null(const std::optional<double>& value)
-{
-  return value ? Json(*value) : Json(nullptr);
-}
 
 Json probe_json(const Probe& probe)
 {
@@ -81,18 +76,9 @@ Json to_json(const LimitResults& results)
 
 std::string to_csv(const LimitResults& results)
 {
-  std::string text;
-  for (const Limit& limit : results.limits) {
-    std::vector<std::string> names, cells;
-    const Json row = figures(limit);
-    for (const auto& [name, value] : row.items()) {
-      names.push_back(name);
-      cells.push_back(csv_cell(value));
-    }
-    if (text.empty()) text = fmt::format("{}\n", fmt::join(names, ","));
-    text += fmt::format("{}\n", fmt::join(cells, ","));
-  }
-  return text;
+  std::vector<CsvRow> rows;
+  for (const Limit& limit : results.limits) rows.push_back(csv_row(figures(limit)));
+  return csv_text(rows);
 }
 
 std::string to_text(const LimitResults& results)

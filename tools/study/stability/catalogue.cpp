@@ -3,9 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <fstream>
 
-#include "runtime/file_error.hpp"
+#include "tools/scene/json/print_json.hpp"
+#include "tools/study/point_results.hpp"
 #include "tools/system/markdown_table.hpp"
 
 namespace tamp::tools::stability
@@ -23,11 +23,9 @@ const Json& point_of(const Json& results, const std::string& method)
 /// The monitors in the summary of a point; none where it has no summary.
 Json monitors_of(const Json& point, const std::filesystem::path& folder)
 {
-  const std::filesystem::path file = folder / point["folder"].get<std::string>() / "summary.json";
-  if (!std::filesystem::exists(file)) return Json::object();
-  const Json summary = Json::parse(std::ifstream(file), nullptr, false);
-  if (summary.is_discarded()) throw runtime::FileError(file.string(), "cannot be read");
-  return summary.value("monitors", Json::object());
+  const std::filesystem::path own = folder / point["folder"].get<std::string>();
+  if (!std::filesystem::exists(own / "summary.json")) return Json::object();
+  return study::summary_in(own).value("monitors", Json::object());
 }
 
 std::optional<double> count_of(const std::string& monitor, const Json& monitors)
@@ -55,16 +53,11 @@ std::string error_text(const Outcome& outcome)
   return outcome.error ? fmt::format("{:.2g}", *outcome.error) : "none";
 }
 
-Json value_or_null(const std::optional<double>& value)
-{
-  return value ? Json(*value) : Json();
-}
-
 Json outcome_json(const std::string& method, const Outcome& outcome)
 {
   return {{"method", method},
           {"ended", outcome.ended},
-          {"error", value_or_null(outcome.error)},
+          {"error", or_null(outcome.error)},
           {"command", outcome.command},
           {"shares_of_limits", outcome.shares_of_limits}};
 }
@@ -145,7 +138,7 @@ Json to_json(const std::vector<Entry>& entries)
                    {"threshold", entry.expected.threshold},
                    {"symptom", entry.expected.symptom},
                    {"monitor", entry.expected.monitor},
-                   {"first_count", value_or_null(entry.first_count)},
+                   {"first_count", or_null(entry.first_count)},
                    {"fails", outcome_json(entry.expected.fails, entry.failing)},
                    {"failed", entry.failed()},
                    {"survives", outcome_json(entry.expected.survives, entry.surviving)},
@@ -165,7 +158,7 @@ Json to_list(const std::vector<Entry>& entries)
                     {"surviving_method", entry.expected.survives},
                     {"survived", entry.survived()},
                     {"monitor", entry.expected.monitor},
-                    {"first_count", value_or_null(entry.first_count)}});
+                    {"first_count", or_null(entry.first_count)}});
   }
   return list;
 }
