@@ -20,6 +20,15 @@ double Ball<D>::reach(const Vector<D>& direction) const
 }
 
 template <int D>
+void Ball<D>::faces(const Vector<D>& x, SurfacePoints<D>& points) const
+{
+  const Vector<D> from_centre = x - centre;
+  const double length = from_centre.norm();
+  const Vector<D> normal = length > 0 ? Vector<D>(from_centre / length) : Vector<D>(Vector<D>::Unit(0));
+  points.push_back({centre + radius * normal, normal});
+}
+
+template <int D>
 Volume Ball<D>::volume() const
 {
   const double disk = std::numbers::pi * radius * radius;

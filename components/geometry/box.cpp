@@ -1,5 +1,7 @@
 #include "components/geometry/box.hpp"
 
+#include <span>
+
 #include "components/errors.hpp"
 #include "components/geometry/checks.hpp"
 
@@ -16,6 +18,18 @@ template <int D>
 double Box<D>::reach(const Vector<D>& direction) const
 {
   return lower.cwiseProduct(direction).cwiseMax(upper.cwiseProduct(direction)).sum();
+}
+
+template <int D>
+void Box<D>::faces(const Vector<D>& x, SurfacePoints<D>& points) const
+{
+  const Vector<D> within = x.cwiseMax(lower).cwiseMin(upper);
+  for (int k = 0; k < D; ++k) {
+    points.push_back({within, -Vector<D>::Unit(k)});
+    points.back().at[k] = lower[k];
+    points.push_back({within, Vector<D>::Unit(k)});
+    points.back().at[k] = upper[k];
+  }
 }
 
 template <int D>
@@ -45,6 +59,16 @@ template <int D>
 double RotatedBox<D>::reach(const Vector<D>& direction) const
 {
   return centre.dot(direction) + 0.5 * sides.dot((rotation.transpose() * direction).cwiseAbs());
+}
+
+template <int D>
+void RotatedBox<D>::faces(const Vector<D>& x, SurfacePoints<D>& points) const
+{
+  const std::size_t before = points.size();
+  Box<D>{-0.5 * sides, 0.5 * sides}.faces(rotation.transpose() * (x - centre), points);
+  for (SurfacePoint<D>& point : std::span(points).subspan(before)) {
+    point = {centre + rotation * point.at, rotation * point.normal};
+  }
 }
 
 template <int D>

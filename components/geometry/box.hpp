@@ -1,5 +1,6 @@
 #pragma once
 
+#include "components/geometry/surface_point.hpp"
 #include "components/geometry/volume.hpp"
 #include "components/tensors.hpp"
 
@@ -14,6 +15,7 @@ struct Box {
 
   bool contains(const Vector<D>& x) const;
   double reach(const Vector<D>& direction) const;
+  void faces(const Vector<D>& x, SurfacePoints<D>& points) const;
   Volume volume() const;
   void check() const;
 };
@@ -28,6 +30,7 @@ struct RotatedBox {
 
   bool contains(const Vector<D>& x) const;
   double reach(const Vector<D>& direction) const;
+  void faces(const Vector<D>& x, SurfacePoints<D>& points) const;
   Volume volume() const;
   void check() const;
 };

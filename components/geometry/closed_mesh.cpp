@@ -1,5 +1,8 @@
 #include "components/geometry/closed_mesh.hpp"
 
+#include <CGAL/AABB_face_graph_triangle_primitive.h>
+#include <CGAL/AABB_traits.h>
+#include <CGAL/AABB_tree.h>
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/IO/STL.h>
 #include <CGAL/Polygon_mesh_processing/measure.h>
@@ -37,6 +40,7 @@ using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 using Point = Kernel::Point_3;
 using Triangles = CGAL::Surface_mesh<Point>;
 using Facet = std::array<std::size_t, 3>;
+using Tree = CGAL::AABB_tree<CGAL::AABB_traits<Kernel, CGAL::AABB_face_graph_triangle_primitive<Triangles>>>;
 
 constexpr const char* expected_surface = "a closed surface that does not cross itself";
 
@@ -159,10 +163,15 @@ void require_voids_to_face_in(Triangles& mesh, const Triangles& oriented)
 const bool ClosedMesh::is_available = true;
 
 struct ClosedMesh::Surface {
-  explicit Surface(Triangles triangles) : mesh(std::move(triangles)), side_of(mesh) {}
+  explicit Surface(Triangles triangles)
+      : mesh(std::move(triangles)), tree(mesh.faces().begin(), mesh.faces().end(), mesh), side_of(tree)
+  {
+    tree.accelerate_distance_queries();
+  }
 
   const Triangles mesh;
-  /// Refers to the mesh.
+  /// Refer to the mesh.
+  Tree tree;
   const CGAL::Side_of_triangle_mesh<Triangles, Kernel> side_of;
 };
 
@@ -188,6 +197,12 @@ double ClosedMesh::reach(const Vector<3>& direction) const
   double furthest = -std::numeric_limits<double>::infinity();
   for (const Point& p : surface_->mesh.points()) furthest = std::max(furthest, vector(p).dot(direction));
   return furthest;
+}
+
+void ClosedMesh::faces(const Vector<3>& x, SurfacePoints<3>& points) const
+{
+  const auto [at, face] = surface_->tree.closest_point_and_primitive(Point(x[0], x[1], x[2]));
+  points.push_back({vector(at), normal(surface_->mesh, face).normalized()});
 }
 
 Volume ClosedMesh::volume() const

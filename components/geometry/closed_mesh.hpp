@@ -3,6 +3,7 @@
 #include <istream>
 #include <memory>
 
+#include "components/geometry/surface_point.hpp"
 #include "components/geometry/volume.hpp"
 #include "components/tensors.hpp"
 
@@ -26,6 +27,7 @@ class ClosedMesh
 
   bool contains(const Vector<3>& x) const;
   double reach(const Vector<3>& direction) const;
+  void faces(const Vector<3>& x, SurfacePoints<3>& points) const;
   Volume volume() const;
 
  private:

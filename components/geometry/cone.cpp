@@ -44,6 +44,11 @@ double Cylinder::reach(const Vector<3>& direction) const
   return Cone{first_end, second_end, radius, radius}.reach(direction);
 }
 
+void Cylinder::faces(const Vector<3>& x, SurfacePoints<3>& points) const
+{
+  Cone{first_end, second_end, radius, radius}.faces(x, points);
+}
+
 Volume Cylinder::volume() const
 {
   return {std::numbers::pi * radius * radius * (second_end - first_end).norm()};
@@ -67,6 +72,19 @@ double Cone::reach(const Vector<3>& direction) const
   const Vector<3> axis = second_end - first_end;
   const Axis line{first_end, axis.normalized()};
   return std::max(line.rim_reach(0, first_radius, direction), line.rim_reach(axis.norm(), second_radius, direction));
+}
+
+void Cone::faces(const Vector<3>& x, SurfacePoints<3>& points) const
+{
+  const Vector<3> axis = second_end - first_end;
+  const MeridianPlane plane = Axis{first_end, axis.normalized()}.plane_of(x);
+  const Vector<2> first(0, first_radius), second(axis.norm(), second_radius);
+  const auto add = [&](const Vector<2>& from, const Vector<2>& to) {
+    points.push_back(plane.in_space(nearest_of_edge(from, to, plane.place)));
+  };
+  add(second, first);
+  if (first_radius > 0) add(first, {0, 0});
+  if (second_radius > 0) add({second[0], 0}, second);
 }
 
 Volume Cone::volume() const

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "components/geometry/surface_point.hpp"
 #include "components/geometry/volume.hpp"
 #include "components/tensors.hpp"
 
@@ -15,6 +16,7 @@ struct Cylinder {
 
   bool contains(const Vector<3>& x) const;
   double reach(const Vector<3>& direction) const;
+  void faces(const Vector<3>& x, SurfacePoints<3>& points) const;
   Volume volume() const;
   void check() const;
 };
@@ -29,6 +31,7 @@ struct Cone {
 
   bool contains(const Vector<3>& x) const;
   double reach(const Vector<3>& direction) const;
+  void faces(const Vector<3>& x, SurfacePoints<3>& points) const;
   Volume volume() const;
   void check() const;
 };

@@ -25,6 +25,8 @@ double ClosedMesh::reach(const Vector<3>&) const
   return 0;
 }
 
+void ClosedMesh::faces(const Vector<3>&, SurfacePoints<3>&) const {}
+
 Volume ClosedMesh::volume() const
 {
   return {0};

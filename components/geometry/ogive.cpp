@@ -41,6 +41,20 @@ double Ogive::reach(const Vector<3>& direction) const
   return furthest;
 }
 
+void Ogive::faces(const Vector<3>& x, SurfacePoints<3>& points) const
+{
+  const double back = length(), rho = arc();
+  const MeridianPlane plane = Axis{base, (tip - base) / back}.plane_of(x);
+  const Vector<2> centre(0, radius - rho), rim(0, radius), end(back, 0);
+  const Vector<2> from_centre = plane.place - centre, to_end = end - centre;
+  const bool is_beside = from_centre[0] >= 0 && to_end[0] * from_centre[1] - to_end[1] * from_centre[0] >= 0;
+  const bool is_nearer_rim = (plane.place - rim).squaredNorm() < (plane.place - end).squaredNorm();
+  const Vector<2> direction = is_beside && from_centre.norm() > 0 ? from_centre : is_nearer_rim ? rim - centre : to_end;
+  const Vector<2> normal = direction.normalized();
+  points.push_back(plane.in_space({centre + rho * normal, normal}));
+  points.push_back(plane.in_space(nearest_of_edge(rim, {0, 0}, plane.place)));
+}
+
 Volume Ogive::volume() const
 {
   const double back = length(), rho = arc(), shift = rho - radius;

@@ -41,6 +41,17 @@ bool meet(const Edge& a, const Edge& b)
   return (a_straddles && b_straddles) || is_on(a, b.from) || is_on(a, b.to) || is_on(b, a.from) || is_on(b, a.to);
 }
 
+/// Of a polygon that runs against the clock; of others minus that. From the first corner, so that a small polygon far
+/// from the origin loses no digits.
+double twice_the_area(const std::vector<Vector<2>>& corners)
+{
+  double twice = 0;
+  for (std::size_t i = 1; i + 1 < corners.size(); ++i) {
+    twice += cross(corners[i] - corners[0], corners[i + 1] - corners[0]);
+  }
+  return twice;
+}
+
 /// Do edges that follow one another run back over each other?
 bool fold_back(const Edge& a, const Edge& b)
 {
@@ -49,7 +60,8 @@ bool fold_back(const Edge& a, const Edge& b)
 
 }  // namespace
 
-Polygon::Polygon(std::vector<Vector<2>> corners) : corners_(std::move(corners))
+Polygon::Polygon(std::vector<Vector<2>> corners)
+    : corners_(std::move(corners)), is_counterclockwise_(twice_the_area(corners_) > 0)
 {
   const std::size_t n = corners_.size();
   if (n < 3) throw BadValue("a polygon of " + std::to_string(n) + " corners", "3 or more");
@@ -92,14 +104,17 @@ double Polygon::reach(const Vector<2>& direction) const
   return furthest;
 }
 
+void Polygon::faces(const Vector<2>& x, SurfacePoints<2>& points) const
+{
+  for (std::size_t i = 0; i < corners_.size(); ++i) {
+    const Vector<2>&from = corners_[i], &to = corners_[(i + 1) % corners_.size()];
+    points.push_back(is_counterclockwise_ ? nearest_of_edge(from, to, x) : nearest_of_edge(to, from, x));
+  }
+}
+
 Volume Polygon::volume() const
 {
-  // From the first corner, so that a small polygon far from the origin loses no digits.
-  double twice = 0;
-  for (std::size_t i = 1; i + 1 < corners_.size(); ++i) {
-    twice += cross(corners_[i] - corners_[0], corners_[i + 1] - corners_[0]);
-  }
-  return {std::abs(twice) / 2};
+  return {std::abs(twice_the_area(corners_)) / 2};
 }
 
 bool ExtrudedPolygon::contains(const Vector<3>& x) const
@@ -110,6 +125,23 @@ bool ExtrudedPolygon::contains(const Vector<3>& x) const
 double ExtrudedPolygon::reach(const Vector<3>& direction) const
 {
   return base.reach(direction.head<2>()) + std::max(lower * direction[2], upper * direction[2]);
+}
+
+void ExtrudedPolygon::faces(const Vector<3>& x, SurfacePoints<3>& points) const
+{
+  SurfacePoints<2> sides;
+  base.faces(x.head<2>(), sides);
+  const double z = std::clamp(x[2], lower, upper);
+  for (const SurfacePoint<2>& side : sides) {
+    points.push_back({{side.at[0], side.at[1], z}, {side.normal[0], side.normal[1], 0}});
+  }
+  // Of the ends the place beneath the point, or that of their rims which is nearest.
+  const auto nearest = std::min_element(sides.begin(), sides.end(), [&](const auto& a, const auto& b) {
+    return (a.at - x.head<2>()).squaredNorm() < (b.at - x.head<2>()).squaredNorm();
+  });
+  const Vector<2> place = base.contains(x.head<2>()) ? Vector<2>(x.head<2>()) : nearest->at;
+  points.push_back({{place[0], place[1], lower}, -Vector<3>::Unit(2)});
+  points.push_back({{place[0], place[1], upper}, Vector<3>::Unit(2)});
 }
 
 Volume ExtrudedPolygon::volume() const

@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "components/geometry/surface_point.hpp"
 #include "components/geometry/volume.hpp"
 #include "components/tensors.hpp"
 
@@ -18,10 +19,13 @@ class Polygon
 
   bool contains(const Vector<2>& x) const;
   double reach(const Vector<2>& direction) const;
+  void faces(const Vector<2>& x, SurfacePoints<2>& points) const;
   Volume volume() const;
 
  private:
   std::vector<Vector<2>> corners_;
+  /// In this sense the inside is on the left of the edges.
+  bool is_counterclockwise_;
 };
 
 /// Prism on a polygon of the x-y plane, lower <= z < upper.
@@ -32,6 +36,7 @@ struct ExtrudedPolygon {
 
   bool contains(const Vector<3>& x) const;
   double reach(const Vector<3>& direction) const;
+  void faces(const Vector<3>& x, SurfacePoints<3>& points) const;
   Volume volume() const;
   void check() const;
 };

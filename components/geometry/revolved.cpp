@@ -53,24 +53,74 @@ Revolved::Revolved(const Vector<3>& start, const Vector<3>& axis, const std::vec
     squared_.push_back(p.radius * p.radius);
   }
   slope_ = monotone_slopes(along_, squared_);
-  if (!tip_radius) return;
+  if (tip_radius) round_tip(*tip_radius);
+  constexpr int n_between = 16;
+  for (std::size_t i = 0; i + 1 < along_.size(); ++i) {
+    for (int k = i == 0 ? 0 : 1; k <= n_between; ++k) {
+      const double along = k == n_between ? along_[i + 1] : along_[i] + k * (along_[i + 1] - along_[i]) / n_between;
+      outline_.emplace_back(along, std::sqrt(std::max(radius_squared(along), 0.0)));
+    }
+  }
+}
 
-  require_positive(*tip_radius, "tip radius");
+void Revolved::round_tip(double tip_radius)
+{
+  require_positive(tip_radius, "tip radius");
   // A cubic that starts more than three times as steep as its chord does not stay monotone.
   const double steepest = 3 * (squared_[1] - squared_[0]) / (along_[1] - along_[0]);
-  if (profile[0].radius != 0 || 2 * *tip_radius > steepest) {
-    throw BadValue("tip radius " + std::to_string(*tip_radius) + " at a radius of " + std::to_string(profile[0].radius),
-                   "at most " + std::to_string(steepest / 2) + ", on a profile that starts at radius 0", 0);
+  if (squared_[0] != 0 || 2 * tip_radius > steepest) {
+    throw BadValue(
+        "tip radius " + std::to_string(tip_radius) + " at a radius of " + std::to_string(std::sqrt(squared_[0])),
+        "at most " + std::to_string(steepest / 2) + ", on a profile that starts at radius 0", 0);
   }
-  slope_[0] = 2 * *tip_radius;
+  slope_[0] = 2 * tip_radius;
+}
+
+CubicValue Revolved::squared_at(double along) const
+{
+  const auto next = std::upper_bound(along_.begin() + 1, along_.end() - 1, along) - along_.begin();
+  const auto i = static_cast<std::size_t>(next) - 1;
+  return cubic(along_[i + 1] - along_[i], squared_[i], slope_[i], squared_[i + 1], slope_[i + 1], along - along_[i]);
 }
 
 double Revolved::radius_squared(double along) const
 {
-  const auto next = std::upper_bound(along_.begin() + 1, along_.end() - 1, along) - along_.begin();
-  const auto i = static_cast<std::size_t>(next) - 1;
-  return cubic(along_[i + 1] - along_[i], squared_[i], slope_[i], squared_[i + 1], slope_[i + 1], along - along_[i])
-      .value;
+  return squared_at(along).value;
+}
+
+double Revolved::growth_of_distance(const Vector<2>& place, double along) const
+{
+  const auto [squared, slope] = squared_at(along);
+  const double radius = std::sqrt(std::max(squared, 0.0));
+  if (radius == 0 && place[1] == 0) return along - place[0] + slope / 2;
+  return (along - place[0]) * radius + slope / 2 * (radius - place[1]);
+}
+
+double Revolved::nearest_along(const Vector<2>& place) const
+{
+  const auto nearest = std::min_element(outline_.begin(), outline_.end(), [&](const Vector<2>& a, const Vector<2>& b) {
+    return (a - place).squaredNorm() < (b - place).squaredNorm();
+  });
+  double low = (nearest == outline_.begin() ? *nearest : *(nearest - 1))[0];
+  double high = (nearest + 1 == outline_.end() ? *nearest : *(nearest + 1))[0];
+  double at_low = growth_of_distance(place, low), at_high = growth_of_distance(place, high);
+  if (at_low >= 0) return low;
+  if (at_high <= 0) return high;
+  // By false position, where an end that stays counts half each time (Dowell and Jarratt 1971).
+  constexpr int most = 100;
+  double along = low;
+  for (int i = 0; i < most; ++i) {
+    const double before = along;
+    along = (low * at_high - high * at_low) / (at_high - at_low);
+    if (std::abs(along - before) <= 1e-15 * (along_.back() - along_.front())) break;
+    const double here = growth_of_distance(place, along);
+    if (here == 0) break;
+    const bool is_low = here < 0, was_low = before == low;
+    if (is_low == was_low && i > 0) (is_low ? at_high : at_low) *= 0.5;
+    (is_low ? low : high) = along;
+    (is_low ? at_low : at_high) = here;
+  }
+  return along;
 }
 
 bool Revolved::contains(const Vector<3>& x) const
@@ -94,6 +144,19 @@ double Revolved::reach(const Vector<3>& direction) const
     }
   }
   return furthest;
+}
+
+void Revolved::faces(const Vector<3>& x, SurfacePoints<3>& points) const
+{
+  const MeridianPlane plane = axis_.plane_of(x);
+  const double along = nearest_along(plane.place);
+  const auto [squared, slope] = squared_at(along);
+  const Vector<2> at(along, std::sqrt(std::max(squared, 0.0)));
+  const Vector<2> steep(-slope / 2, at[1]), forward(along == along_.front() ? -1 : 1, 0);
+  points.push_back(plane.in_space({at, steep.norm() > 0 ? Vector<2>(steep.normalized()) : forward}));
+  const Vector<2>&first = outline_.front(), &last = outline_.back();
+  if (first[1] > 0) points.push_back(plane.in_space(nearest_of_edge(first, {first[0], 0}, plane.place)));
+  if (last[1] > 0) points.push_back(plane.in_space(nearest_of_edge({last[0], 0}, last, plane.place)));
 }
 
 Volume Revolved::volume() const

@@ -3,7 +3,9 @@
 #include <optional>
 #include <vector>
 
+#include "components/curves/monotone_cubic.hpp"
 #include "components/geometry/axis.hpp"
+#include "components/geometry/surface_point.hpp"
 #include "components/geometry/volume.hpp"
 #include "components/tensors.hpp"
 
@@ -30,15 +32,26 @@ class Revolved
 
   bool contains(const Vector<3>& x) const;
   double reach(const Vector<3>& direction) const;
+  void faces(const Vector<3>& x, SurfacePoints<3>& points) const;
   Volume volume() const;
 
   /// At a place between the ends.
   double radius_squared(double along) const;
 
  private:
+  void round_tip(double tip_radius);
+  /// r^2 along the axis, and how it grows.
+  CubicValue squared_at(double along) const;
+  /// How half the square of the distance from `place` to the outline grows along the axis, times the radius there.
+  double growth_of_distance(const Vector<2>& place, double along) const;
+  /// Where along the axis the outline is nearest to `place`, in the half plane of both.
+  double nearest_along(const Vector<2>& place) const;
+
   Axis axis_;
   /// Places along the axis, r^2 there and how it grows.
   std::vector<double> along_, squared_, slope_;
+  /// Points of the outline, close together.
+  std::vector<Vector<2>> outline_;
 };
 
 }  // namespace tamp::components

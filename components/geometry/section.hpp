@@ -12,6 +12,9 @@ struct Section {
 
   bool contains(const Vector<2>& x) const { return solid.contains({x[0], x[1], 0}); }
   double reach(const Vector<2>& direction) const { return solid.reach({direction[0], direction[1], 0}); }
+  /// Exact where the nearest point of the solid lies in the plane, as that of bodies of revolution whose axis does, or
+  /// on a flat face; else to first order in the distance.
+  void faces(const Vector<2>& x, SurfacePoints<2>& points) const;
   /// Its area.
   Volume volume() const
   {

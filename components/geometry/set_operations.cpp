@@ -77,6 +77,12 @@ double Union<D>::reach(const Vector<D>& direction) const
 }
 
 template <int D>
+void Union<D>::faces(const Vector<D>& x, SurfacePoints<D>& points) const
+{
+  for (const Solid<D>& part : parts) part.faces(x, points);
+}
+
+template <int D>
 Volume Union<D>::volume() const
 {
   Volume sum{0};
@@ -109,6 +115,12 @@ double Intersection<D>::reach(const Vector<D>& direction) const
 }
 
 template <int D>
+void Intersection<D>::faces(const Vector<D>& x, SurfacePoints<D>& points) const
+{
+  for (const Solid<D>& part : parts) part.faces(x, points);
+}
+
+template <int D>
 Volume Intersection<D>::volume() const
 {
   if (parts.size() == 1) return parts.front().volume();
@@ -134,6 +146,15 @@ template <int D>
 double Difference<D>::reach(const Vector<D>& direction) const
 {
   return whole.reach(direction);
+}
+
+template <int D>
+void Difference<D>::faces(const Vector<D>& x, SurfacePoints<D>& points) const
+{
+  whole.faces(x, points);
+  const std::size_t before = points.size();
+  for (const Solid<D>& hole : without) hole.faces(x, points);
+  for (SurfacePoint<D>& point : std::span(points).subspan(before)) point.normal = -point.normal;
 }
 
 template <int D>

@@ -4,8 +4,9 @@
 
 #include "components/geometry/solid.hpp"
 
-/// Solids made of others. The volume of parts whose bounding boxes are apart is exact; where they meet, what they share
-/// is counted at the points of a fixed sequence, and the error is twice the standard error between parts of it.
+/// Solids made of others. Their faces are those of their parts, some of which may lie within others. The volume of
+/// parts whose bounding boxes are apart is exact; where they meet, what they share is counted at the points of a fixed
+/// sequence, and the error is twice the standard error between parts of it.
 namespace tamp::components
 {
 
@@ -24,6 +25,7 @@ struct Union {
 
   bool contains(const Vector<D>& x) const;
   double reach(const Vector<D>& direction) const;
+  void faces(const Vector<D>& x, SurfacePoints<D>& points) const;
   Volume volume() const;
   std::size_t n_shapes() const { return components::n_shapes(parts); }
   void check() const;
@@ -36,6 +38,7 @@ struct Intersection {
 
   bool contains(const Vector<D>& x) const;
   double reach(const Vector<D>& direction) const;
+  void faces(const Vector<D>& x, SurfacePoints<D>& points) const;
   Volume volume() const;
   std::size_t n_shapes() const { return components::n_shapes(parts); }
   void check() const;
@@ -49,6 +52,7 @@ struct Difference {
 
   bool contains(const Vector<D>& x) const;
   double reach(const Vector<D>& direction) const;
+  void faces(const Vector<D>& x, SurfacePoints<D>& points) const;
   Volume volume() const;
   std::size_t n_shapes() const { return whole.n_shapes() + components::n_shapes(without); }
 };

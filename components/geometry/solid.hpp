@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "components/geometry/box.hpp"
+#include "components/geometry/surface_point.hpp"
 #include "components/geometry/volume.hpp"
 #include "components/tensors.hpp"
 
@@ -16,11 +17,12 @@ namespace tamp::components
 ///
 ///     bool contains(const Vector<D>& x) const;
 ///     double reach(const Vector<D>& direction) const;  // the greatest x . direction [m] of its points, or a bound
+///     void faces(const Vector<D>& x, SurfacePoints<D>& points) const;  // adds the point of each face nearest to x
 ///     Volume volume() const;
 ///     void check() const;                              // if it has one: throws BadValue for what is no shape
 ///     std::size_t n_shapes() const;                    // if it is made of others: how many they are in the end
 ///
-/// Solids share their shapes, which do not change. They are evaluated at set-up only, never in a step. Lengths in m.
+/// Solids share their shapes, which do not change. Lengths in m.
 template <int D>
 class Solid
 {
@@ -30,12 +32,22 @@ class Solid
   explicit Solid(Shape shape)
   {
     if constexpr (requires { shape.check(); }) shape.check();
-    if constexpr (requires { shape.n_shapes(); }) n_shapes_ = shape.n_shapes();
+    if constexpr (requires { shape.n_shapes(); }) {
+      n_shapes_ = shape.n_shapes();
+      is_made_of_others_ = true;
+    }
     shape_ = std::make_shared<const Held<Shape>>(std::move(shape));
+    const Box<D> box = bounding_box();
+    middle_ = 0.5 * (box.lower + box.upper);
   }
 
   bool contains(const Vector<D>& x) const { return shape_->contains(x); }
   double reach(const Vector<D>& direction) const { return shape_->reach(direction); }
+  void faces(const Vector<D>& x, SurfacePoints<D>& points) const { shape_->faces(x, points); }
+
+  /// The distance of `x` from the surface. Of the shapes of set operations it is exact where the nearest point lies on
+  /// a face of one of them; next to an edge in which two of them meet it may be off to either side.
+  SignedDistance<D> distance(const Vector<D>& x) const;
 
   /// Volume [m^3]; in the plane the area [m^2], the volume of one metre of thickness.
   Volume volume() const { return shape_->volume(); }
@@ -70,6 +82,7 @@ class Solid
     virtual ~AnyShape() = default;
     virtual bool contains(const Vector<D>& x) const = 0;
     virtual double reach(const Vector<D>& direction) const = 0;
+    virtual void faces(const Vector<D>& x, SurfacePoints<D>& points) const = 0;
     virtual Volume volume() const = 0;
   };
 
@@ -78,12 +91,16 @@ class Solid
     explicit Held(Shape s) : shape(std::move(s)) {}
     bool contains(const Vector<D>& x) const override { return shape.contains(x); }
     double reach(const Vector<D>& direction) const override { return shape.reach(direction); }
+    void faces(const Vector<D>& x, SurfacePoints<D>& points) const override { shape.faces(x, points); }
     Volume volume() const override { return shape.volume(); }
     Shape shape;
   };
 
   std::shared_ptr<const AnyShape> shape_;
   std::size_t n_shapes_ = 1;
+  bool is_made_of_others_ = false;
+  /// Of the bounding box.
+  Vector<D> middle_;
 };
 
 }  // namespace tamp::components

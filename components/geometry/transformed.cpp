@@ -1,5 +1,7 @@
 #include "components/geometry/transformed.hpp"
 
+#include <span>
+
 #include "components/geometry/checks.hpp"
 
 namespace tamp::components
@@ -15,6 +17,16 @@ template <int D>
 double Transformed<D>::reach(const Vector<D>& direction) const
 {
   return solid.reach(rotation.transpose() * direction) + translation.dot(direction);
+}
+
+template <int D>
+void Transformed<D>::faces(const Vector<D>& x, SurfacePoints<D>& points) const
+{
+  const std::size_t before = points.size();
+  solid.faces(rotation.transpose() * (x - translation), points);
+  for (SurfacePoint<D>& point : std::span(points).subspan(before)) {
+    point = {translation + rotation * point.at, rotation * point.normal};
+  }
 }
 
 template <int D>

@@ -14,6 +14,7 @@ struct Transformed {
 
   bool contains(const Vector<D>& x) const;
   double reach(const Vector<D>& direction) const;
+  void faces(const Vector<D>& x, SurfacePoints<D>& points) const;
   Volume volume() const;
   std::size_t n_shapes() const { return solid.n_shapes(); }
   void check() const;
