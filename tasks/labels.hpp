@@ -6,6 +6,7 @@
 #include "components/anti_locking/cell_average.hpp"
 #include "components/contact/logistic_plane.hpp"
 #include "components/contact/normals.hpp"
+#include "components/contact/solid_contact.hpp"
 #include "components/loads/pressure_load.hpp"
 #include "components/shapes/node_sums.hpp"
 #include "components/tensors.hpp"
@@ -120,6 +121,9 @@ inline const runtime::NodeLabel<components::EdgeSums<D>, "edge sums"> edge_sums;
 /// Only where a contact finds any.
 template <int D>
 inline const runtime::NodeLabel<components::ContactFace<D>, "contact face"> contact_face;
+/// Only for materials that meet a rigid body by its solid.
+template <int D>
+inline const runtime::NodeLabel<components::GapSums<D>, "gap sums"> gap_sums;
 /// The last term u_j of a transfer's passes, and the sum of those that the transfer takes [m/s].
 template <int D>
 inline const runtime::NodeLabel<components::NodeVector<D>, "velocity term"> velocity_term;
@@ -133,6 +137,8 @@ inline const runtime::NodeLabel<components::NodeVector<D>, "returned momentum"> 
 
 /// Accumulated from the start: what a step adds to the energies, and how long the next may be.
 inline const runtime::ReductionLabel<StepTotals, "step totals"> step_totals;
+/// What contact by solids adds to the step totals.
+inline const runtime::ReductionLabel<StepTotals, "totals of solids"> solid_totals;
 inline const runtime::ReductionLabel<GridTotals, "grid totals"> grid_totals;
 inline const runtime::ReductionLabel<LostParticles, "lost particles"> lost_particles;
 /// Where a scene has body forces.

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "components/geometry/mirrored.hpp"
 #include "components/portable_math.hpp"
 
 namespace tamp::tasks
@@ -24,6 +25,26 @@ double least_particle_mass(const Scene& scene)
     least = std::min(least, density * portable::pow(size, scene.axisymmetric ? 3 : scene.grid.dimension));
   }
   return least;
+}
+
+/// A body with its images beyond the planes of symmetry that it lies on.
+template <int D>
+components::Solid<D> whole_of(const Scene& scene, const SceneBody& body)
+{
+  auto whole = std::get<components::Solid<D>>(body.solid);
+  const components::Box<D> box = whole.bounding_box();
+  const double slack = 1e-9 * scene.grid.cell_size;
+  for (int axis = 0; axis < D; ++axis) {
+    const auto k = static_cast<std::size_t>(axis);
+    for (const int side : {0, 1}) {
+      if (!components::traits_of(scene.faces[k][static_cast<std::size_t>(side)]).is_mirror) continue;
+      const double plane = scene.grid.coordinate(axis, side == 0 ? 0 : scene.grid.n_cells[k]);
+      const bool lies_on_it = side == 0 ? box.lower[axis] <= plane + slack : box.upper[axis] >= plane - slack;
+      if (!lies_on_it) continue;
+      whole = components::Solid<D>(components::Mirrored<D>{whole, axis, plane, side == 0 ? -1 : 1});
+    }
+  }
+  return whole;
 }
 
 }  // namespace
@@ -70,6 +91,19 @@ Method<D>::Method(const Scene& given)
   }
   for (const SceneContact& pair : scene.contacts)
     contacts.set(pair.material_a, pair.material_b, pair.friction, pair.normal);
+  for (const RigidBody& body : rigid_bodies) {
+    solids.push_back(whole_of<D>(scene, scene.bodies[static_cast<std::size_t>(body.body)]));
+  }
+  for (const int material : deformable_materials) {
+    const auto meets = [&](const RigidBody& body) { return meets_by_solid(body, material); };
+    if (std::any_of(rigid_bodies.begin(), rigid_bodies.end(), meets)) touch_solids.push_back(material);
+  }
+}
+
+template <int D>
+bool Method<D>::meets_by_solid(const RigidBody& body, int material) const
+{
+  return std::holds_alternative<components::SolidNormal>(contacts.normal(body.material, material));
 }
 
 template <int D>

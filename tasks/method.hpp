@@ -75,6 +75,9 @@ struct Method {
   /// The rigid body that a material is, or null.
   const RigidBody* rigid_body(int material) const;
 
+  /// Whether a material meets the surface of a rigid body's solid.
+  bool meets_by_solid(const RigidBody& body, int material) const;
+
   /// Whether particles deform by other velocities than those of the nodes that their forces work on. The energy of a
   /// step is then balanced as a whole.
   bool deforms_by_other_velocities() const
@@ -129,6 +132,11 @@ struct Method {
   std::span<const SceneMaterial> materials;
   /// Their mass is that of their particles, which the simulation fills in.
   std::vector<RigidBody> rigid_bodies;
+  /// The surfaces of the rigid bodies, in the same order, as they lie at the start; those beside a plane of symmetry
+  /// with their images.
+  std::vector<components::Solid<D>> solids;
+  /// Materials that meet a rigid body by its solid.
+  std::vector<int> touch_solids;
   /// Materials that are no rigid body.
   std::vector<int> deformable_materials;
   /// Materials with a body under a pressure load.

@@ -9,6 +9,7 @@
 /// Where the normal that two contact groups share comes from. Each kind has
 ///
 ///     word, or shown, and meaning        as scenes and their documentation have it
+///     acts_apart                         whether bodies may push each other before they touch
 ///     finds_faces                        whether a pass of its own finds a ContactFace at nodes where the two are
 ///     alone needs_surface_of(group)            whether it asks for the surface of this one of the two outward(first,
 ///     second)             the direction from the first to the second, not of unit length, from their
@@ -46,6 +47,7 @@ struct FlatterNormal {
                                         "that of the flatter surface at each node, where bodies may push before "
                                         "they touch";
   static constexpr bool finds_faces = false;
+  static constexpr bool acts_apart = true;
   friend bool operator==(const FlatterNormal&, const FlatterNormal&) = default;
 
   bool needs_surface_of(int) const { return true; }
@@ -64,6 +66,7 @@ struct RegressionNormal {
                                         "less, and they push each other only where they touch; where a third "
                                         "material is, that of the flatter surface";
   static constexpr bool finds_faces = true;
+  static constexpr bool acts_apart = false;
   friend bool operator==(const RegressionNormal&, const RegressionNormal&) = default;
 
   bool needs_surface_of(int) const { return true; }
@@ -80,6 +83,7 @@ struct OwnNormal {
                                         "that of this material's surface, as suits a stiff body that is driven "
                                         "into a soft one";
   static constexpr bool finds_faces = false;
+  static constexpr bool acts_apart = true;
   friend bool operator==(const OwnNormal&, const OwnNormal&) = default;
 
   int owner;  ///< one of the two groups
@@ -92,8 +96,32 @@ struct OwnNormal {
   }
 };
 
+/// That of a rigid body's solid, see solid_contact.hpp. Nodes do not find it between the sums of two materials.
+struct SolidNormal {
+  static constexpr std::string_view word = "solid",
+                                    meaning =
+                                        "that of the solid of a rigid body, which what is around it touches where the "
+                                        "solid is, whatever its particles";
+  static constexpr bool finds_faces = false;
+  static constexpr bool acts_apart = false;
+  friend bool operator==(const SolidNormal&, const SolidNormal&) = default;
+
+  bool needs_surface_of(int) const { return false; }
+  template <int D>
+  Vector<D> outward(const GroupSurface<D>&, const GroupSurface<D>&) const
+  {
+    return Vector<D>::Zero();
+  }
+};
+
 /// All there are; one more is added here.
-using ContactNormal = std::variant<FlatterNormal, RegressionNormal, OwnNormal>;
+using ContactNormal = std::variant<FlatterNormal, RegressionNormal, OwnNormal, SolidNormal>;
+
+/// Whether bodies may push each other before they touch.
+inline bool acts_apart(const ContactNormal& normal)
+{
+  return std::visit([](const auto& kind) { return kind.acts_apart; }, normal);
+}
 
 inline bool finds_faces(const ContactNormal& normal)
 {

@@ -14,11 +14,13 @@ runtime::TaskList account_for_step(const Method<D>& method)
   return {runtime::task("account for step")
               .over_ranks()
               .reads(step_totals.previous(), step_totals, grid_totals, energy_ledger.previous(),
+                     solid_totals.when(!method.touch_solids.empty()),
                      load_totals.when(!method.pressed_materials.empty()),
                      body_force_work.when(method.scene.has_body_force()))
               .computes(energy_ledger, longest_step, runtime::step_verdict)
               .body([&method](const TaskContext& at, auto data) {
-                const StepTotals& step = data[step_totals];
+                StepTotals step = data[step_totals];
+                runtime::combine(step, data[solid_totals]);
                 data[runtime::step_verdict].refused =
                     refusal(method.scene, data[step_totals.previous()], step, at.step.size).has_value();
                 EnergyLedger& ledger = data[energy_ledger];

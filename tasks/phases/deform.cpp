@@ -25,7 +25,7 @@ void deform_batch(const Method<D>& method, const TaskContext& at, const Data& da
   std::array<double, motion_batch> change;
   for (std::size_t i = 0; i < size; ++i) change[i] = cells[cell_of<D>(at, position[first + i])].mean();
   set_volume_changes<D>(method, gradients, std::span(change).first(size));
-  deform<D>(method, at, data, first, gradients);
+  deform<D>(method, data, first, gradients);
 }
 
 }  // namespace
@@ -44,7 +44,6 @@ runtime::TaskList deform_as_cells(const Method<D>& method)
                      particle::stress<D>.previous(), particle::hoop_stretch.previous().when(method.axisymmetric))
               .computes(particle::deformation_gradient<D>, particle::volume, particle::stress<D>,
                         particle::strain_increment<D>, particle::hoop_stretch.when(method.axisymmetric))
-              .reduces(step_totals)
               .body([&method](const TaskContext& at, auto data) {
                 const std::size_t n = data[particle::step_gradient<D>].size();
                 for (std::size_t first = 0; first < n; first += motion_batch) {

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <span>
 
 #include "components/anti_locking/f_bar.hpp"
@@ -35,28 +36,19 @@ struct StepGradientBuffer {
   }
 };
 
-/// A particle that cannot follow its gradient, of this sum, keeps its shape, and the step is refused.
+/// A particle that cannot follow keeps its shape, and has no strain: the next phase sees that, and the step is refused.
 template <int D, class Data>
-void refuse(const Method<D>& method, const runtime::TaskContext& at, const Data& data, std::size_t p, double sum)
+void leave_undeformed(const Data& data, std::size_t p)
 {
-  BadMotion bad{place_of<D>(data[particle::id.previous()][p], at.group, data[particle::position<D>.previous()][p]),
-                MotionFault::not_finite};
-  if (std::isfinite(sum)) {
-    const bool inverts = components::with_update(method.deformation_update, [](auto update) { return update.inverts; });
-    bad.fault = inverts ? MotionFault::inside_out : MotionFault::turned_too_far;
-  }
-  BadMotion& worst = data[step_totals].bad_motion;
-  worst = std::min(worst, bad);
   data[particle::deformation_gradient<D>][p] = data[particle::deformation_gradient<D>.previous()][p];
   data[particle::volume][p] = data[particle::volume.previous()][p];
   data[particle::stress<D>][p] = data[particle::stress<D>.previous()][p];
-  data[particle::strain_increment<D>][p].setZero();
+  data[particle::strain_increment<D>][p].setConstant(std::numeric_limits<double>::quiet_NaN());
 }
 
 /// Stretches the hoops of a batch that has followed its gradients in the plane, by `g` = dt v_r / r.
 template <class Data>
-void stretch_hoops(const Method<2>& method, const runtime::TaskContext& at, const Data& data, std::size_t first,
-                   std::span<const double> g)
+void stretch_hoops(const Method<2>& method, const Data& data, std::size_t first, std::span<const double> g)
 {
   while (!g.empty()) {
     const auto of_batch = [&](const auto& field) { return field.subspan(first, g.size()); };
@@ -68,7 +60,7 @@ void stretch_hoops(const Method<2>& method, const runtime::TaskContext& at, cons
                                     .strain_increment = of_batch(data[particle::strain_increment<2>])});
     if (!stopped_at) return;
     const std::size_t p = first + *stopped_at;
-    refuse<2>(method, at, data, p, g[*stopped_at]);
+    leave_undeformed<2>(data, p);
     data[particle::hoop_stretch][p] = data[particle::hoop_stretch.previous()][p];
     first = p + 1;
     g = g.subspan(*stopped_at + 1);
@@ -77,8 +69,7 @@ void stretch_hoops(const Method<2>& method, const runtime::TaskContext& at, cons
 
 /// Deforms a batch by `g`; the old stress turns with it.
 template <int D, class Data>
-void follow_gradients(const Method<D>& method, const runtime::TaskContext& at, const Data& data, std::size_t first,
-                      std::span<const Matrix<D>> g)
+void follow_gradients(const Method<D>& method, const Data& data, std::size_t first, std::span<const Matrix<D>> g)
 {
   while (!g.empty()) {
     const auto of_batch = [&](const auto& field) { return field.subspan(first, g.size()); };
@@ -92,7 +83,7 @@ void follow_gradients(const Method<D>& method, const runtime::TaskContext& at, c
                                     .stress = of_batch(data[particle::stress<D>]),
                                     .strain_increment = of_batch(data[particle::strain_increment<D>])});
     if (!stopped_at) return;
-    refuse<D>(method, at, data, first + *stopped_at, g[*stopped_at].sum());
+    leave_undeformed<D>(data, first + *stopped_at);
     first += *stopped_at + 1;
     g = g.subspan(*stopped_at + 1);
   }
@@ -100,12 +91,11 @@ void follow_gradients(const Method<D>& method, const runtime::TaskContext& at, c
 
 /// Deforms a batch of particles; what the material answers is added by the next phase.
 template <int D, class Data>
-void deform(const Method<D>& method, const runtime::TaskContext& at, const Data& data, std::size_t first,
-            const StepGradients<D>& gradients)
+void deform(const Method<D>& method, const Data& data, std::size_t first, const StepGradients<D>& gradients)
 {
-  follow_gradients<D>(method, at, data, first, gradients.g);
+  follow_gradients<D>(method, data, first, gradients.g);
   if constexpr (D == 2) {
-    if (method.axisymmetric) stretch_hoops(method, at, data, first, gradients.hoop);
+    if (method.axisymmetric) stretch_hoops(method, data, first, gradients.hoop);
   }
 }
 
@@ -191,7 +181,7 @@ void take_gradients(const Method<D>& method, const runtime::TaskContext& at, con
   if (method.deforms_as_cells()) {
     keep<D>(method, at, data, first, gradients);
   } else {
-    deform<D>(method, at, data, first, gradients);
+    deform<D>(method, data, first, gradients);
   }
 }
 
@@ -230,8 +220,7 @@ auto deforming(const Method<D>& method, Task task, bool deforms)
                 particle::step_hoop.when(keeps && method.axisymmetric), cell::volume_change.when(keeps),
                 particle::deformation_gradient<D>.when(finishes), particle::volume.when(finishes),
                 particle::stress<D>.when(finishes), particle::strain_increment<D>.when(finishes),
-                particle::hoop_stretch.when(finishes && method.axisymmetric))
-      .reduces(step_totals.when(finishes));
+                particle::hoop_stretch.when(finishes && method.axisymmetric));
 }
 
 }  // namespace tamp::tasks

@@ -50,6 +50,11 @@ runtime::TaskList contact_planes(const Method<D>& method);
 template <int D>
 runtime::TaskList gather_rigid_contact(const Method<D>& method);
 
+/// Contact of rigid bodies with what meets them by their solids: the gaps between both, and what it is for the bodies'
+/// motion.
+template <int D>
+runtime::TaskList gather_contact_of_solids(const Method<D>& method);
+
 /// The nodes of rigid bodies move as these do after contact.
 template <int D>
 runtime::TaskList rigid_nodes_after_contact(const Method<D>& method);
@@ -57,6 +62,10 @@ runtime::TaskList rigid_nodes_after_contact(const Method<D>& method);
 /// Where materials meet at a node and approach each other, impulses keep them apart.
 template <int D>
 runtime::TaskList contact(const Method<D>& method);
+
+/// Where a gap between a material and a rigid body's solid would close within the step, impulses leave nothing of it.
+template <int D>
+runtime::TaskList contact_of_solids(const Method<D>& method);
 
 /// Nothing crosses a wall of the domain.
 template <int D>

@@ -97,9 +97,22 @@ void account(const Method<D>& method, double dt, const Data& data, std::size_t f
   add_to(data[step_totals], account, n);
 }
 
-/// Looks at `n` particles for those whose strain, stress or velocity is not finite; where they were before.
+/// A particle that could not follow the motion, see `leave_undeformed`, or has none; where it was before.
 template <int D, class Data>
-void check_finite(int material, const Data& data, std::size_t first, std::size_t n)
+BadMotion bad_motion(const Method<D>& method, int material, std::size_t p, const Data& data)
+{
+  BadMotion bad{place_of<D>(data[particle::id.previous()][p], material, data[particle::position<D>.previous()][p]),
+                MotionFault::not_finite};
+  if (data[particle::velocity<D>][p].allFinite() && !data[particle::strain_increment<D>][p].allFinite()) {
+    const bool inverts = components::with_update(method.deformation_update, [](auto update) { return update.inverts; });
+    bad.fault = inverts ? MotionFault::inside_out : MotionFault::turned_too_far;
+  }
+  return bad;
+}
+
+/// Looks at `n` particles for those whose strain, stress or velocity is not finite.
+template <int D, class Data>
+void check_finite(const Method<D>& method, int material, const Data& data, std::size_t first, std::size_t n)
 {
   const auto strain = data[particle::strain_increment<D>];
   const auto stress = data[particle::stress<D>];
@@ -107,9 +120,7 @@ void check_finite(int material, const Data& data, std::size_t first, std::size_t
   BadMotion& worst = data[step_totals].bad_motion;
   for (std::size_t p = first; p < first + n; ++p) {
     if (std::isfinite(strain[p].sum() + stress[p].sum() + velocity[p].sum())) continue;
-    const auto place =
-        place_of<D>(data[particle::id.previous()][p], material, data[particle::position<D>.previous()][p]);
-    worst = std::min(worst, {place, MotionFault::not_finite});
+    worst = std::min(worst, bad_motion<D>(method, material, p, data));
   }
 }
 
@@ -177,7 +188,7 @@ void update_batches(const Method<D>& method, const Model& model, const TaskConte
       totals.failed =
           std::min(totals.failed, failed_update<D>(model, at.group, first + failure->particle, failure->fault, data));
     }
-    check_finite<D>(at.group, data, first, n);
+    check_finite(method, at.group, data, first, n);
     account(method, at.step.size, data, first, std::span<const SymmetricTensor<D>>(old_stress.data(), n), answer);
     forget_gradients<D>(data, first, batch.bulk_modulus);
   }

@@ -22,7 +22,7 @@ template <int D>
 bool may_push_early(const Method<D>& method, int a, int b)
 {
   const bool are_rigid = method.rigid_body(a) != nullptr && method.rigid_body(b) != nullptr;
-  return !are_rigid && !components::finds_faces(method.contacts.normal(a, b));
+  return !are_rigid && components::acts_apart(method.contacts.normal(a, b));
 }
 
 template <int D>

@@ -225,6 +225,23 @@ void advise_on_method(const tasks::Scene& scene, const tasks::SceneBody& body, L
   }
 }
 
+/// What meets a rigid body by other normals meets its particles, whose lattice is blunter than the body.
+void advise_on_contact(const tasks::Scene& scene, Lines& lines)
+{
+  if (scene.is_periodic()) return;
+  for (const tasks::SceneContact& contact : scene.contacts) {
+    const bool first_is_rigid = scene.is_rigid(contact.material_a);
+    if (first_is_rigid == scene.is_rigid(contact.material_b)) continue;
+    if (std::holds_alternative<components::SolidNormal>(contact.normal)) continue;
+    const auto name = [&](int material) { return scene.materials[static_cast<std::size_t>(material)].name; };
+    lines.push_back(
+        fmt::format("contact: with \"normal\": \"solid\" {} would meet the solid that {} is, and not its particles, by "
+                    "which a body on few cells is too blunt",
+                    name(first_is_rigid ? contact.material_b : contact.material_a),
+                    name(first_is_rigid ? contact.material_a : contact.material_b)));
+  }
+}
+
 }  // namespace
 
 std::vector<std::string> advice(const CheckedScene& checked, const std::optional<tasks::Pace>& pace)
@@ -242,6 +259,7 @@ std::vector<std::string> advice(const CheckedScene& checked, const std::optional
     }
     advise_on_method(scene, body, lines);
   }
+  advise_on_contact(scene, lines);
   advise_on_rule(scene, pace, lines);
   if (is_slab(scene)) {
     lines.push_back(

@@ -166,7 +166,7 @@ void check_approach(const tasks::Scene& scene, Warnings& warnings)
 {
   for (std::size_t i = 0; i < scene.contacts.size(); ++i) {
     const tasks::SceneContact& contact = scene.contacts[i];
-    if (components::finds_faces(contact.normal)) continue;
+    if (!components::acts_apart(contact.normal)) continue;
     const bool moves = std::any_of(scene.bodies.begin(), scene.bodies.end(), [&](const tasks::SceneBody& body) {
       return (body.material == contact.material_a || body.material == contact.material_b) &&
              way_of(scene, body).norm() > 0;

@@ -276,7 +276,9 @@ class SceneReader
     if (!has_room_for("materials")) return;
     const auto words = keys_of_kinds<components::ContactNormal>().words;
     for (const std::string& name : root_.members_of("materials")) {
-      if (std::ranges::any_of(words, [&](const auto& word) { return word.word == name; })) {
+      // "solid" came later than scenes with a material of that name, which keeps its meaning.
+      const bool is_word = std::ranges::any_of(words, [&](const auto& word) { return word.word == name; });
+      if (is_word && name != components::SolidNormal::word) {
         document_.add_problem(root_.pointer("materials") / name, "a word of the contact key normal",
                               "expected another name");
       }
@@ -330,6 +332,7 @@ class SceneReader
         reader.add_problem("materials", "a pair that is listed before", "expected every pair once");
       }
       scene_.contacts.push_back({a, b, friction, normal});
+      check_solid(reader, scene_, scene_.contacts.back());
     }
     if (!scene_.is_periodic()) add_other_contacts();
     return document_.problems.size() == n_before && scene_.materials.size() == material_names_.size();
@@ -364,13 +367,17 @@ class SceneReader
           scene_.is_periodic() ? components::FlatterNormal::word : components::RegressionNormal::word;
       const std::string name = reader.name("normal", materials, std::string(usual));
       normal = components::OwnNormal{material_number(name)};
+      const bool is_material = std::find(materials.begin(), materials.end(), name) != materials.end();
       for (const auto& word : keys_of_kinds<ContactNormal>().words) {
-        if (word.word == name) place = word.value;
+        if (word.word == name && !is_material) place = word.value;
       }
     }
     if (place) normal = read_kind<ContactNormal>(reader, "normal", *place);
-    if (components::finds_faces(normal) && scene_.is_periodic()) {
-      reader.add_problem("normal", "regression, whose planes have one place each, between periodic boundaries",
+    if (!components::acts_apart(normal) && scene_.is_periodic()) {
+      reader.add_problem("normal",
+                         std::holds_alternative<components::SolidNormal>(normal)
+                             ? "solid, whose place is one, between periodic boundaries"
+                             : "regression, whose planes have one place each, between periodic boundaries",
                          "expected another normal");
     }
     return normal;

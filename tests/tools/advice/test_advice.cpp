@@ -98,6 +98,13 @@ TEST_CASE("the check of the projectile says that it is thin, that it sets the st
   CHECK_THAT(check_of("uxo/fine.json"), !Catch::Contains("method:"));
 }
 
+TEST_CASE("whoever meets a rigid body by its particles is told of its solid")
+{
+  CHECK_THAT(check_of("uxo/quick.json"), Catch::Contains("advice  contact: with \"normal\": \"solid\" sand would meet "
+                                                         "the solid that projectile is, and not its particles"));
+  CHECK_THAT(check_of("uxo/quick.json", "--set /contact/0/normal=solid"), !Catch::Contains("contact:"));
+}
+
 TEST_CASE("soil that is pressed is told of anti-locking, and not of bodies that go into it")
 {
   // As it was verified, without local damping.

@@ -92,11 +92,16 @@ TEST_CASE("the normal of a contact is a material's or a word, which no material 
              {{"", ""},
               {contact + "'sand'}]", ""},
               {contact + "'snd'}]",
-               "/contact/0/normal: \"snd\"; expected one of flatter, regression, steel, sand, did you mean \"sand\"?"},
-              {contact + "1}]", "/contact/0/normal: 1; expected one of flatter, regression, steel, sand"}});
+               "/contact/0/normal: \"snd\"; expected one of flatter, regression, solid, steel, sand, did you mean "
+               "\"sand\"?"},
+              {contact + "1}]", "/contact/0/normal: 1; expected one of flatter, regression, solid, steel, sand"},
+              {contact + "'solid'}]",
+               "/contact/0/normal: solid, and no rigid body; expected one of the two materials to be a rigid body, or "
+               "another normal"}});
   check_rows(problems_with, {{"/materials/flatter" + iron, "/materials/flatter" + word},
                              {"/materials/regression" + iron, "/materials/regression" + word},
-                             {"/materials/flattest" + iron, ""}});
+                             {"/materials/flattest" + iron, ""},
+                             {"/materials/solid" + iron, ""}});
 }
 
 }  // namespace test_bad_materials

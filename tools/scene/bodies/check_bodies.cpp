@@ -179,7 +179,42 @@ void check_mirrored_loads(const tasks::Scene& scene, const tasks::SceneBody& bod
                    "expected another frame, as the Coriolis force drives motion in the plane out of it");
 }
 
+/// How deep the places of a body's particles lie within its solid at most [m].
+template <int D>
+double greatest_depth(const tasks::Scene& scene, const tasks::SceneBody& body)
+{
+  double greatest = 0;
+  for (const Vector<D>& place : tasks::sites_of<D>(scene, body)) {
+    greatest = std::max(greatest, -std::get<components::Solid<D>>(body.solid).distance(place).value);
+  }
+  return greatest;
+}
+
 }  // namespace
+
+void check_solid(const JsonReader& reader, const tasks::Scene& scene, const tasks::SceneContact& contact)
+{
+  if (!std::holds_alternative<components::SolidNormal>(contact.normal)) return;
+  const bool first_is_rigid = scene.is_rigid(contact.material_a);
+  if (first_is_rigid == scene.is_rigid(contact.material_b)) {
+    reader.add_problem("normal", first_is_rigid ? "solid, between two rigid bodies" : "solid, and no rigid body",
+                       "expected one of the two materials to be a rigid body, or another normal");
+    return;
+  }
+  const int rigid = first_is_rigid ? contact.material_a : contact.material_b,
+            other = first_is_rigid ? contact.material_b : contact.material_a;
+  const double size = scene.grid.cell_size / scene.particles_per_axis_of(other);
+  for (const tasks::SceneBody& body : scene.bodies) {
+    if (body.material != rigid) continue;
+    const double depth = scene.grid.dimension == 2 ? greatest_depth<2>(scene, body) : greatest_depth<3>(scene, body);
+    if (4 * depth >= size) continue;
+    reader.add_problem(
+        "normal", fmt::format("solid, of body \"{}\", which is about {:.2g} m thick", body.name, 2 * depth),
+        fmt::format("expected a body at least half as thick as the particles that touch it, {:.2g} m, so "
+                    "that these have sides to lie on",
+                    size));
+  }
+}
 
 void check_mirrored_bodies(const tasks::Scene& scene, const JsonReader& root)
 {
