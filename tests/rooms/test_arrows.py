@@ -36,7 +36,7 @@ USES = {
     "components/materials": ["components/curves", "components/moduli"],
     "components/transfers": ["components/shapes"],
     "components/anti_locking": ["components/kinematics", "components/shapes"],
-    "components/contact": ["components/shapes"],
+    "components/contact": ["components/geometry", "components/shapes"],
     "components/loads": ["components/shapes", "components/materials"],
     "components/problems": ["components/curves", "components/geometry", "components/materials"],
     "tasks": ["runtime", "components"],
