@@ -130,6 +130,28 @@ TEST_CASE("at 300 metres a second what meets a rigid body by its solid stays out
   CHECK(deepest == 0);
 }
 
+TEST_CASE("half of a rigid body beside a mirror is met by its solid as the whole is")
+{
+  const int dimension = GENERATE(2, 3);
+  Scene whole = blocks(dimension, 0.3 * h, 0.5);
+  const components::Box<2> in_plane{{0.335, 0.15}, {0.635, 0.45}};
+  const components::Box<3> in_space{{0.335, 0.15, 0.143}, {0.635, 0.45, 0.443}};
+  whole.bodies[0].solid =
+      dimension == 2 ? AnySolid(components::Solid<2>(in_plane)) : AnySolid(components::Solid<3>(in_space));
+  Scene half = whole;
+  half.grid.lower[1] = 0.3;
+  half.grid.n_cells[1] = 6;
+  half.faces[1][0] = components::SymmetryFace();
+  const auto of_whole = Simulation::make(whole, 2), of_half = Simulation::make(half, 2);
+
+  advance_to(*of_whole, 0.1);
+  advance_to(*of_half, 0.1);
+
+  const double expected = momentum(*of_whole, 1);
+  CHECK(expected > 0);
+  CHECK(2 * momentum(*of_half, 1) == Approx(expected).epsilon(1e-9));
+}
+
 TEST_CASE("what meets a rigid body by its solid ends with the same bits on any ranks and threads", "[ranks]")
 {
   Scene scene = blocks(3, 0.3 * h, 0.5);
