@@ -27,9 +27,9 @@ class Laboratory(unittest.TestCase):
         self.folder = pathlib.Path(keeper.name)
         self.out = self.folder / "sand"
 
-    def made_of(self, *texts, words=("--strain", "percent", "--pressure", "MPa"), tamp=TAMP):
+    def made_of(self, *texts, words=("--strain", "percent", "--pressure", "MPa"), tamp=None):
         paths = sand.write_tests(self.folder, texts)
-        return sand.call("import", *words, "--tamp", tamp, "--out", self.out, *paths)
+        return sand.call("import", *words, "--tamp", tamp or TAMP, "--out", self.out, *paths)
 
     def expect_right(self, answer):
         """Peaks, plastic strains, and the bulk modulus at zero pressure as TAMP has it."""
