@@ -42,7 +42,8 @@ std::optional<NearBody<D>> nearest_to(const Vector<D>& x, std::span<const Placed
   for (std::size_t b = 0; b < bodies.size(); ++b) {
     if (bodies[b].is_far(x, range)) continue;
     const SignedDistance<D> distance = bodies[b].distance(x);
-    if (distance.value > range || (nearest && nearest->distance.value <= distance.value)) continue;
+    // Deep in a solid made of others none of their faces may be its own: that is no place to be pushed from.
+    if (!(std::abs(distance.value) <= range) || (nearest && nearest->distance.value <= distance.value)) continue;
     nearest = {b, distance};
   }
   return nearest;

@@ -57,7 +57,7 @@ struct GapSums : NodeValues<D, 8, 2> {
   static constexpr int at_body = 2 + D;
 };
 
-/// Adds the particles that may touch one of the bodies in the next step to the sums of their nodes; each counts for the
+/// Adds the particles within two cells of a surface, on either side, to the sums of their nodes; each counts for the
 /// body that is nearest. Particles are `size` [m] long along each axis at first.
 template <int D>
 void add_gaps(const Interpolation<D>& interpolation, const GridBlock<D>& block, const ParticlePlaces<D>& places,

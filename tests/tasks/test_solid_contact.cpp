@@ -15,22 +15,16 @@ namespace
 
 constexpr double h = 0.05;
 
-/// A rigid block of 0.3 m that runs at `speed` against a deformable one, `gap` apart along x; the rigid one's faces lie
-/// between its particles and the nodes as they come.
+/// A rigid block of 0.3 m that runs at `speed` against a deformable one, `gap` apart along x. Its faces lie anywhere
+/// between its particles.
 Scene blocks(int dimension, double gap, double speed)
 {
   Scene scene = empty_scene(dimension, {32, 12, dimension == 3 ? 12 : 1}, h);
   scene.time.multiplier = 0.5;
   const int rigid = add_elastic(scene, 1000, 1e5, 0.2), soft = add_elastic(scene, 1000, 1e5, 0.2);
-  add_box(scene, rigid, {0.312, 0.143, 0.143}, {0.612, 0.443, 0.443}, {speed, 0, 0}).rigid = true;
+  const double face = 0.65 - gap;
+  add_box(scene, rigid, {face - 0.3, 0.143, 0.143}, {face, 0.443, 0.443}, {speed, 0, 0}).rigid = true;
   add_box(scene, soft, {0.65, 0.15, 0.15}, {0.95, 0.45, 0.45});
-  scene.bodies[0].velocity[0] = speed;
-  const double shift = 0.65 - 0.612 - gap;
-  scene.bodies[0].solid =
-      dimension == 2
-          ? AnySolid(components::Solid<2>(components::Box<2>{{0.312 + shift, 0.143}, {0.612 + shift, 0.443}}))
-          : AnySolid(
-                components::Solid<3>(components::Box<3>{{0.312 + shift, 0.143, 0.143}, {0.612 + shift, 0.443, 0.443}}));
   scene.contacts.push_back({rigid, soft, 0.1, components::SolidNormal()});
   return scene;
 }
@@ -42,7 +36,6 @@ double momentum(Simulation& simulation, std::size_t body)
 
 void drive(SceneBody& body, const Triple& velocity)
 {
-  body.rigid = true;
   body.velocity = velocity;
   body.drive = BodyDrive{components::PrescribedMotion::of_velocities({{0, Eigen::Vector3d(velocity.data())}}), false};
 }
