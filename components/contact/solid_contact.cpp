@@ -54,13 +54,17 @@ template <int D>
 GapSums<D> share_of(const NearBody<D>& near, const Matrix<D>* deformation, double size)
 {
   const auto& [distance, normal] = near.distance;
-  const double half = 0.5 * size * (deformation == nullptr ? 1.0 : (deformation->transpose() * normal).norm());
+  const double width = size * (deformation == nullptr ? 1.0 : (deformation->transpose() * normal).norm());
+  // Rows behind the first make the soft minimum larger than its gap: by 1 / (e^3 - 1) of a width if all weigh the same,
+  // less at the surface, where the second has a third of the first's S. Hertz's force (tamp verify hertz_ball) is right
+  // to 4 % on 4 cells a contact radius with two thirds of that, and 11 % too small without.
+  constexpr double of_rows_behind = 0.035;
   // As many sizes apart as a node can see; deep within nothing is to overflow.
   constexpr double farthest = 8;
   const double weight = portable::exp(-3 * std::clamp(distance / size, -farthest, farthest));
   GapSums<D> share;
   share.values[0] = weight;
-  share.values[1] = weight * (distance - half);
+  share.values[1] = weight * (distance - (0.5 + of_rows_behind) * width);
   share.set_vector(2, weight * normal);
   share.values[GapSums<D>::at_body] = weight * static_cast<double>(near.body);
   return share;

@@ -127,6 +127,8 @@ TEST_CASE("half of a rigid body beside a mirror is met by its solid as the whole
 {
   const int dimension = GENERATE(2, 3);
   Scene whole = blocks(dimension, 0.3 * h, 0.5);
+  // Shorter than their bound, which rounding changes where a particle only just reaches a node.
+  whole.time.maximum_step = 5e-4;
   const components::Box<2> in_plane{{0.335, 0.15}, {0.635, 0.45}};
   const components::Box<3> in_space{{0.335, 0.15, 0.143}, {0.635, 0.45, 0.443}};
   whole.bodies[0].solid =

@@ -147,8 +147,17 @@ double behind_tip(const tasks::Scene& scene, const tasks::SceneBody& body, const
   return std::get<components::Solid<D>>(body.solid).reach(direction) - ends;
 }
 
+bool is_met_by_its_solid(const tasks::Scene& scene, const tasks::SceneBody& body)
+{
+  return std::any_of(scene.contacts.begin(), scene.contacts.end(), [&](const tasks::SceneContact& contact) {
+    return std::holds_alternative<components::SolidNormal>(contact.normal) &&
+           (contact.material_a == body.material || contact.material_b == body.material);
+  });
+}
+
 void check_tip(const tasks::Scene& scene, const tasks::SceneBody& body, Warnings& warnings)
 {
+  if (is_met_by_its_solid(scene, body)) return;
   const Eigen::Vector3d way = way_of(scene, body);
   if (!(way.norm() > 0)) return;
   const Eigen::Vector3d direction = way.normalized();

@@ -77,6 +77,19 @@ TEST_CASE("a projectile that starts inside the sand is refused with where")
                "*#/bodies/sand: overlaps body \"projectile\", at [0.04*; expected bodies that share no particle*"}});
 }
 
+TEST_CASE("what meets a rigid body by its solid is deformable, and the body not thinner than its particles")
+{
+  const std::string normal = "*#/contact/0/normal: solid, ";
+
+  check_rows(shipped("savings/ball.json"),
+             {{"", ""},
+              {"/bodies/ball/rigid=false", normal + "and no rigid body; expected one of the two materials to be a *"},
+              {"/bodies/sand/rigid=true", normal + "between two rigid bodies; expected one of the two *"},
+              {"/bodies/ball/geometry={'type':'box','lower':[0,0.0602],'upper':[0.012,0.0606]}",
+               normal + "of body \"ball\", which is about 0.0002 m thick; expected a body at least half as thick as "
+                        "the particles that touch it, 0.001 m, *"}});
+}
+
 TEST_CASE("rings of particles in what is no disk, or where a problem lays them out, are refused")
 {
   const std::string rings = "/bodies/block/particles=rings";

@@ -101,7 +101,11 @@ TEST_CASE("the normal of a contact is a material's or a word, which no material 
   check_rows(problems_with, {{"/materials/flatter" + iron, "/materials/flatter" + word},
                              {"/materials/regression" + iron, "/materials/regression" + word},
                              {"/materials/flattest" + iron, ""},
-                             {"/materials/solid" + iron, ""}});
+                             {"/materials/solid" + iron, ""},
+                             // Its own normal, as both are deformable.
+                             {"/materials/solid" + iron +
+                                  " /contact=[{'materials':['steel','solid'],'friction':0,'normal':'solid'}]",
+                              ""}});
 }
 
 }  // namespace test_bad_materials

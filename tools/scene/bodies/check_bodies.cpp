@@ -194,7 +194,7 @@ double greatest_depth(const tasks::Scene& scene, const tasks::SceneBody& body)
 
 void check_solid(const JsonReader& reader, const tasks::Scene& scene, const tasks::SceneContact& contact)
 {
-  if (!std::holds_alternative<components::SolidNormal>(contact.normal)) return;
+  if (!std::holds_alternative<components::SolidNormal>(contact.normal) || scene.bodies.empty()) return;
   const bool first_is_rigid = scene.is_rigid(contact.material_a);
   if (first_is_rigid == scene.is_rigid(contact.material_b)) {
     reader.add_problem("normal", first_is_rigid ? "solid, between two rigid bodies" : "solid, and no rigid body",
