@@ -42,11 +42,8 @@ const Assignments straight_down{"/centrifuge=null",
                                 "/bodies/projectile/velocity=[0,0,-283]"};
 
 /// One that goes down at 45 degrees within the plane y = 0.05 m, and turns there.
-const Assignments inclined{"/centrifuge=null",
-                           "/gravity=[0,0,-196.2]",
-                           "/grid/cell_size=0.0125",
-                           "/grid/patches=[1,1,4]",
-                           "/materials/projectile/particles_per_axis=14",
+const Assignments inclined{"/centrifuge=null", "/gravity=[0,0,-196.2]", "/grid/cell_size=0.0125",
+                           "/grid/patches=[1,1,4]", "/materials/projectile/particles_per_axis=14",
                            "/bodies/projectile/angular_velocity=[0,150,0]",
                            // Below their bound, which rounding changes where a particle only just reaches a node.
                            "/time/maximum_step=1.7e-6"};

@@ -98,14 +98,14 @@ TEST_CASE("the normal of a contact is a material's or a word, which no material 
               {contact + "'solid'}]",
                "/contact/0/normal: solid, and no rigid body; expected one of the two materials to be a rigid body, or "
                "another normal"}});
-  check_rows(problems_with, {{"/materials/flatter" + iron, "/materials/flatter" + word},
-                             {"/materials/regression" + iron, "/materials/regression" + word},
-                             {"/materials/flattest" + iron, ""},
-                             {"/materials/solid" + iron, ""},
-                             // Its own normal, as both are deformable.
-                             {"/materials/solid" + iron +
-                                  " /contact=[{'materials':['steel','solid'],'friction':0,'normal':'solid'}]",
-                              ""}});
+  check_rows(
+      problems_with,
+      {{"/materials/flatter" + iron, "/materials/flatter" + word},
+       {"/materials/regression" + iron, "/materials/regression" + word},
+       {"/materials/flattest" + iron, ""},
+       {"/materials/solid" + iron, ""},
+       // Its own normal, as both are deformable.
+       {"/materials/solid" + iron + " /contact=[{'materials':['steel','solid'],'friction':0,'normal':'solid'}]", ""}});
 }
 
 }  // namespace test_bad_materials

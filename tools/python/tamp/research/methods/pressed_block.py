@@ -3,8 +3,8 @@
 The block of inputs/verification/scenes/pressed_block.json lies on a smooth bed between smooth walls; strains are small.
 Under a pressure on its top each of the block's modes, J0(xi r) about an axis and cos(xi x) in the plane, goes down by
 itself: by 2 (1 - nu^2) / (E xi) (cosh 2 xi h - 1) / (sinh 2 xi h + 2 xi h) of the mode's pressure, as an elastic layer
-does (Sneddon, Fourier Transforms, 1951), and the mean by that of uniaxial strain. Under a round tool pressure is found on
-strips, none of which pulls; under a flat one as a series whose terms have the singular edge.
+does (Sneddon, Fourier Transforms, 1951), and the mean by that of uniaxial strain. Under a round tool pressure is found
+on strips, none of which pulls; under a flat one as a series whose terms have the singular edge.
 """
 
 import numpy as np
