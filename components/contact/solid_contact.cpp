@@ -28,7 +28,7 @@ SignedDistance<D> PlacedSolid<D>::distance(const Vector<D>& x) const
 namespace
 {
 
-/// The body nearest to a particle.
+/// The body nearest to a particle, by its number.
 template <int D>
 struct NearBody {
   std::size_t body;
@@ -39,12 +39,12 @@ template <int D>
 std::optional<NearBody<D>> nearest_to(const Vector<D>& x, std::span<const PlacedSolid<D>> bodies, double range)
 {
   std::optional<NearBody<D>> nearest;
-  for (std::size_t b = 0; b < bodies.size(); ++b) {
-    if (bodies[b].is_far(x, range)) continue;
-    const SignedDistance<D> distance = bodies[b].distance(x);
+  for (const PlacedSolid<D>& body : bodies) {
+    if (body.is_far(x, range)) continue;
+    const SignedDistance<D> distance = body.distance(x);
     // Deep in a solid made of others none of their faces may be its own: that is no place to be pushed from.
     if (!(std::abs(distance.value) <= range) || (nearest && nearest->distance.value <= distance.value)) continue;
-    nearest = {b, distance};
+    nearest = {body.number, distance};
   }
   return nearest;
 }

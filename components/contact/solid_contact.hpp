@@ -16,6 +16,8 @@ namespace tamp::components
 /// A rigid body's solid where the body is now: it has turned about `start`, which has come to `centre`.
 template <int D>
 struct PlacedSolid {
+  /// Tells rigid bodies apart.
+  std::size_t number;
   const Solid<D>& solid;
   /// Around the solid at its start.
   Box<D> box;
@@ -39,7 +41,7 @@ struct GapSums : NodeValues<D, 8, 2> {
   double gap() const { return this->values[1] / weight(); }
   /// Out of the solid: of length 1, or 0 where that of its sides cancels.
   Vector<D> normal() const { return this->vector(2).stableNormalized(); }
-  /// The place of the body in a list. Not a whole number where two are near.
+  /// The number of the body. Not a whole one where two are near.
   double body() const { return this->values[at_body] / weight(); }
 
   GapSums& operator+=(const GapSums& other)

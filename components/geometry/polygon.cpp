@@ -129,7 +129,8 @@ double ExtrudedPolygon::reach(const Vector<3>& direction) const
 
 void ExtrudedPolygon::faces(const Vector<3>& x, SurfacePoints<3>& points) const
 {
-  SurfacePoints<2> sides;
+  thread_local SurfacePoints<2> sides;
+  sides.clear();
   base.faces(x.head<2>(), sides);
   const double z = std::clamp(x[2], lower, upper);
   for (const SurfacePoint<2>& side : sides) {

@@ -31,31 +31,21 @@ using runtime::TaskContext;
 namespace
 {
 
-/// Where the solids that a material meets are at the start of the step.
+/// Where the solids that a material meets are at the start of the step; until the next call on this thread.
 template <int D>
-std::vector<PlacedSolid<D>> solids_met_by(const Method<D>& method, int material, const RigidStates& states)
+std::span<const PlacedSolid<D>> solids_met_by(const Method<D>& method, int material, const RigidStates& states)
 {
-  std::vector<PlacedSolid<D>> placed;
+  thread_local std::vector<PlacedSolid<D>> placed;
+  placed.clear();
   for (std::size_t b = 0; b < method.rigid_bodies.size(); ++b) {
     const RigidBody& body = method.rigid_bodies[b];
     if (!method.meets_by_solid(body, material)) continue;
     const components::RigidState& state = states.of(body);
-    placed.push_back({method.solids[b], method.solids[b].bounding_box(),
+    placed.push_back({b, method.solids[b], method.solids[b].bounding_box(),
                       state.orientation.toRotationMatrix().template topLeftCorner<D, D>(),
                       body.properties.centre.template head<D>(), state.centre.template head<D>()});
   }
   return placed;
-}
-
-/// The bodies in the order in which `solids_met_by` has them.
-template <int D>
-std::vector<const RigidBody*> bodies_met_by(const Method<D>& method, int material)
-{
-  std::vector<const RigidBody*> bodies;
-  for (const RigidBody& body : method.rigid_bodies) {
-    if (method.meets_by_solid(body, material)) bodies.push_back(&body);
-  }
-  return bodies;
 }
 
 /// A material and a rigid body at a node.
@@ -72,8 +62,7 @@ struct Touch {
 
 /// None where no particle near a body reaches the node. Throws SimulationError where two bodies are near.
 template <int D>
-std::optional<Touch<D>> touch_at(const std::vector<const RigidBody*>& bodies, const GapSums<D>& sums, double dt,
-                                 const Vector<D>& x)
+std::optional<Touch<D>> touch_at(const Method<D>& method, const GapSums<D>& sums, double dt, const Vector<D>& x)
 {
   if (!(sums.weight() > 0)) return {};
   const double body = std::round(sums.body());
@@ -87,7 +76,7 @@ std::optional<Touch<D>> touch_at(const std::vector<const RigidBody*>& bodies, co
   if (normal.isZero(0)) return {};
   // What has overlapped is not pushed out: with a fifth of it in each step runs of rigid_contact.json gain energy, and
   // fail.
-  return Touch<D>{*bodies[static_cast<std::size_t>(body)], normal, std::max(sums.gap(), 0.0) / dt};
+  return Touch<D>{method.rigid_bodies[static_cast<std::size_t>(body)], normal, std::max(sums.gap(), 0.0) / dt};
 }
 
 template <int D>
@@ -131,11 +120,10 @@ runtime::TaskDeclaration gather(const Method<D>& method)
         const RigidStates& before = data[rigid_states.previous()];
         const RigidStates& free = data[free_rigid_states];
         RigidCouplings& couplings = data[rigid_couplings];
-        const auto bodies = bodies_met_by(method, at.group);
         for_each(at.layout.owned_nodes(at.patch), [&](const Index& i) {
           if (!(sums[i].mass() > method.least_node_mass)) return;
           const Vector<D> x = node_position<D>(at.layout.grid(), i);
-          const auto touch = touch_at<D>(bodies, gaps[i], at.step.size, x);
+          const auto touch = touch_at<D>(method, gaps[i], at.step.size, x);
           if (!touch) return;
           const RigidBody& body = touch->body;
           const components::NodeContact contact = components::node_contact(
@@ -160,12 +148,13 @@ class NodesOnSolids
  public:
   NodesOnSolids(const Method<D>& method, const TaskContext& at, const RigidStates& before, const RigidStates& free,
                 const RigidCouplings& couplings)
-      : method_(method), at_(at), before_(before), bodies_(bodies_met_by(method, at.group))
+      : method_(method), at_(at), before_(before)
   {
-    for (const RigidBody* body : bodies_) {
-      const auto g = static_cast<std::size_t>(body->material);
-      motions_[g] = {components::motion_of(body->properties, before.of(*body)),
-                     couplings.by_material[g].solve(body->properties, free.of(*body), body->held())};
+    for (const RigidBody& body : method.rigid_bodies) {
+      if (!method.meets_by_solid(body, at.group)) continue;
+      const auto g = static_cast<std::size_t>(body.material);
+      motions_[g] = {components::motion_of(body.properties, before.of(body)),
+                     couplings.by_material[g].solve(body.properties, free.of(body), body.held())};
     }
   }
 
@@ -174,7 +163,7 @@ class NodesOnSolids
             StepTotals& totals, ContactImpulses& impulses) const
   {
     const Vector<D> x = node_position<D>(at_.layout.grid(), i);
-    const auto touch = touch_at<D>(bodies_, gaps, at_.step.size, x);
+    const auto touch = touch_at<D>(method_, gaps, at_.step.size, x);
     if (!touch) return;
     const RigidBody& body = touch->body;
     const BodyMotions& motions = motions_[static_cast<std::size_t>(body.material)];
@@ -204,7 +193,6 @@ class NodesOnSolids
   const Method<D>& method_;
   const TaskContext& at_;
   const RigidStates& before_;
-  std::vector<const RigidBody*> bodies_;
   /// By material.
   std::array<BodyMotions, runtime::PerGroup<int>::max_groups> motions_;
 };

@@ -103,7 +103,7 @@ TEST_CASE("steps that write nothing ask for no memory once the first have passed
   SECTION("shipped scenes")
   {
     for (const std::string scene :
-         {"uxo/quick.json", "footing/quick.json", "footing/circular.json", "cone/quick.json"}) {
+         {"uxo/quick.json", "footing/quick.json", "footing/circular.json", "cone/quick.json", "savings/rod.json"}) {
       check_that_steps_ask_for_nothing(scene);
     }
   }
