@@ -18,8 +18,10 @@ DEPTH, RADIUS, HALF_WIDTH = 5e-4, 0.2, 0.01
 N_STRIPS, N_MODES, N_TERMS = 400, 16000, 8
 
 
-class About:
+class AboutAxis:
     """The block about an axis: strips are rings, and a force is that of the whole."""
+
+    mean_of_first_term = HALF_WIDTH
 
     def __init__(self):
         self.xi = special.jn_zeros(1, N_MODES) / WIDTH
@@ -34,11 +36,11 @@ class About:
     def term(self, m):
         return HALF_WIDTH * special.spherical_jn(2 * m, self.xi * HALF_WIDTH)
 
-    mean_of_first_term = HALF_WIDTH
-
 
 class InPlane:
     """Half of the block in the plane, for a unit of thickness."""
+
+    mean_of_first_term = np.pi / 2
 
     def __init__(self):
         self.xi = np.arange(1, N_MODES + 1) * np.pi / WIDTH
@@ -50,8 +52,6 @@ class InPlane:
 
     def term(self, m):
         return np.pi / 2 * special.jv(2 * m, self.xi * HALF_WIDTH)
-
-    mean_of_first_term = np.pi / 2
 
 
 def compliance(block):
@@ -94,8 +94,8 @@ def add_arguments(_):
 
 def main(_):
     print_head(["tool", "force"])
-    for name, block, unit in (("ball, whole", About(), "N"), ("cylinder, half", InPlane(), "N/m")):
+    for name, block, unit in (("ball, whole", AboutAxis(), "N"), ("cylinder, half", InPlane(), "N/m")):
         print_row([name, f"{force_on_round_tool(block):.5g} {unit}"])
-    for name, block, unit in (("round punch, whole", About(), "N"),
+    for name, block, unit in (("round punch, whole", AboutAxis(), "N"),
                               ("plane punch, half", InPlane(), "N/m")):
         print_row([name, f"{force_on_flat_tool(block):.5g} {unit}"])
