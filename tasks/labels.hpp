@@ -7,6 +7,7 @@
 #include "components/contact/logistic_plane.hpp"
 #include "components/contact/normals.hpp"
 #include "components/contact/solid_contact.hpp"
+#include "components/contact/wall_gaps.hpp"
 #include "components/loads/pressure_load.hpp"
 #include "components/shapes/node_sums.hpp"
 #include "components/tensors.hpp"
@@ -124,6 +125,9 @@ inline const runtime::NodeLabel<components::ContactFace<D>, "contact face"> cont
 /// Only for materials that meet a rigid body by its solid.
 template <int D>
 inline const runtime::NodeLabel<components::GapSums<D>, "gap sums"> gap_sums;
+/// Only where the grid has walls that matter touches at its edges.
+template <int D>
+inline const runtime::NodeLabel<components::WallGaps<D>, "wall gaps"> wall_gaps;
 /// The last term u_j of a transfer's passes, and the sum of those that the transfer takes [m/s].
 template <int D>
 inline const runtime::NodeLabel<components::NodeVector<D>, "velocity term"> velocity_term;

@@ -86,7 +86,12 @@ Method<D>::Method(const Scene& given)
   }
   for (std::size_t k = 0; k < std::size_t{D}; ++k) {
     for (std::size_t side = 0; side < 2; ++side) {
-      mirrors[k][side] = components::traits_of(scene.faces[k][side]).is_wall() && !scene.grid.periodic[k];
+      const components::FaceTraits traits = components::traits_of(scene.faces[k][side]);
+      mirrors[k][side] = traits.has_image() && !scene.grid.periodic[k];
+      const int axis = static_cast<int>(k);
+      if (!traits.is_wall() || !traits.at_edges) continue;
+      edge_walls.push_back(
+          {axis, side == 0 ? -1 : 1, scene.grid.coordinate(axis, side == 0 ? 0 : scene.grid.n_cells[k])});
     }
   }
   for (const SceneContact& pair : scene.contacts)

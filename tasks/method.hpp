@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "components/contact/contact_table.hpp"
+#include "components/contact/wall_gaps.hpp"
 #include "components/geometry/fill.hpp"
 #include "components/loads/artificial_viscosity.hpp"
 #include "components/shapes/grid_block.hpp"
@@ -75,6 +76,11 @@ struct Method {
   /// The rigid body that a material is, or null.
   const RigidBody* rigid_body(int material) const;
 
+  const Face& face(const components::PlaneWall& wall) const
+  {
+    return scene.faces[static_cast<std::size_t>(wall.axis)][wall.outside < 0 ? 0 : 1];
+  }
+
   /// Whether a material meets the surface of a rigid body's solid.
   bool meets_by_solid(const RigidBody& body, int material) const;
 
@@ -122,8 +128,10 @@ struct Method {
   Vector<D> gravity;
   /// In three dimensions only.
   std::optional<components::RotatingFrame> centrifuge;
-  /// Faces of the domain that are walls, as [axis][side]: side 0 is the lower. Behind each is a mirror image.
+  /// Faces of the domain that are walls with a mirror image behind them, as [axis][side]: side 0 is the lower.
   std::array<std::array<bool, 2>, std::size_t{D}> mirrors;
+  /// Walls that matter touches at its edges.
+  std::vector<components::PlaneWall> edge_walls;
   std::optional<components::ArtificialViscosity> viscosity;
   /// The part of unbalanced forces that local damping takes.
   double damping;

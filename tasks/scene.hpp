@@ -125,10 +125,11 @@ struct Scene {
   {
     return std::find(grid.periodic.begin(), grid.periodic.end(), true) != grid.periodic.end();
   }
-  bool has_wall_to_leave() const
+  template <class Matches>
+  bool has_face(const Matches& matches) const
   {
-    const auto keeps_push = [](const Face& face) { return components::traits_of(face).keeps_push; };
-    return std::ranges::any_of(faces, [&](const auto& axis) { return std::ranges::any_of(axis, keeps_push); });
+    const auto is_one = [&](const Face& face) { return matches(components::traits_of(face)); };
+    return std::ranges::any_of(faces, [&](const auto& axis) { return std::ranges::any_of(axis, is_one); });
   }
   bool has_body_force() const
   {

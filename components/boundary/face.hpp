@@ -5,7 +5,7 @@ namespace tamp::components
 
 /// Where a face of the grid lets material go.
 enum class Beyond {
-  nothing,   ///< a wall, with a mirror image of the material behind it
+  nothing,   ///< a wall
   away,      ///< out of the simulation
   opposite,  ///< in at the opposite face
 };
@@ -14,7 +14,7 @@ enum class Beyond {
 ///
 ///     word, meaning                                its name in scenes, unless it has parameters, and half a line
 ///     shown, parameters()                          if it has parameters: a scene then has an object of them, as shown
-///     traits                                       these
+///     traits()                                     these
 ///     velocity(arriving, node)                     if it is a wall but no mirror: the velocity that it leaves a node,
 ///     carried_velocity(arriving, node)             and the same of velocities on which it has worked before, as
 ///                                                  particles bring back what they got from it
@@ -26,8 +26,12 @@ struct FaceTraits {
   bool is_mirror = false;
   /// Whether its nodes keep what pushes them into it or off it, so that what touches it may leave.
   bool keeps_push = false;
+  /// Whether matter touches the wall where the edges of its particles do; else where its nodes do, and behind them is a
+  /// mirror image of the material.
+  bool at_edges = false;
 
   constexpr bool is_wall() const { return beyond == Beyond::nothing; }
+  constexpr bool has_image() const { return is_wall() && !at_edges; }
 };
 
 /// What a wall knows of one of its nodes.

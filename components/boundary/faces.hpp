@@ -16,7 +16,7 @@ using Face = std::variant<SymmetryFace, OpenFace, NoSlipWall, PeriodicFace, Roug
 
 inline FaceTraits traits_of(const Face& face)
 {
-  return std::visit([](const auto& kind) { return kind.traits; }, face);
+  return std::visit([](const auto& kind) { return kind.traits(); }, face);
 }
 
 /// Calls `visit(wall)` with the kind of the face where that is a wall which is no mirror.
@@ -25,7 +25,7 @@ void with_wall(const Face& face, const Visit& visit)
 {
   std::visit(
       [&]<class Kind>(const Kind& kind) {
-        if constexpr (Kind::traits.is_wall() && !Kind::traits.is_mirror) visit(kind);
+        if constexpr (requires { &Kind::template velocity<2>; }) visit(kind);
       },
       face);
 }

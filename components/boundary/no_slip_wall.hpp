@@ -10,7 +10,7 @@ namespace tamp::components
 
 struct NoSlipWall {
   static constexpr std::string_view word = "no_slip", meaning = "material that touches the wall does not move";
-  static constexpr FaceTraits traits{};
+  static constexpr FaceTraits traits() { return {}; }
   friend bool operator==(const NoSlipWall&, const NoSlipWall&) = default;
 
   template <int D>

@@ -13,15 +13,16 @@ namespace tamp::components
 /// A wall with Coulomb's friction. Motion into it is stopped, and motion along it loses at most friction times as much;
 /// a node that leaves the wall is free.
 struct RoughWall {
-  static constexpr std::string_view word = "friction", shown = R"({"friction": MU})",
+  static constexpr std::string_view word = "friction", shown = R"({"friction": MU, "at_edges": true})",
                                     meaning =
-                                        "a wall that rubs, and that what touches it may leave, not where a "
-                                        "centrifuge turns the grid";
-  static constexpr FaceTraits traits{.keeps_push = true};
-  static constexpr std::array<Parameter<RoughWall>, 1> parameters();
+                                        "a wall that rubs, and that what touches it may leave. Without `at_edges` "
+                                        "matter touches it already a cell away; not where a centrifuge turns the grid";
+  constexpr FaceTraits traits() const { return {.keeps_push = true, .at_edges = at_edges}; }
+  static constexpr std::array<Parameter<RoughWall>, 2> parameters();
   friend bool operator==(const RoughWall&, const RoughWall&) = default;
 
   double friction = 0;
+  bool at_edges = false;
 
   template <int D>
   Vector<D> velocity(const Vector<D>& arriving, const WallNode& node) const
@@ -49,9 +50,15 @@ struct RoughWall {
   }
 };
 
-constexpr std::array<Parameter<RoughWall>, 1> RoughWall::parameters()
+constexpr std::array<Parameter<RoughWall>, 2> RoughWall::parameters()
 {
-  return {{{"friction", "", zero_or_above, &RoughWall::friction, "Coulomb's coefficient of friction"}}};
+  return {{{"friction", "", zero_or_above, &RoughWall::friction, "Coulomb's coefficient of friction"},
+           {"at_edges",
+            "",
+            {},
+            &RoughWall::at_edges,
+            "whether matter touches the wall where the edges of its particles do",
+            true}}};
 }
 
 }  // namespace tamp::components

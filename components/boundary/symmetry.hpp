@@ -13,7 +13,7 @@ namespace tamp::components
 struct SymmetryFace {
   static constexpr std::string_view word = "symmetry",
                                     meaning = "a smooth wall, with the mirror image of the material behind it";
-  static constexpr FaceTraits traits{.is_mirror = true};
+  static constexpr FaceTraits traits() { return {.is_mirror = true}; }
   friend bool operator==(const SymmetryFace&, const SymmetryFace&) = default;
 };
 

@@ -1,10 +1,9 @@
 #include "components/contact/solid_contact.hpp"
 
-#include <algorithm>
 #include <limits>
 #include <optional>
 
-#include "components/portable_math.hpp"
+#include "components/contact/soft_gap.hpp"
 #include "components/shapes/dense_stencil.hpp"
 #include "components/shapes/stencil.hpp"
 
@@ -55,16 +54,10 @@ GapSums<D> share_of(const NearBody<D>& near, const Matrix<D>* deformation, doubl
 {
   const auto& [distance, normal] = near.distance;
   const double width = size * (deformation == nullptr ? 1.0 : (deformation->transpose() * normal).norm());
-  // Rows behind the first make the soft minimum larger than its gap: by 1 / (e^3 - 1) of a width if all weigh the same,
-  // less at the surface, where the second has a third of the first's S. Hertz's force (tamp verify hertz_ball) is right
-  // to 4 % on 4 cells a contact radius with two thirds of that, and 11 % too small without.
-  constexpr double of_rows_behind = 0.035;
-  // As many sizes apart as a node can see; deep within nothing is to overflow.
-  constexpr double farthest = 8;
-  const double weight = portable::exp(-3 * std::clamp(distance / size, -farthest, farthest));
+  const auto [weight, gap] = soft_gap(distance, width, size);
   GapSums<D> share;
   share.values[0] = weight;
-  share.values[1] = weight * (distance - (0.5 + of_rows_behind) * width);
+  share.values[1] = weight * gap;
   share.set_vector(2, weight * normal);
   share.values[GapSums<D>::at_body] = weight * static_cast<double>(near.body);
   return share;

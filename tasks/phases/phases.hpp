@@ -67,6 +67,10 @@ runtime::TaskList contact(const Method<D>& method);
 template <int D>
 runtime::TaskList contact_of_solids(const Method<D>& method);
 
+/// The gaps between matter and walls that it touches at its edges.
+template <int D>
+runtime::TaskList find_wall_gaps(const Method<D>& method);
+
 /// Nothing crosses a wall of the domain.
 template <int D>
 runtime::TaskList walls(const Method<D>& method);

@@ -30,20 +30,26 @@ void fold_images(const Method<D>& method, const runtime::TaskContext& at, const 
   });
 }
 
-/// The same of all sums, of which a rough wall keeps forces and momenta, but no surface.
+/// The same of all sums, of which a rough wall keeps forces and momenta, but no surface: what lies on it is none.
 template <int D>
 void fold(const Method<D>& method, const runtime::TaskContext& at,
           const runtime::GridView<components::NodeSums<D>>& sums)
 {
+  const auto hide_surface = [&](int axis) {
+    return [&sums, axis](const runtime::Index& i) {
+      Vector<D> gradient = sums[i].surface_gradient();
+      gradient[axis] = 0;
+      sums[i].set_surface_gradient(gradient);
+    };
+  };
   fold_images(method, at, sums, false);
   for_each_wall(method, at, sums.box(), [&](const Wall<D>& wall) {
     if (!wall.traits.keeps_push) return;
-    for_each_wall_node(wall, at.layout.grid(), sums.box(), [&](const runtime::Index& i) {
-      Vector<D> gradient = sums[i].surface_gradient();
-      gradient[wall.node.axis] = 0;
-      sums[i].set_surface_gradient(gradient);
-    });
+    for_each_wall_node(wall, at.layout.grid(), sums.box(), hide_surface(wall.node.axis));
   });
+  for (const components::PlaneWall& wall : method.edge_walls) {
+    for_each(nodes_behind(wall, at.layout.grid(), sums.box()), hide_surface(wall.axis));
+  }
 }
 
 }  // namespace tamp::tasks

@@ -1,5 +1,8 @@
 #include "tasks/phases/walls.hpp"
 
+#include <algorithm>
+
+#include "components/contact/wall_gaps.hpp"
 #include "components/loads/local_damping.hpp"
 #include "tasks/labels.hpp"
 #include "tasks/phases/kick.hpp"
@@ -10,6 +13,7 @@ namespace tamp::tasks
 
 using components::NodeMotion;
 using components::NodeSums;
+using components::WallGaps;
 using runtime::GridView;
 using runtime::Index;
 using runtime::PerGroup;
@@ -38,8 +42,17 @@ void add_taken(const Method<D>& method, const TaskContext& at, const GridView<co
   });
 }
 
-/// Applies a wall that is no mirror to the motion of its nodes, and counts the energy that it takes: each impulse times
-/// the mean of the velocities before and after the step, as the energies of leapfrog are counted.
+/// Leaves a node the velocity `left`, and counts the energy that the wall takes: each impulse times the mean of the
+/// velocities before and after the step, as the energies of leapfrog are counted.
+template <int D>
+void leave(const Vector<D>& left, const NodeSums<D>& sums, bool is_counted, NodeMotion<D>& motion, GridTotals& totals)
+{
+  const Vector<D> arriving = motion.velocity(), at_start = sums.momentum() / sums.mass();
+  motion.set(left, motion.velocity_change() + left - arriving);
+  if (is_counted) totals.taken_by_walls += 0.5 * sums.mass() * (arriving - left).dot(at_start + left);
+}
+
+/// Applies a wall that is no mirror to the motion of its nodes.
 template <int D>
 void hold(const Method<D>& method, const TaskContext& at, const Wall<D>& wall, const GridView<const NodeSums<D>>& sums,
           const GridView<NodeMotion<D>>& motion, GridTotals& totals)
@@ -47,12 +60,30 @@ void hold(const Method<D>& method, const TaskContext& at, const Wall<D>& wall, c
   const runtime::IndexBox counted = counted_nodes(method, at);
   components::with_wall(wall.face, [&](const auto& kind) {
     for_each_wall_node(wall, at.layout.grid(), motion.box(), [&](const Index& i) {
-      const double mass = sums[i].mass();
-      if (!(mass > method.least_node_mass)) return;
-      const Vector<D> arriving = motion[i].velocity(), left = kind.template velocity<D>(arriving, wall.node);
-      motion[i].set(left, motion[i].velocity_change() + left - arriving);
-      const Vector<D> at_start = sums[i].momentum() / mass;
-      if (counted.contains(i)) totals.taken_by_walls += 0.5 * mass * (arriving - left).dot(at_start + left);
+      if (!(sums[i].mass() > method.least_node_mass)) return;
+      leave<D>(kind.template velocity<D>(motion[i].velocity(), wall.node), sums[i], counted.contains(i), motion[i],
+               totals);
+    });
+  });
+}
+
+/// Pushes matter off a wall where its gap would close within the step, as contact with the solid of a rigid body does.
+template <int D>
+void push_off(const Method<D>& method, const TaskContext& at, const components::PlaneWall& wall,
+              const GridView<const NodeSums<D>>& sums, const GridView<const WallGaps<D>>& gaps,
+              const GridView<NodeMotion<D>>& motion, GridTotals& totals)
+{
+  const runtime::IndexBox counted = counted_nodes(method, at);
+  const components::WallNode node{wall.axis, wall.outside, method.cell_size, at.step.size};
+  components::with_wall(method.face(wall), [&](const auto& kind) {
+    for_each(nodes_behind(wall, at.layout.grid(), motion.box()), [&](const Index& i) {
+      if (!(sums[i].mass() > method.least_node_mass) || !(gaps[i].weight(wall) > 0)) return;
+      Vector<D> without_gap = Vector<D>::Zero();
+      without_gap[wall.axis] = wall.outside * std::max(gaps[i].gap(wall), 0.0) / at.step.size;
+      const Vector<D> arriving = motion[i].velocity() - without_gap;
+      if (!(wall.outside * arriving[wall.axis] > 0)) return;
+      leave<D>(kind.template velocity<D>(arriving, node) + without_gap, sums[i], counted.contains(i), motion[i],
+               totals);
     });
   });
 }
@@ -96,11 +127,13 @@ runtime::TaskList walls(const Method<D>& method)
       runtime::task("walls")
           .over_patches()
           .sparse()
-          .reads(node::sums<D>.halo(method.halo).every_group())
+          .reads(node::sums<D>.halo(method.halo).every_group(),
+                 node::wall_gaps<D>.halo(method.halo).every_group().when(!method.edge_walls.empty()))
           .updates(node::motion<D>.halo(method.halo).every_group())
           .reduces(grid_totals)
           .body([&method](const TaskContext& at, auto data) {
             const auto sums = data[node::sums<D>];
+            const auto gaps = data[node::wall_gaps<D>];
             const auto motions = data[node::motion<D>];
             for (std::size_t g = 0; g < motions.size(); ++g) {
               const GridView<NodeMotion<D>>& motion = motions[g];
@@ -109,6 +142,9 @@ runtime::TaskList walls(const Method<D>& method)
               });
               for_each_wall(method, at, motion.box(),
                             [&](const Wall<D>& wall) { hold(method, at, wall, sums[g], motion, data[grid_totals]); });
+              for (const components::PlaneWall& wall : method.edge_walls) {
+                push_off(method, at, wall, sums[g], gaps[g], motion, data[grid_totals]);
+              }
               if (method.damping > 0 && method.rigid_body(static_cast<int>(g)) == nullptr) {
                 damp(method, at, sums[g], motion, data[grid_totals]);
               }

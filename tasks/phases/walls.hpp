@@ -1,6 +1,9 @@
 #pragma once
 
+#include <algorithm>
+
 #include "components/boundary/faces.hpp"
+#include "components/contact/wall_gaps.hpp"
 #include "components/shapes/node_sums.hpp"
 #include "tasks/method.hpp"
 
@@ -57,6 +60,19 @@ void for_each_wall_node(const Wall<D>& wall, const runtime::Grid& grid, runtime:
   box.lower[k] = wall.node.outside < 0 ? 0 : grid.n_cells[k];
   box.upper[k] = box.lower[k] + 1;
   for_each(box, visit);
+}
+
+/// The nodes of `box` on a wall that is touched at edges, and behind it.
+inline runtime::IndexBox nodes_behind(const components::PlaneWall& wall, const runtime::Grid& grid,
+                                      runtime::IndexBox box)
+{
+  const auto k = static_cast<std::size_t>(wall.axis);
+  if (wall.outside < 0) {
+    box.upper[k] = std::min(box.upper[k], 1);
+  } else {
+    box.lower[k] = std::max(box.lower[k], grid.n_cells[k]);
+  }
+  return box;
 }
 
 /// The nodes that this patch counts in sums over all: its own, and those beyond an open face that particles still

@@ -20,10 +20,10 @@ constexpr double g = 10;
 constexpr double cell = 0.025;
 
 /// An elastic block of 0.4 m by 0.1 m on a floor with friction; gravity is turned by the incline's angle.
-Scene block_on_incline(double friction, double angle, const Triple& velocity = {0, 0, 0})
+Scene block_on_incline(const components::RoughWall& floor, double angle, const Triple& velocity = {0, 0, 0})
 {
   Scene scene = empty_scene(2, {40, 10, 1}, cell);
-  scene.faces[1][0] = components::RoughWall{friction};
+  scene.faces[1][0] = floor;
   scene.gravity = {g * std::sin(angle), -g * std::cos(angle), 0};
   scene.artificial_viscosity = components::ArtificialViscosity{};
   add_box(scene, add_elastic(scene, 2000, 1e7, 0.2), {0.1, 0, 0}, {0.5, 0.1, 0}, velocity);
@@ -56,7 +56,9 @@ Scene soil_column(double height, const Face& floor)
 TEST_CASE("on a wall with friction a block slides as Coulomb's law has it")
 {
   const double angle = std::numbers::pi / 6, friction = 0.3;
-  const auto simulation = Simulation::make(block_on_incline(friction, angle), 2);
+  const bool at_edges = GENERATE(false, true);
+  CAPTURE(at_edges);
+  const auto simulation = Simulation::make(block_on_incline({friction, at_edges}, angle), 2);
 
   advance_to(*simulation, 0.4);
 
@@ -69,7 +71,9 @@ TEST_CASE("on a wall with friction a block slides as Coulomb's law has it")
 TEST_CASE("on a wall with enough friction a block stays")
 {
   const double angle = std::numbers::pi / 6;
-  const auto simulation = Simulation::make(block_on_incline(1, angle), 2);
+  const bool at_edges = GENERATE(false, true);
+  CAPTURE(at_edges);
+  const auto simulation = Simulation::make(block_on_incline({1, at_edges}, angle), 2);
 
   advance_to(*simulation, 0.4);
 
@@ -80,7 +84,9 @@ TEST_CASE("on a wall with enough friction a block stays")
 
 TEST_CASE("what is thrown at a wall with friction leaves it again")
 {
-  Scene scene = block_on_incline(0.3, 0, {0, -1, 0});
+  const bool at_edges = GENERATE(false, true);
+  CAPTURE(at_edges);
+  Scene scene = block_on_incline({0.3, at_edges}, 0, {0, -1, 0});
   scene.gravity = {0, 0, 0};
   const auto simulation = Simulation::make(scene, 1);
   const double before = simulation->report().kinetic;
@@ -103,8 +109,9 @@ TEST_CASE("with any transfer a wall with friction takes along it no more than Co
   const Transfer transfer = GENERATE(Transfer("flip"), Transfer("pic"), Transfer("blend"), Transfer("tflip"),
                                      Transfer("tpic"), Transfer("apic"), Transfer("xpic"));
   const StressTiming timing = GENERATE(StressTiming::usl, StressTiming::musl);
-  CAPTURE(static_cast<int>(transfer), static_cast<int>(timing));
-  Scene scene = block_on_incline(0.3, 0, {5, -1, 0});
+  const bool at_edges = GENERATE(false, true);
+  CAPTURE(static_cast<int>(transfer), static_cast<int>(timing), at_edges);
+  Scene scene = block_on_incline({0.3, at_edges}, 0, {5, -1, 0});
   scene.gravity = {0, 0, 0};
   scene.transfer = transfer;
   scene.stress_timing = timing;
@@ -119,6 +126,52 @@ TEST_CASE("with any transfer a wall with friction takes along it no more than Co
   // At the edges some of it does not move.
   CHECK(rub < 0.3 * push);
   CHECK(rub > 0.99 * 0.3 * push);
+}
+
+TEST_CASE("matter touches a wall at its edges within a tenth of a cell, at either end of any axis")
+{
+  const int dimension = GENERATE(2, 3), side = GENERATE(0, 1);
+  const int axis = GENERATE_COPY(range(0, dimension));
+  const double gap = 1.5 * cell, speed = 0.5, size = 4 * cell;
+  Scene scene = empty_scene(dimension, {12, 12, dimension == 3 ? 12 : 1}, cell);
+  scene.interpolator = GENERATE(Interpolator("gimp"), Interpolator("quadratic_spline"), Interpolator("cubic_spline"));
+  scene.n_patches = {2, 1, 1};
+  scene.time.multiplier = 0.5;
+  const auto k = static_cast<std::size_t>(axis);
+  scene.faces[k][static_cast<std::size_t>(side)] = components::RoughWall{0.3, true};
+  Triple lower{4 * cell, 4 * cell, 4 * cell}, velocity{0, 0, 0};
+  lower[k] = side == 0 ? gap : 12 * cell - gap - size;
+  velocity[k] = side == 0 ? -speed : speed;
+  add_box(scene, add_elastic(scene, 1000, 1e5, 0.2), lower, {lower[0] + size, lower[1] + size, lower[2] + size},
+          velocity);
+  const auto simulation = Simulation::make(scene, 2);
+  const double arriving = simulation->report().bodies[0].momentum[axis];
+
+  double time = 0;
+  while (simulation->report().bodies[0].momentum[axis] == arriving && simulation->time() < 2 * gap / speed) {
+    time = simulation->time();
+    simulation->advance(1e30);
+  }
+
+  CHECK(std::abs(gap - speed * time) < 0.1 * cell);
+}
+
+TEST_CASE("on a wall that it touches at its edges a disk comes to roll")
+{
+  const double friction = 0.3, radius = 0.1, speed = 1;
+  Scene scene = empty_scene(2, {100, 44, 1}, 0.005);
+  scene.faces[1][0] = components::RoughWall{friction, true};
+  scene.gravity = {0, -9.81, 0};
+  const int material = add_elastic(scene, 1000, 1e7, 0.25);
+  add_disk(scene, material, 0.2, radius, radius, {speed, 0, 0}).functions.layout =
+      components::PolarLayout{{0.2, radius}, 0, radius};
+  const auto simulation = Simulation::make(scene, 2);
+
+  advance_to(*simulation, 0.2);
+
+  // It has lost a third of its speed by friction, and rolls from 0.113 s on.
+  const BodySums disk = simulation->report().bodies[0];
+  CHECK(disk.momentum.x() / disk.mass == Approx(2.0 / 3 * speed).epsilon(0.02));
 }
 
 TEST_CASE("a layer on a wall without slip is sheared by its weight as the wave equation has it")
@@ -166,7 +219,8 @@ TEST_CASE("a column of dry soil runs out on a floor with friction as far as colu
 
 TEST_CASE("soil that collapses on a rough floor ends with the same bits on any ranks and threads", "[ranks]")
 {
-  const Scene scene = soil_column(0.2, GENERATE(Face(components::RoughWall{0.4}), Face(components::NoSlipWall())));
+  const Scene scene = soil_column(0.2, GENERATE(Face(components::RoughWall{0.4}), Face(components::NoSlipWall()),
+                                                Face(components::RoughWall{0.4, true})));
   const auto alone = Simulation::make(scene, 1);
   advance_to(*alone, 0.05);
 

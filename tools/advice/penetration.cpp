@@ -135,6 +135,13 @@ double Penetration::fine_cell_size() const
   return rounded_down(half_width / least_cells_per_half_width);
 }
 
+bool meets_no_other(const tasks::Scene& scene, const tasks::SceneBody& body, const Vector3d& way)
+{
+  return std::none_of(scene.bodies.begin(), scene.bodies.end(), [&](const tasks::SceneBody& other) {
+    return &other != &body && runs_into(scene, body, other, way);
+  });
+}
+
 std::optional<Penetration> penetration_of(const tasks::Scene& scene, const tasks::SceneBody& body)
 {
   Penetration thinnest{nullptr, infinity, scene.grid.cell_size};

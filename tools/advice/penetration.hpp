@@ -20,6 +20,9 @@ double waves_in(const tasks::Scene& scene, const tasks::SceneBody& body);
 /// With fewer cells to a half width the force on it is a tenth or more too large, see docs/choosing.md.
 inline constexpr double least_cells_per_half_width = 6;
 
+/// Whether no other body is in a body's way.
+bool meets_no_other(const tasks::Scene& scene, const tasks::SceneBody& body, const Eigen::Vector3d& way);
+
 /// That a body is on its way into a softer one of another material.
 struct Penetration {
   const tasks::SceneBody* into;

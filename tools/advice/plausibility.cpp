@@ -192,6 +192,33 @@ void check_approach(const tasks::Scene& scene, Warnings& warnings)
   }
 }
 
+/// Whether a body that is away from the wall at an end of an axis comes to it, by its speed or by gravity.
+bool comes_to_wall(const tasks::Scene& scene, const tasks::SceneBody& body, int axis, std::size_t side)
+{
+  const double end = scene.time.end, spacing = scene.grid.cell_size / scene.particles_per_axis_of(body.material);
+  const Eigen::Vector3d gravity(scene.gravity.data()), outwards = (side == 0 ? -1 : 1) * Eigen::Vector3d::Unit(axis);
+  const double wall = scene.grid.coordinate(axis, side == 0 ? 0 : scene.grid.n_cells[static_cast<std::size_t>(axis)]);
+  const double gap = outwards[axis] * wall - reach(body, outwards);
+  const Eigen::Vector3d way = way_of(scene, body) + 0.5 * end * end * gravity;
+  return gap > 0.5 * spacing && way.dot(outwards) > gap && meets_no_other(scene, body, way.dot(outwards) * outwards);
+}
+
+void check_walls(const tasks::Scene& scene, const tasks::SceneBody& body, Warnings& warnings)
+{
+  if (body.rigid) return;
+  for (int axis = 0; axis < scene.grid.dimension; ++axis) {
+    for (const std::size_t side : {0, 1}) {
+      if (!components::traits_of(scene.faces[static_cast<std::size_t>(axis)][side]).has_image()) continue;
+      if (!comes_to_wall(scene, body, axis, side)) continue;
+      warnings.push_back(fmt::format(
+          "/boundaries/{}{}: {} comes to this wall, and is stopped as soon as its particles reach the wall's nodes, up "
+          "to {:.2g} m before it touches; it touches where it is with {{\"friction\": MU, \"at_edges\": true}}",
+          "xyz"[axis], "-+"[side], body.name,
+          (scene.reach_of(body.material) - 0.5 / scene.particles_per_axis_of(body.material)) * scene.grid.cell_size));
+    }
+  }
+}
+
 void check_width(const tasks::Scene& scene, const tasks::SceneBody& body, Warnings& warnings)
 {
   const auto penetration = penetration_of(scene, body);
@@ -258,7 +285,10 @@ std::vector<std::string> contact_warnings(const CheckedScene& checked)
 {
   Warnings warnings;
   check_approach(checked.scene, warnings);
-  for (const tasks::SceneBody& body : checked.scene.bodies) check_tip(checked.scene, body, warnings);
+  for (const tasks::SceneBody& body : checked.scene.bodies) {
+    check_tip(checked.scene, body, warnings);
+    check_walls(checked.scene, body, warnings);
+  }
   return warnings;
 }
 

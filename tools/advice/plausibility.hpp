@@ -20,9 +20,9 @@ std::vector<std::string> plausibility_warnings(const CheckedScene& checked);
 /// does not say it again.
 std::vector<std::string> material_warnings(const CheckedScene& checked);
 
-/// Where bodies that move feel each other before they touch, by the normal of their contact, or only once they overlap,
-/// as their tips hold no particle: a line each, with its place. Both shrink with the cells, so that a run does not say
-/// it again.
+/// Where bodies that move feel each other before they touch, by the normal of their contact, or a wall, or only once
+/// they overlap, as their tips hold no particle: a line each, with its place. All shrink with the cells, so that a run
+/// does not say it again.
 std::vector<std::string> contact_warnings(const CheckedScene& checked);
 
 }  // namespace tamp::tools
