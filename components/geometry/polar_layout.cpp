@@ -9,7 +9,25 @@
 namespace tamp::components
 {
 
-std::vector<Site<2>> PolarLayout::sites(double spacing) const
+namespace
+{
+
+/// Between two radii and two angles.
+struct Sector {
+  double inner, outer, from, to;
+
+  double area() const { return 0.5 * (outer * outer - inner * inner) * (to - from); }
+  /// Of what turning it about the axis x = 0 makes of it, its centre being at x: 2 pi times the integral of x over it.
+  double revolved(double x) const
+  {
+    const double cubes = outer * outer * outer - inner * inner * inner;
+    return 2 * std::numbers::pi * (x * area() + cubes / 3 * (portable::sin(to) - portable::sin(from)));
+  }
+};
+
+}  // namespace
+
+std::vector<Site<2>> PolarLayout::sites(double spacing, bool revolved) const
 {
   constexpr double pi = std::numbers::pi;
   const double depth = outer_radius - inner_radius;
@@ -18,11 +36,15 @@ std::vector<Site<2>> PolarLayout::sites(double spacing) const
   std::vector<Site<2>> all;
   for (int ring = 0; ring < n_rings; ++ring) {
     const double radius = inner_radius + (ring + 0.5) * width;
-    const int n_sectors = std::max(3, static_cast<int>(std::lround(2 * pi * radius / width)));
+    const double wanted = 2 * pi * radius / width;
+    const int n_sectors = part ? 4 * std::max(1, static_cast<int>(std::lround(wanted / 4)))
+                               : std::max(3, static_cast<int>(std::lround(wanted)));
     for (int sector = 0; sector < n_sectors; ++sector) {
-      const double angle = 2 * pi * (sector + 0.5) / n_sectors;
-      const Vector<2> arm(radius * portable::cos(angle), radius * portable::sin(angle));
-      all.push_back({centre + arm, 2 * pi * radius * width / n_sectors});
+      const double angle = 2 * pi * (sector + 0.5) / n_sectors, half = pi / n_sectors;
+      const Vector<2> place = centre + radius * Vector<2>(portable::cos(angle), portable::sin(angle));
+      if (part && !part->contains(place)) continue;
+      const Sector region{radius - 0.5 * width, radius + 0.5 * width, angle - half, angle + half};
+      all.push_back({place, revolved ? region.revolved(centre[0]) : 2 * pi * radius * width / n_sectors});
     }
   }
   return all;

@@ -28,7 +28,7 @@ std::vector<components::Site<D>> particle_sites(const Scene& scene, const SceneB
 {
   const auto lattice = lattice_of<D>(scene, body.material);
   if constexpr (D == 2) {
-    if (body.functions.layout) return body.functions.layout->sites(lattice.cell_size / lattice.n_per_axis);
+    if (body.functions.layout) return body.functions.layout->sites(lattice.cell_size / lattice.n_per_axis, scene.axisymmetric);
   }
   components::CellRange<D> cells{};
   std::copy_n(scene.grid.n_cells.begin(), D, cells.upper.begin());
@@ -52,7 +52,7 @@ double particle_volume(const Scene& scene, const SceneBody& body)
     return static_cast<double>(body.n_particles) * portable::pow(spacing, scene.grid.dimension);
   }
   double volume = 0;
-  for (const components::Site<2>& site : body.functions.layout->sites(spacing)) volume += site.volume;
+  for (const components::Site<2>& site : body.functions.layout->sites(spacing, false)) volume += site.volume;
   return volume;
 }
 

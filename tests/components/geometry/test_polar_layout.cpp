@@ -2,6 +2,7 @@
 
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 namespace test_polar_layout
@@ -15,7 +16,7 @@ TEST_CASE("a polar layout fills its ring, and is as round as one")
   const double inner = GENERATE(0.0, 0.37);
   const PolarLayout layout{{0.2, -0.1}, inner, 0.8};
 
-  const auto sites = layout.sites(GENERATE(0.013, 0.1, 3.0));
+  const auto sites = layout.sites(GENERATE(0.013, 0.1, 3.0), false);
 
   double volume = 0;
   Vector<2> moment = Vector<2>::Zero();
@@ -29,11 +30,34 @@ TEST_CASE("a polar layout fills its ring, and is as round as one")
   CHECK(moment.norm() < 1e-13 * volume);
 }
 
+TEST_CASE("half of a polar layout about the axis fills a ball, and a quarter half of it")
+{
+  constexpr double inf = std::numeric_limits<double>::infinity();
+  const double spacing = GENERATE(0.013, 0.1, 3.0), lowest = GENERATE(-inf, 0.3);
+  const PolarLayout layout{{0, 0.3}, 0, 0.8, Box<2>{{0, lowest}, {inf, inf}}};
+
+  double volume = 0, area = 0;
+  for (const Site<2>& site : layout.sites(spacing, true)) volume += site.volume;
+  for (const Site<2>& site : layout.sites(spacing, false)) area += site.volume;
+
+  const double part = lowest == 0.3 ? 0.5 : 1;
+  CHECK(volume == Approx(part * 4 / 3 * std::numbers::pi * 0.512).epsilon(1e-13));
+  CHECK(area == Approx(part / 2 * std::numbers::pi * 0.64).epsilon(1e-13));
+}
+
+TEST_CASE("rings whose centre is off the axis have the volume of a torus")
+{
+  double volume = 0;
+  for (const Site<2>& site : PolarLayout{{2, 0}, 0.3, 0.8}.sites(0.1, true)) volume += site.volume;
+
+  CHECK(volume == Approx(2 * std::numbers::pi * 2 * std::numbers::pi * (0.64 - 0.09)).epsilon(1e-13));
+}
+
 TEST_CASE("a polar layout's rings are as wide as the spacing, and its sectors about as long")
 {
   const PolarLayout layout{{0, 0}, 1, 2};
 
-  const auto sites = layout.sites(0.26);
+  const auto sites = layout.sites(0.26, false);
 
   // Four rings of 0.25; round the first, at 1.125, go 28.3 of them.
   CHECK(sites[0].place.norm() == Approx(1.125));
@@ -45,8 +69,8 @@ TEST_CASE("a polar layout's rings are as wide as the spacing, and its sectors ab
 
 TEST_CASE("a ring thinner than the spacing is one ring of particles")
 {
-  CHECK(PolarLayout{{0, 0}, 1, 1.01}.sites(0.1).front().place.norm() == Approx(1.005));
-  CHECK(PolarLayout{{0, 0}, 0, 0.01}.sites(0.1).size() == 3);
+  CHECK(PolarLayout{{0, 0}, 1, 1.01}.sites(0.1, false).front().place.norm() == Approx(1.005));
+  CHECK(PolarLayout{{0, 0}, 0, 0.01}.sites(0.1, false).size() == 3);
 }
 
 TEST_CASE("a sector lies outwards and around")

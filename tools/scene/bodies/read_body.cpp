@@ -191,6 +191,12 @@ void check_may_go_around(const tasks::Scene& scene, bool rigid, bool has_axis, c
   }
 }
 
+components::Box<2> plane_of(const runtime::Grid& grid)
+{
+  return {{grid.coordinate(0, 0), grid.coordinate(1, 0)},
+          {grid.coordinate(0, grid.n_cells[0]), grid.coordinate(1, grid.n_cells[1])}};
+}
+
 /// The rings about the centre of a disk on which its particles are to lie.
 template <int D>
 std::optional<components::PolarLayout> read_rings(const components::Solid<D>& solid, bool has_problem,
@@ -240,9 +246,8 @@ std::optional<tasks::SceneBody> read(const std::string& name, JsonReader& reader
   if (!part) return std::nullopt;
   tasks::SceneBody body{name, number, *part, {0, 0, 0}, 0};
   body.cut = *mirrors;
-  if (body.is_cut() && (problem || on_rings)) {
-    reader.add_problem(problem ? "problem" : "particles", "a body that a \"symmetry\" face cuts",
-                       "expected one that lies within the grid, or particles in the lattice");
+  if (body.is_cut() && problem) {
+    reader.add_problem("problem", "a body that a \"symmetry\" face cuts", "expected one that lies within the grid");
     return std::nullopt;
   }
   if (problem) {
@@ -250,7 +255,10 @@ std::optional<tasks::SceneBody> read(const std::string& name, JsonReader& reader
     if (!functions) return std::nullopt;
     body.functions = std::move(*functions);
   }
-  if (on_rings) body.functions.layout = read_rings<D>(*solid, problem.has_value(), reader);
+  if (on_rings) {
+    body.functions.layout = read_rings<D>(*solid, problem.has_value(), reader);
+    if (body.functions.layout && body.is_cut()) body.functions.layout->part = plane_of(scene.grid);
+  }
   body.n_particles = tasks::sites_of<D>(scene, body).size();
   if (body.n_particles == 0) {
     reader.add_problem("geometry", "holds no particle",

@@ -89,8 +89,8 @@ const ObjectKeys& body_keys()
        choice<bool>(
            "particles", false, {{"lattice", false}, {"rings", true}},
            "`\"lattice\"`: at the sites of the lattice within the geometry; `\"rings\"`, of a `\"ball\"` in the "
-           "plane: on rings about its centre, as those of the problem `\"rotating_disk\"`, so that it is round "
-           "enough to roll"),
+           "plane, or about the axis: on rings about its centre, as those of the problem `\"rotating_disk\"`, so that "
+           "it is round enough to roll or to bounce"),
        {"velocity", Numbers{per_axis}, "m/s", {0.0}, "at the start"},
        {"angular_velocity",
         Numbers{per_rotation},
