@@ -125,11 +125,10 @@ struct Scene {
   {
     return std::find(grid.periodic.begin(), grid.periodic.end(), true) != grid.periodic.end();
   }
-  template <class Matches>
-  bool has_face(const Matches& matches) const
+  bool has_wall_to_leave() const
   {
-    const auto is_one = [&](const Face& face) { return matches(components::traits_of(face)); };
-    return std::ranges::any_of(faces, [&](const auto& axis) { return std::ranges::any_of(axis, is_one); });
+    const auto keeps_push = [](const Face& face) { return components::traits_of(face).keeps_push; };
+    return std::ranges::any_of(faces, [&](const auto& axis) { return std::ranges::any_of(axis, keeps_push); });
   }
   bool has_body_force() const
   {

@@ -46,7 +46,8 @@ struct WallGaps : NodeValues<D, 4 * D> {
   static int at(const PlaneWall& wall) { return 2 * static_cast<int>(wall.number()); }
 };
 
-/// Adds the particles within two cells of a wall to the sums of their nodes. Particles are `size` [m] long along each axis at first.
+/// Adds the particles within two cells of a wall to the sums of their nodes. Particles are `size` [m] long along each
+/// axis at first.
 template <int D>
 void add_wall_gaps(const Interpolation<D>& interpolation, const GridBlock<D>& block, const ParticlePlaces<D>& places,
                    double size, std::span<const PlaneWall> walls, WallGaps<D>* sums);

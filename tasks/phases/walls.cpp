@@ -67,25 +67,44 @@ void hold(const Method<D>& method, const TaskContext& at, const Wall<D>& wall, c
   });
 }
 
-/// Pushes matter off a wall where its gap would close within the step, as contact with the solid of a rigid body does.
+/// The velocity of a node at which the gap to a wall would close within the step, once the wall has pushed it off, as
+/// contact with the solid of a rigid body does.
 template <int D>
-void push_off(const Method<D>& method, const TaskContext& at, const components::PlaneWall& wall,
-              const GridView<const NodeSums<D>>& sums, const GridView<const WallGaps<D>>& gaps,
-              const GridView<NodeMotion<D>>& motion, GridTotals& totals)
+Vector<D> pushed_off(const Method<D>& method, const TaskContext& at, const components::PlaneWall& wall, double gap,
+                     const Vector<D>& velocity)
+{
+  Vector<D> without_gap = Vector<D>::Zero();
+  without_gap[wall.axis] = wall.outside * std::max(gap, 0.0) / at.step.size;
+  Vector<D> left = velocity;
+  components::with_wall(method.face(wall), [&](const auto& kind) {
+    const components::WallNode node{wall.axis, wall.outside, method.cell_size, at.step.size};
+    left = kind.template velocity<D>(velocity - without_gap, node) + without_gap;
+  });
+  return left;
+}
+
+/// Applies the walls that are touched at edges; where several meet, one after another, and their work is that of all.
+template <int D>
+void push_off(const Method<D>& method, const TaskContext& at, const GridView<const NodeSums<D>>& sums,
+              const GridView<const WallGaps<D>>& gaps, const GridView<NodeMotion<D>>& motion, GridTotals& totals)
 {
   const runtime::IndexBox counted = counted_nodes(method, at);
-  const components::WallNode node{wall.axis, wall.outside, method.cell_size, at.step.size};
-  components::with_wall(method.face(wall), [&](const auto& kind) {
-    for_each(nodes_behind(wall, at.layout.grid(), motion.box()), [&](const Index& i) {
-      if (!(sums[i].mass() > method.least_node_mass) || !(gaps[i].weight(wall) > 0)) return;
-      Vector<D> without_gap = Vector<D>::Zero();
-      without_gap[wall.axis] = wall.outside * std::max(gaps[i].gap(wall), 0.0) / at.step.size;
-      const Vector<D> arriving = motion[i].velocity() - without_gap;
-      if (!(wall.outside * arriving[wall.axis] > 0)) return;
-      leave<D>(kind.template velocity<D>(arriving, node) + without_gap, sums[i], counted.contains(i), motion[i],
-               totals);
+  for (std::size_t w = 0; w < method.edge_walls.size(); ++w) {
+    const auto behind = [&](std::size_t other) {
+      return nodes_behind(method.edge_walls[other], at.layout.grid(), motion.box());
+    };
+    for_each(behind(w), [&](const Index& i) {
+      if (!(sums[i].mass() > method.least_node_mass)) return;
+      Vector<D> velocity = motion[i].velocity();
+      for (std::size_t other = 0; other < method.edge_walls.size(); ++other) {
+        const components::PlaneWall& wall = method.edge_walls[other];
+        if (!behind(other).contains(i)) continue;
+        if (other < w) return;
+        if (gaps[i].weight(wall) > 0) velocity = pushed_off(method, at, wall, gaps[i].gap(wall), velocity);
+      }
+      if (velocity != motion[i].velocity()) leave(velocity, sums[i], counted.contains(i), motion[i], totals);
     });
-  });
+  }
 }
 
 /// Local damping of what forces, contact and walls together leave unbalanced, where they have not brought the node to
@@ -142,9 +161,7 @@ runtime::TaskList walls(const Method<D>& method)
               });
               for_each_wall(method, at, motion.box(),
                             [&](const Wall<D>& wall) { hold(method, at, wall, sums[g], motion, data[grid_totals]); });
-              for (const components::PlaneWall& wall : method.edge_walls) {
-                push_off(method, at, wall, sums[g], gaps[g], motion, data[grid_totals]);
-              }
+              if (!method.edge_walls.empty()) push_off(method, at, sums[g], gaps[g], motion, data[grid_totals]);
               if (method.damping > 0 && method.rigid_body(static_cast<int>(g)) == nullptr) {
                 damp(method, at, sums[g], motion, data[grid_totals]);
               }

@@ -28,7 +28,8 @@ std::vector<components::Site<D>> particle_sites(const Scene& scene, const SceneB
 {
   const auto lattice = lattice_of<D>(scene, body.material);
   if constexpr (D == 2) {
-    if (body.functions.layout) return body.functions.layout->sites(lattice.cell_size / lattice.n_per_axis, scene.axisymmetric);
+    if (body.functions.layout)
+      return body.functions.layout->sites(lattice.cell_size / lattice.n_per_axis, scene.axisymmetric);
   }
   components::CellRange<D> cells{};
   std::copy_n(scene.grid.n_cells.begin(), D, cells.upper.begin());

@@ -70,6 +70,23 @@ TEST_CASE("settled sand stays at rest in a centrifuge and under gravity")
   CHECK(simulation->time() > n_steps * 1e-4 / 300);
 }
 
+TEST_CASE("settled sand stays at rest on rough walls that it touches at its edges, which take no energy")
+{
+  const int dimension = GENERATE(2, 3);
+  const auto vertical = static_cast<std::size_t>(dimension - 1);
+  Scene scene = box_of_sand(dimension);
+  scene.gravity[vertical] = -9.81;
+  for (std::size_t axis = 0; axis < vertical; ++axis) scene.faces[axis].fill(components::RoughWall{0.3, true});
+  scene.faces[vertical][0] = components::RoughWall{0.3, true};
+  const auto simulation = Simulation::make(scene, 2);
+
+  for (int i = 0; i < n_steps; ++i) simulation->advance(1);
+
+  CAPTURE(dimension);
+  CHECK(fastest(*simulation) < 1e-12);
+  CHECK(std::abs(simulation->energies().contact) < 1e-20);
+}
+
 TEST_CASE("settled sand that fills a periodic domain from side to side stays at rest")
 {
   Scene scene = box_of_sand(3);

@@ -156,6 +156,19 @@ TEST_CASE("matter touches a wall at its edges within a tenth of a cell, at eithe
   CHECK(std::abs(gap - speed * time) < 0.1 * cell);
 }
 
+TEST_CASE("no wall that it touches at its edges holds what moves away from it")
+{
+  Scene scene = block_on_incline({0.3, true}, 0, {0.5, 1, 0});
+  scene.gravity = {0, 0, 0};
+  scene.interpolator = GENERATE(Interpolator("gimp"), Interpolator("quadratic_spline"), Interpolator("cubic_spline"));
+  const auto simulation = Simulation::make(scene, 1);
+  const BodySums before = simulation->report().bodies[0];
+
+  advance_to(*simulation, 0.05);
+
+  CHECK((simulation->report().bodies[0].momentum - before.momentum).norm() < 1e-12 * before.momentum.norm());
+}
+
 TEST_CASE("on a wall that it touches at its edges a disk comes to roll")
 {
   const double friction = 0.3, radius = 0.1, speed = 1;

@@ -225,6 +225,16 @@ void advise_on_method(const tasks::Scene& scene, const tasks::SceneBody& body, L
   }
 }
 
+/// How coarse the lattice of a rigid body is, beside its width where it goes into another.
+std::string spacing_in_words(const tasks::Scene& scene, int material)
+{
+  const double spacing = scene.grid.cell_size / scene.particles_per_axis_of(material);
+  const auto is_it = [&](const tasks::SceneBody& body) { return body.material == material; };
+  const auto penetration = penetration_of(scene, *std::ranges::find_if(scene.bodies, is_it));
+  if (!penetration || !std::isfinite(penetration->half_width)) return fmt::format("{:.2g} m apart", spacing);
+  return fmt::format("{:.2g} m apart, {:.2g} to its half width", spacing, penetration->half_width / spacing);
+}
+
 /// What meets a rigid body by other normals meets its particles, whose lattice is blunter than the body.
 void advise_on_contact(const tasks::Scene& scene, Lines& lines)
 {
@@ -234,11 +244,12 @@ void advise_on_contact(const tasks::Scene& scene, Lines& lines)
     if (first_is_rigid == scene.is_rigid(contact.material_b)) continue;
     if (std::holds_alternative<components::SolidNormal>(contact.normal)) continue;
     const auto name = [&](int material) { return scene.materials[static_cast<std::size_t>(material)].name; };
-    lines.push_back(
-        fmt::format("contact: with \"normal\": \"solid\" {} would meet the solid that {} is, and not its particles, by "
-                    "which a body on few cells is too blunt",
-                    name(first_is_rigid ? contact.material_b : contact.material_a),
-                    name(first_is_rigid ? contact.material_a : contact.material_b)));
+    const int rigid = first_is_rigid ? contact.material_a : contact.material_b;
+    const int other = first_is_rigid ? contact.material_b : contact.material_a;
+    lines.push_back(fmt::format(
+        "contact: with \"normal\": \"solid\" {} would meet the solid that {} is, and not its particles, {}, "
+        "whose outline is blunter",
+        name(other), name(rigid), spacing_in_words(scene, rigid)));
   }
 }
 

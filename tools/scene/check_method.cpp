@@ -52,7 +52,7 @@ void check_contact_of_transfer(const JsonReader& reader, const tasks::Scene& sce
   });
   if (!passes_from_end) return;
   const std::string fmpm = fmt::format("{} of order {}", scene.transfer.word(), scene.transfer_numbers.filter_order);
-  if (scene.has_face([](const auto& traits) { return traits.keeps_push; })) {
+  if (scene.has_wall_to_leave()) {
     reader.add_problem("transfer", fmpm + " with a wall that can be left",
                        "expected another transfer, as particles would gain energy where the wall stops nodes");
   }

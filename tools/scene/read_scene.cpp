@@ -236,8 +236,8 @@ class SceneReader
       root_.add_problem("centrifuge", "periodic boundaries, whose ends are not alike in a turning grid",
                         "expected other boundaries where the grid turns");
     }
-    if (scene_.has_face([](const auto& traits) { return traits.keeps_push && !traits.at_edges; })) {
-      root_.add_problem("centrifuge", "a wall that can be left", "expected other boundaries where the grid turns, or \"at_edges\" true");
+    if (scene_.has_wall_to_leave()) {
+      root_.add_problem("centrifuge", "a wall that can be left", "expected other boundaries where the grid turns");
     }
     const std::size_t n_before = document_.problems.size();
     const double speed = reader->number("angular_speed");

@@ -115,13 +115,17 @@ TEST_CASE("sand that has to forget its gradients is not updated before it has th
 
 TEST_CASE("a wall has a word or a coefficient of friction, and periodic faces come in pairs")
 {
-  const std::string words = "; expected one of symmetry, open, no_slip, periodic, {\"friction\": MU}";
+  const std::string words =
+      "; expected one of symmetry, open, no_slip, periodic, {\"friction\": MU, \"at_edges\": true}";
   const std::string pair =
       ": a face that is not periodic, opposite to one that is; expected both faces of an axis periodic, or neither";
 
   check_rows(problems_with,
              {{"/boundaries/y-=no_slip", ""},
               {"/boundaries/y-={'friction':0.4}", ""},
+              {"/boundaries/y-={'friction':0.4,'at_edges':true}", ""},
+              {"/boundaries/y-={'friction':0.4,'at_edges':1}", "/boundaries/y-/at_edges: 1; expected true or false"},
+              {"/boundaries/y-={'at_edges':true}", "*#/boundaries/y-/friction: missing*"},
               {"/boundaries/x-=wall", "/boundaries/x-: \"wall\"" + words},
               {"/boundaries/y-=rough", "/boundaries/y-: \"rough\"" + words},
               {"/boundaries/y-={'friction':-0.4}", "/boundaries/y-/friction: -0.4; expected a number*"},
@@ -173,6 +177,7 @@ TEST_CASE("a centrifuge whose numbers make no rotation, or that turns what canno
        {"/boundaries={'x-':{'friction':0.4},'z-':{'friction':0.4}}", ""},
        {"/boundaries={'x-':{'friction':0.4},'z-':{'friction':0.4}} " + turning,
         "/centrifuge: a wall that can be left; expected other boundaries where the grid turns"},
+       {"/boundaries={'x-':{'friction':0.4,'at_edges':true}} " + turning, "/centrifuge: a wall that can be left*"},
        {"/boundaries={'x-':'periodic','x+':'periodic'} " + turning,
         "/centrifuge: periodic boundaries, whose ends are not alike in a turning grid; expected other boundaries "
         "where the grid turns"}});
