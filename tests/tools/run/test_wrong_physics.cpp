@@ -185,6 +185,38 @@ TEST_CASE("the check warns of contact ahead of touch, and of tips that hold no p
   CHECK_THAT(blunt, !Catch::Contains("warning"));
 }
 
+TEST_CASE("the check warns of bodies that come to a wall which is touched at its nodes")
+{
+  const TemporaryFolder folder;
+  const auto scene = folder.write("ball.json", R"({
+    "dimension": 2, "grid": { "upper": [1, 1], "cell_size": 0.05 }, "time": { "end": 0.3 }, "gravity": [0, -9.81],
+    "boundaries": { "y+": "open" },
+    "materials": { "gel": { "type": "neo_hookean", "density": 1000, "bulk_modulus": 1e6, "shear_modulus": 5e5 } },
+    "bodies": { "ball": { "material": "gel", "geometry": { "type": "ball", "centre": [0.5, 0.5], "radius": 0.21 } } }
+  })");
+  const auto checked = [&](const std::string& assignments) {
+    return tamp_with("check " + scene.string() + assignments).err;
+  };
+  const std::string comes = "/boundaries/y-: ball comes to this wall, and is stopped as soon as its particles reach";
+
+  CHECK_THAT(checked(""), Catch::Contains(comes) && Catch::Contains("up to 0.05 m before it touches"));
+  CHECK_THAT(checked(" --set '/boundaries/y-={\"friction\":0,\"at_edges\":true}'"), !Catch::Contains("/boundaries/"));
+  CHECK_THAT(checked(" --set /time/end=0.2"), !Catch::Contains("/boundaries/"));
+  CHECK_THAT(checked(" --set /bodies/ball/geometry/centre='[0.5,0.21]'"), !Catch::Contains("/boundaries/"));
+  CHECK_THAT(checked(" --set /bodies/ball/velocity='[-2,0]'"), Catch::Contains("/boundaries/x-: ball comes"));
+}
+
+TEST_CASE("the check says how a ball gets the mass that it should have")
+{
+  const std::string ball = "check " TAMP_SOURCE_DIR "/inputs/savings/ball.json";
+  const std::string in_lattice = tamp_with(ball).err,
+                    on_rings = tamp_with(ball + " --set /bodies/ball/particles=rings").err;
+
+  CHECK_THAT(in_lattice,
+             Catch::Contains("of its mass") && Catch::Contains("with \"particles\": \"rings\" it is exact"));
+  CHECK_THAT(on_rings, !Catch::Contains("of its mass"));
+}
+
 TEST_CASE("a sand that is taken for another one than was tested is warned of by the check, and not by the run")
 {
   CHECK(warns("/materials/sand/density=1700",
