@@ -67,18 +67,19 @@ void hold(const Method<D>& method, const TaskContext& at, const Wall<D>& wall, c
   });
 }
 
-/// The velocity of a node at which the gap to a wall would close within the step, once the wall has pushed it off, as
-/// contact with the solid of a rigid body does.
+/// The velocity of a node once a wall has pushed it off, if the gap would close within the step, as contact with the
+/// solid of a rigid body does.
 template <int D>
 Vector<D> pushed_off(const Method<D>& method, const TaskContext& at, const components::PlaneWall& wall, double gap,
                      const Vector<D>& velocity)
 {
-  Vector<D> without_gap = Vector<D>::Zero();
-  without_gap[wall.axis] = wall.outside * std::max(gap, 0.0) / at.step.size;
+  Vector<D> closing = Vector<D>::Zero();
+  closing[wall.axis] = wall.outside * std::max(gap, 0.0) / at.step.size;
   Vector<D> left = velocity;
+  if (!(wall.outside * (velocity - closing)[wall.axis] > 0)) return left;
   components::with_wall(method.face(wall), [&](const auto& kind) {
     const components::WallNode node{wall.axis, wall.outside, method.cell_size, at.step.size};
-    left = kind.template velocity<D>(velocity - without_gap, node) + without_gap;
+    left = kind.template velocity<D>(velocity - closing, node) + closing;
   });
   return left;
 }
