@@ -25,7 +25,7 @@ void with_wall(const Face& face, const Visit& visit)
 {
   std::visit(
       [&]<class Kind>(const Kind& kind) {
-        if constexpr (requires { &Kind::template velocity<2>; }) visit(kind);
+        if constexpr (Kind{}.traits().is_wall() && !Kind{}.traits().is_mirror) visit(kind);
       },
       face);
 }
