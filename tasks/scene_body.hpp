@@ -47,6 +47,10 @@ struct BodyPressure {
   }
 };
 
+/// Where the particles of a body lie: at sites of the lattice, there but cut at the outline, or on the rings that its
+/// functions give.
+enum class ParticleLayout { lattice, cut, rings };
+
 struct SceneBody {
   std::string name;
   /// Place in Scene::materials.
@@ -69,6 +73,8 @@ struct SceneBody {
   /// The functions of its problem, if it has one: they say more of its start than the above, and what acts on it. A
   /// disk without one may have its layout alone.
   components::BodyFunctions functions{};
+
+  ParticleLayout particles = ParticleLayout::lattice;
 
   /// Faces of the grid at which its solid has been cut in halves: `solid` is the part within.
   Sides cut{};

@@ -5,27 +5,43 @@
 #include <string>
 
 #include "components/errors.hpp"
+#include "components/geometry/lattice_indices.hpp"
 #include "components/portable_math.hpp"
 
 namespace tamp::components
 {
-namespace
-{
 
 template <int D>
-void check(const ParticleLattice<D>& lattice)
+void ParticleLattice<D>::check() const
 {
-  if (!(lattice.cell_size > 0) || !std::isfinite(lattice.cell_size)) {
-    throw BadValue("cell size " + std::to_string(lattice.cell_size), "a finite length above 0");
+  if (!(cell_size > 0) || !std::isfinite(cell_size)) {
+    throw BadValue("cell size " + std::to_string(cell_size), "a finite length above 0");
   }
-  if (lattice.n_per_axis < 1) {
-    throw BadValue(std::to_string(lattice.n_per_axis) + " particles along an axis of a cell", "1 or more");
+  if (n_per_axis < 1) {
+    throw BadValue(std::to_string(n_per_axis) + " particles along an axis of a cell", "1 or more");
   }
 }
 
-/// The cells of `cells` that the box touches, with one cell to spare on each side against round-off.
 template <int D>
-CellRange<D> near(const Box<D>& box, const ParticleLattice<D>& lattice, const CellRange<D>& cells)
+double ParticleLattice<D>::particle_volume() const
+{
+  return portable::pow(cell_size / n_per_axis, D);
+}
+
+template <int D>
+Vector<D> ParticleLattice<D>::place(const std::array<int, std::size_t{D}>& cell,
+                                    const std::array<int, std::size_t{D}>& site) const
+{
+  Vector<D> x;
+  for (std::size_t k = 0; k < D; ++k) {
+    const auto axis = static_cast<Eigen::Index>(k);
+    x[axis] = origin[axis] + cell_size * (cell[k] + (site[k] + 0.5) / n_per_axis);
+  }
+  return x;
+}
+
+template <int D>
+CellRange<D> cells_near(const Box<D>& box, const ParticleLattice<D>& lattice, const CellRange<D>& cells)
 {
   CellRange<D> range = cells;
   for (std::size_t k = 0; k < D; ++k) {
@@ -39,52 +55,17 @@ CellRange<D> near(const Box<D>& box, const ParticleLattice<D>& lattice, const Ce
   return range;
 }
 
-/// Calls `visit` for every index lower <= i < upper, x fastest.
-template <int D, class Visit>
-void for_each_index(const std::array<int, std::size_t{D}>& lower, const std::array<int, std::size_t{D}>& upper,
-                    Visit&& visit)
-{
-  for (std::size_t k = 0; k < D; ++k) {
-    if (lower[k] >= upper[k]) return;
-  }
-  std::array<int, std::size_t{D}> i = lower;
-  while (true) {
-    visit(i);
-    std::size_t k = 0;
-    while (k < D && ++i[k] == upper[k]) {
-      i[k] = lower[k];
-      ++k;
-    }
-    if (k == D) return;
-  }
-}
-
-}  // namespace
-
-template <int D>
-double ParticleLattice<D>::particle_volume() const
-{
-  return portable::pow(cell_size / n_per_axis, D);
-}
-
 template <int D>
 std::vector<Vector<D>> fill(const Solid<D>& solid, const ParticleLattice<D>& lattice, const CellRange<D>& cells)
 {
-  check(lattice);
+  lattice.check();
   using Indices = std::array<int, std::size_t{D}>;
-  Indices first_site, last_site;
-  first_site.fill(0);
-  last_site.fill(lattice.n_per_axis);
-  const CellRange<D> range = near(solid.bounding_box(), lattice, cells);
+  const CellRange<D> range = cells_near(solid.bounding_box(), lattice, cells);
 
   std::vector<Vector<D>> positions;
-  for_each_index<D>(range.lower, range.upper, [&](const Indices& cell) {
-    for_each_index<D>(first_site, last_site, [&](const Indices& site) {
-      Vector<D> x;
-      for (std::size_t k = 0; k < D; ++k) {
-        const auto axis = static_cast<Eigen::Index>(k);
-        x[axis] = lattice.origin[axis] + lattice.cell_size * (cell[k] + (site[k] + 0.5) / lattice.n_per_axis);
-      }
+  for_each_index(range.lower, range.upper, [&](const Indices& cell) {
+    for_each_index_below<D>(lattice.n_per_axis, [&](const Indices& site) {
+      const Vector<D> x = lattice.place(cell, site);
       if (solid.contains(x)) positions.push_back(x);
     });
   });
@@ -93,6 +74,8 @@ std::vector<Vector<D>> fill(const Solid<D>& solid, const ParticleLattice<D>& lat
 
 template struct ParticleLattice<2>;
 template struct ParticleLattice<3>;
+template CellRange<2> cells_near(const Box<2>&, const ParticleLattice<2>&, const CellRange<2>&);
+template CellRange<3> cells_near(const Box<3>&, const ParticleLattice<3>&, const CellRange<3>&);
 template std::vector<Vector<2>> fill(const Solid<2>&, const ParticleLattice<2>&, const CellRange<2>&);
 template std::vector<Vector<3>> fill(const Solid<3>&, const ParticleLattice<3>&, const CellRange<3>&);
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <numbers>
 
+#include "components/geometry/cut_lattice.hpp"
 #include "components/geometry/fill.hpp"
 #include "components/geometry/sampled_volume.hpp"
 #include "components/portable_math.hpp"
@@ -21,6 +22,14 @@ double thickness_at(const Scene& scene, const Vector<D>& x)
   return scene.axisymmetric ? 2 * std::numbers::pi * x[0] : 1;
 }
 
+template <int D>
+double sum_of_volumes(const Scene& scene, const SceneBody& body)
+{
+  double volume = 0;
+  for (const components::Site<D>& site : particle_sites<D>(scene, body)) volume += site.volume;
+  return volume;
+}
+
 }  // namespace
 
 template <int D>
@@ -33,28 +42,25 @@ std::vector<components::Site<D>> particle_sites(const Scene& scene, const SceneB
   }
   components::CellRange<D> cells{};
   std::copy_n(scene.grid.n_cells.begin(), D, cells.upper.begin());
+  const auto& solid = std::get<components::Solid<D>>(body.solid);
   std::vector<components::Site<D>> sites;
-  const double volume = lattice.particle_volume();
-  for (const Vector<D>& x : components::fill(std::get<components::Solid<D>>(body.solid), lattice, cells)) {
-    sites.push_back({x, volume * thickness_at<D>(scene, x)});
+  if (body.particles == ParticleLayout::cut) {
+    sites = components::fill_cut(solid, lattice, cells);
+  } else {
+    const double volume = lattice.particle_volume();
+    for (const Vector<D>& x : components::fill(solid, lattice, cells)) sites.push_back({x, volume});
   }
+  for (components::Site<D>& site : sites) site.volume *= thickness_at<D>(scene, site.place);
   return sites;
 }
 
 double particle_volume(const Scene& scene, const SceneBody& body)
 {
-  if (scene.axisymmetric) {
-    double volume = 0;
-    for (const components::Site<2>& site : particle_sites<2>(scene, body)) volume += site.volume;
-    return volume;
-  }
-  const double spacing = scene.grid.cell_size / scene.particles_per_axis_of(body.material);
-  if (!body.functions.layout) {
+  if (!scene.axisymmetric && !body.functions.layout && body.particles == ParticleLayout::lattice) {
+    const double spacing = scene.grid.cell_size / scene.particles_per_axis_of(body.material);
     return static_cast<double>(body.n_particles) * portable::pow(spacing, scene.grid.dimension);
   }
-  double volume = 0;
-  for (const components::Site<2>& site : body.functions.layout->sites(spacing, false)) volume += site.volume;
-  return volume;
+  return scene.grid.dimension == 2 ? sum_of_volumes<2>(scene, body) : sum_of_volumes<3>(scene, body);
 }
 
 components::Volume solid_volume(const Scene& scene, const SceneBody& body)

@@ -9,7 +9,7 @@ namespace tamp::tasks
 {
 
 /// The particles of a body where they lie undeformed [m], with their volumes [m^3]: in the layout that its functions
-/// give, or at the sites of its material's lattice.
+/// give, or at the sites of its material's lattice, cut at its outline or not.
 template <int D>
 std::vector<components::Site<D>> particle_sites(const Scene& scene, const SceneBody& body);
 

@@ -78,14 +78,6 @@ components::GridBlock<D> whole_grid(const runtime::Grid& grid)
   return block;
 }
 
-template <int D>
-Vector<D> mean(const std::vector<Vector<D>>& places)
-{
-  Vector<D> sum = Vector<D>::Zero();
-  for (const Vector<D>& x : places) sum += x;
-  return sum / static_cast<double>(places.size());
-}
-
 }  // namespace
 
 template <int D>
@@ -95,10 +87,13 @@ BodyParticles<D>::BodyParticles(const Scene& scene, const runtime::PatchLayout& 
   std::int64_t id = 0;
   for (std::size_t b = 0; b < scene.bodies.size(); ++b) {
     if (scene.bodies[b].initial_stress) settled_.emplace(b, SettledSand<D>(scene, scene.bodies[b]));
-    std::vector<Vector<D>> places;
+    Vector<D> sum = Vector<D>::Zero();
+    double weight = 0;
     for (const components::Site<D>& site : particle_sites<D>(scene, scene.bodies[b])) {
       const Vector<D> x = initial_position<D>(scene.bodies[b].functions, site.place);
-      places.push_back(x);
+      const double part = scene.bodies[b].particles == ParticleLayout::cut ? site.volume : 1;
+      sum += part * x;
+      weight += part;
       const int patch = layout.patch_of_cell(cell_of<D>(scene.grid, x));
       auto& particles = particles_[static_cast<std::size_t>(patch)][static_cast<std::size_t>(scene.bodies[b].material)];
       particles.id.push_back(id++);
@@ -106,7 +101,7 @@ BodyParticles<D>::BodyParticles(const Scene& scene, const runtime::PatchLayout& 
       particles.site.push_back(site);
       particles.position.push_back(x);
     }
-    centres_.push_back(mean<D>(places));
+    centres_.push_back(sum / weight);
   }
 }
 

@@ -241,10 +241,15 @@ void check_mass(const CheckedScene& checked, const tasks::SceneBody& body, Warni
   if (std::abs(error) - solid.error / solid.value <= 0.01) return;
   const bool can_have_rings =
       scene.grid.dimension == 2 && checked.resolved.at("bodies").at(body.name).at("geometry").at("type") == "ball";
+  const bool can_be_cut = body.particles == tasks::ParticleLayout::lattice && !body.initial_stress &&
+                          checked.resolved.at("bodies").at(body.name).at("problem").is_null();
   warnings.push_back(
       fmt::format("/bodies/{}/geometry: its particles are off by {:+.3g} % of its mass; finer cells, or more "
                   "particles in each, come closer{}",
-                  body.name, 100 * error, can_have_rings ? "; with \"particles\": \"rings\" it is exact" : ""));
+                  body.name, 100 * error,
+                  can_have_rings ? "; with \"particles\": \"rings\" it is exact"
+                  : can_be_cut   ? "; with \"particles\": \"cut\" it is right"
+                                 : ""));
 }
 
 void check_density(const std::string& place, const Json& material, Warnings& warnings)

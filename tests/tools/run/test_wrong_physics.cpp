@@ -217,6 +217,15 @@ TEST_CASE("the check says how a ball gets the mass that it should have")
   CHECK_THAT(on_rings, !Catch::Contains("of its mass"));
 }
 
+TEST_CASE("the check says how a cone gets the mass that it should have")
+{
+  const std::string rod = "check " TAMP_SOURCE_DIR "/inputs/savings/rod.json --set /grid/cell_size=0.004";
+
+  CHECK_THAT(tamp_with(rod).err,
+             Catch::Contains("of its mass") && Catch::Contains("with \"particles\": \"cut\" it is right"));
+  CHECK_THAT(tamp_with(rod + " --set /bodies/rod/particles=cut").err, !Catch::Contains("of its mass"));
+}
+
 TEST_CASE("a sand that is taken for another one than was tested is warned of by the check, and not by the run")
 {
   CHECK(warns("/materials/sand/density=1700",

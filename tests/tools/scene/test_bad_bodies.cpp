@@ -102,6 +102,19 @@ TEST_CASE("rings of particles in what is no disk, or where a problem lays them o
         "/bodies/block/particles: rings, of a body with a problem; expected those of the problem alone"}});
 }
 
+TEST_CASE("particles cannot be cut where a problem lays them out, or where layers are to be whole")
+{
+  const std::string cut = "/bodies/block/particles=cut ";
+
+  check_rows(
+      problems_with,
+      {{cut + "/bodies/block/initial_stress=true",
+        "/bodies/block/particles: cut, of a body with \"initial_stress\"; expected whole layers: the lattice's"},
+       {cut + "/bodies/block/geometry={'type':'ball','centre':[1,1],'radius':0.7} "
+              "/bodies/block/problem={'type':'rotating_disk','centre':[1,1],'outer_radius':0.7,'angular_speed':1}",
+        "/bodies/block/particles: cut, of a body with a problem; expected those of the problem alone"}});
+}
+
 TEST_CASE("sand that cannot have settled is refused with why")
 {
   const std::string stress = "/bodies/block/initial_stress", settled = stress + "=true ";

@@ -200,6 +200,27 @@ TEST_CASE("a disk whose particles lie on rings has its area, and is as round as 
   CHECK(checked.resolved["bodies"]["block"]["particles"] == "rings");
 }
 
+TEST_CASE("a body whose particles are cut weighs what its solid does, in the plane, about the axis and in space")
+{
+  const TemporaryFolder folder;
+  const auto file = folder.write("small.json", small_scene);
+  const auto volume = [&](std::vector<std::string> assignments, const std::string& ball) {
+    assignments.insert(assignments.end(), {"/bodies/block/particles=cut", "/bodies/block/geometry=" + ball});
+    const auto scene = read_scene(file, assignments).scene;
+    return tasks::particle_volume(scene, scene.bodies.at(0));
+  };
+  const std::string disk = R"({"type":"ball","centre":[1,1],"radius":0.7})",
+                    about_axis = R"({"type":"ball","centre":[0,1],"radius":0.7})",
+                    ball = R"({"type":"ball","centre":[1,1,1],"radius":0.7})";
+  const double pi = 3.14159265358979323846;
+
+  CHECK(volume({}, disk) == Approx(pi * 0.49).epsilon(1e-12));
+  // Points are counted, as the ball goes beyond the axis.
+  CHECK(volume({"/axisymmetric=true", "/particles_per_cell=[8,8]"}, about_axis) ==
+        Approx(4 * pi / 3 * 0.343).epsilon(1e-3));
+  CHECK(volume({"/dimension=3", "/grid/upper=[2,2,2]"}, ball) == Approx(4 * pi / 3 * 0.343).epsilon(1e-12));
+}
+
 TEST_CASE("every kind of geometry is read")
 {
   const TemporaryFolder folder;

@@ -227,7 +227,7 @@ std::optional<tasks::SceneBody> read(const std::string& name, JsonReader& reader
   const std::vector<double> spin = may_turn ? reader.numbers("angular_velocity") : std::vector<double>{0};
   const auto axis = read_axis<D>(reader);
   const auto solid = read_solid<D>(reader, "geometry");
-  const bool on_rings = reader.choice<bool>("particles");
+  const auto layout = reader.choice<tasks::ParticleLayout>("particles");
   const bool initial_stress = reader.flag("initial_stress");
   auto pressure = read_pressure<D>(reader);
   const std::size_t n_before = reader.document().problems.size();
@@ -255,7 +255,14 @@ std::optional<tasks::SceneBody> read(const std::string& name, JsonReader& reader
     if (!functions) return std::nullopt;
     body.functions = std::move(*functions);
   }
-  if (on_rings) {
+  body.particles = layout;
+  if (layout == tasks::ParticleLayout::cut && (problem || initial_stress)) {
+    reader.add_problem("particles",
+                       problem ? "cut, of a body with a problem" : "cut, of a body with \"initial_stress\"",
+                       problem ? "expected those of the problem alone" : "expected whole layers: the lattice's");
+    return std::nullopt;
+  }
+  if (layout == tasks::ParticleLayout::rings) {
     body.functions.layout = read_rings<D>(*solid, problem.has_value(), reader);
     if (body.functions.layout && body.is_cut()) body.functions.layout->part = plane_of(scene.grid);
   }

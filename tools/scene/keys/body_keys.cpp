@@ -1,4 +1,5 @@
 #include "components/problems/problem.hpp"
+#include "tasks/scene_body.hpp"
 #include "tools/scene/json/keys.hpp"
 #include "tools/scene/json/parameter_keys.hpp"
 
@@ -86,11 +87,17 @@ const ObjectKeys& body_keys()
       "body",
       {{"material", Name{}, "", compulsory, "a name from `materials`"},
        {"geometry", Object{solid_keys}, "", compulsory, "the region it fills at the start, within the grid"},
-       choice<bool>(
-           "particles", false, {{"lattice", false}, {"rings", true}},
-           "`\"lattice\"`: at the sites of the lattice within the geometry; `\"rings\"`, of a `\"ball\"` in the "
-           "plane, or about the axis: on rings about its centre, as those of the problem `\"rotating_disk\"`, so that "
-           "it is round enough to roll or to bounce"),
+       choice<tasks::ParticleLayout>(
+           "particles", tasks::ParticleLayout::lattice,
+           {{"lattice", tasks::ParticleLayout::lattice},
+            {"cut", tasks::ParticleLayout::cut},
+            {"rings", tasks::ParticleLayout::rings}},
+           "`\"lattice\"`: at the sites of the lattice within the geometry; `\"cut\"`: those whose share of their cell "
+           "the outline cuts have the volume and the middle of what lies within, so that the body weighs what it "
+           "should "
+           "and its edge has no steps; `\"rings\"`, of a `\"ball\"` in the plane, or about the axis: on rings about "
+           "its "
+           "centre, as those of the problem `\"rotating_disk\"`, so that it is round enough to roll or to bounce"),
        {"velocity", Numbers{per_axis}, "m/s", {0.0}, "at the start"},
        {"angular_velocity",
         Numbers{per_rotation},
