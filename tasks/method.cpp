@@ -89,9 +89,9 @@ Method<D>::Method(const Scene& given)
       const components::FaceTraits traits = components::traits_of(scene.faces[k][side]);
       mirrors[k][side] = traits.has_image() && !scene.grid.periodic[k];
       const int axis = static_cast<int>(k);
-      if (!traits.is_wall() || !traits.at_edges) continue;
-      edge_walls.push_back(
-          {axis, side == 0 ? -1 : 1, scene.grid.coordinate(axis, side == 0 ? 0 : scene.grid.n_cells[k])});
+      if (!traits.is_wall()) continue;
+      (traits.at_edges ? edge_walls : image_walls)
+          .push_back({axis, side == 0 ? -1 : 1, scene.grid.coordinate(axis, side == 0 ? 0 : scene.grid.n_cells[k])});
     }
   }
   for (const SceneContact& pair : scene.contacts)

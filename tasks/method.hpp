@@ -130,8 +130,8 @@ struct Method {
   std::optional<components::RotatingFrame> centrifuge;
   /// Faces of the domain that are walls with a mirror image behind them, as [axis][side]: side 0 is the lower.
   std::array<std::array<bool, 2>, std::size_t{D}> mirrors;
-  /// Walls that matter touches at its edges.
-  std::vector<components::PlaneWall> edge_walls;
+  /// Walls that matter touches at its edges, and those with an image behind them.
+  std::vector<components::PlaneWall> edge_walls, image_walls;
   std::optional<components::ArtificialViscosity> viscosity;
   /// The part of unbalanced forces that local damping takes.
   double damping;

@@ -84,6 +84,15 @@ struct ContactSample {
                  runtime::Least{&ContactSample::first_within}};
 };
 
+/// Loads on walls with an image behind them [J], see components::WallLoad: those across a gap, and all.
+struct WallSample {
+  Share early;
+  /// Of the particles whose load crosses a gap that with the lowest id.
+  ParticlePlace first;
+
+  static constexpr auto fields = std::tuple{&WallSample::early, runtime::Least{&WallSample::first}};
+};
+
 /// A share in the samples of a run so far.
 struct SampledShare {
   Share all;
@@ -116,6 +125,7 @@ double out_of_range(const components::UpdateCounts& updates);
 
 struct MonitorRecords {
   SampledShare null_space, uneven_pressure, torn_apart, early_contact, interpenetration;
+  SampledShare early_at_walls;
   SampledShare swollen_load;
   BorneShare looser_than_tested;
   double greatest_load = 0;  ///< Load::pressure [Pa]
@@ -129,6 +139,8 @@ inline const runtime::ReductionLabel<Share, "motion in the null space"> null_spa
 inline const runtime::ReductionLabel<StateSample, "state sample"> state_sample;
 inline const runtime::ReductionLabel<SwollenSample, "swollen sample"> swollen_sample;
 inline const runtime::ReductionLabel<ContactSample, "contact sample"> contact_sample;
+/// Only where walls have an image.
+inline const runtime::ReductionLabel<WallSample, "wall sample"> wall_sample;
 /// Since the start.
 inline const runtime::GlobalLabel<MonitorRecords, "monitor records"> monitor_records;
 

@@ -130,6 +130,13 @@ struct Scene {
     const auto keeps_push = [](const Face& face) { return components::traits_of(face).keeps_push; };
     return std::ranges::any_of(faces, [&](const auto& axis) { return std::ranges::any_of(axis, keeps_push); });
   }
+  /// Whether the image of the matter lies behind any of its walls.
+  bool has_image_walls() const
+  {
+    const auto has_image = [](const Face& face) { return components::traits_of(face).has_image(); };
+    return std::any_of(faces.begin(), faces.begin() + grid.dimension,
+                       [&](const auto& axis) { return std::ranges::any_of(axis, has_image); });
+  }
   bool has_body_force() const
   {
     return std::any_of(bodies.begin(), bodies.end(), [](const SceneBody& body) { return body.functions.body_force; });

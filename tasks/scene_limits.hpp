@@ -25,6 +25,7 @@ struct SceneLimits {
   double uneven_pressure = 0.5;
   double torn_apart = 0.01;
   double early_contact = 0.1;
+  double early_at_walls = 0.1;
   double interpenetration = 0.1;
   double lost_mass = 0.01;
   double forecast_missed = 2;
@@ -32,10 +33,10 @@ struct SceneLimits {
 
   bool samples_after(long n_steps) const { return n_steps % sampled_every == 0; }
   /// All but the first.
-  static constexpr std::array<components::Parameter<SceneLimits>, 18> parameters();
+  static constexpr std::array<components::Parameter<SceneLimits>, 19> parameters();
 };
 
-constexpr std::array<components::Parameter<SceneLimits>, 18> SceneLimits::parameters()
+constexpr std::array<components::Parameter<SceneLimits>, 19> SceneLimits::parameters()
 {
   using components::above_zero, components::zero_or_above;
   using L = SceneLimits;
@@ -89,6 +90,10 @@ constexpr std::array<components::Parameter<SceneLimits>, 18> SceneLimits::parame
         "warns beyond: the part of the contact impulses between materials that are more than a quarter of a cell "
         "apart, over all samples",
         true},
+       {"early_at_walls", "", part, &L::early_at_walls,
+        "warns beyond: the part of the loads on walls with an image that matter more than a quarter of a cell away "
+        "bears, over all samples",
+        true},
        {"interpenetration", "", part, &L::interpenetration,
         "warns beyond: the part of the contact impulses between materials that are more than half a cell within each "
         "other, over all samples",
@@ -106,7 +111,7 @@ constexpr std::array<components::Parameter<SceneLimits>, 18> SceneLimits::parame
         {.lower = 1, .upper = 1e6},
         &L::sampled_every,
         "steps between the samples of `null_space`, `uneven_pressure`, `torn_apart`, `swollen_load`, "
-        "`looser_than_tested`, `early_contact` and `interpenetration`",
+        "`looser_than_tested`, `early_contact`, `early_at_walls` and `interpenetration`",
         true}}};
 }
 

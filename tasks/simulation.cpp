@@ -138,6 +138,10 @@ void Simulation::sample_state()
   const SwollenSample& swollen = warehouse().result(swollen_sample);
   records.greatest_load = std::max(records.greatest_load, sample.load.pressure());
   records.swollen_load.add(swollen.bearing, limits.swollen_load, n_steps(), time(), swollen.first);
+  if (scene_.has_image_walls()) {
+    const WallSample& at_walls = warehouse().result(wall_sample);
+    records.early_at_walls.add(at_walls.early, limits.early_at_walls, n_steps(), time(), at_walls.first);
+  }
   records.looser_than_tested.add(sample.borne_by_looser, limits.looser_than_tested, n_steps(), time(), sample.looser);
   if (missed_substeps(updates(), scene_.n_particles()) > limits.missed_substeps) {
     records.missed_substeps.add(n_steps(), time());

@@ -5,6 +5,7 @@
 
 #include "tasks/labels.hpp"
 #include "tasks/report/flaws.hpp"
+#include "tasks/report/sample_walls.hpp"
 
 namespace tamp::tasks
 {
@@ -146,6 +147,8 @@ runtime::TaskList sample_tasks(const Method<D>& method)
                method.materials[static_cast<std::size_t>(material)].model);
   }
   for (const int material : method.deformable_materials) tasks.push_back(sample_swollen(method, material));
+  const runtime::TaskList at_walls = wall_sample_tasks(method);
+  tasks.insert(tasks.end(), at_walls.begin(), at_walls.end());
   return tasks;
 }
 
@@ -156,6 +159,7 @@ runtime::HostData sample_data(const Method<D>& method)
       {&particle::id, &particle::position<D>, &particle::volume, &particle::mass, &particle::velocity<D>,
        &particle::stress<D>, &particle::deformation_gradient<D>, &monitor_records},
       {&state_sample, &swollen_sample, &cell::pressure}};
+  if (!wall_sample_tasks(method).empty()) data.results.push_back(&wall_sample);
   std::set<const runtime::Label*> states;
   for (const int material : method.deformable_materials) {
     std::visit(

@@ -8,7 +8,8 @@
 namespace tamp::tasks
 {
 
-/// The tasks that make a `state_sample` and a `swollen_sample` of the state at the end of the last step.
+/// The tasks that make a `state_sample`, a `swollen_sample` and a `wall_sample` of the state at the end of the last
+/// step.
 template <int D>
 runtime::TaskList sample_tasks(const Method<D>& method);
 

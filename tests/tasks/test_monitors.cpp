@@ -37,6 +37,24 @@ Scene two_blocks(double gap, const components::ContactNormal& normal)
   return scene;
 }
 
+/// A block that moves towards one wall, along an axis, across a gap; cells are 0.1 m, and of 2 x 2 patches.
+Scene block_before_wall(double gap, int axis, const Face& wall)
+{
+  Scene scene = empty_scene(2, {16, 16, 1}, 0.1);
+  scene.n_patches = {2, 2, 1};
+  scene.limits.sampled_every = 5;
+  const auto k = static_cast<std::size_t>(axis);
+  scene.faces[k][0] = wall;
+  Triple lower{0.4, 0.4, 0}, upper{1.2, 1.2, 0}, velocity{0, 0, 0};
+  lower[k] = gap;
+  upper[k] = gap + 0.4;
+  velocity[k] = -0.1;
+  add_box(scene, add_elastic(scene, 1000, 1e6, 0.3), lower, upper, velocity);
+  // Walls are nothing to a rigid body.
+  add_box(scene, add_elastic(scene, 8000, 1e9, 0.3), {1.3, 1.3, 0}, {1.5, 1.5, 0}).rigid = true;
+  return scene;
+}
+
 /// Velocities of neighbours that cancel at every node.
 double noise(const Vector<3>& x)
 {
@@ -176,6 +194,38 @@ TEST_CASE("contact is early where bodies push each other across a gap, and not w
   CHECK(seen.above.count == (gap > 0.05 ? 1 : 0));
   CHECK(seen.above.first.other_material == (gap > 0.05 ? 1 : -1));
   CHECK(records_after(*by_regression, 5).early_contact.all.whole == 0);
+}
+
+TEST_CASE("a wall stops early what it pushes across a gap, and not what lies on it")
+{
+  const double gap = GENERATE(0.0, 0.08);
+  const int axis = GENERATE(0, 1);
+  CAPTURE(gap, axis);
+  const auto simulation = Simulation::make(block_before_wall(gap, axis, components::SymmetryFace()), 1);
+  const auto at_edges = Simulation::make(block_before_wall(gap, axis, components::RoughWall{0, true}), 1);
+
+  const SampledShare& seen = records_after(*simulation, 50).early_at_walls;
+
+  CHECK(seen.all.whole > 0);
+  CHECK(seen.all.value() == (gap > 0 ? 1 : 0));
+  CHECK((seen.above.count > 0) == (gap > 0));
+  CHECK((seen.above.first.particle >= 0) == (gap > 0));
+  CHECK(records_after(*at_edges, 50).early_at_walls.all.whole == 0);
+}
+
+TEST_CASE("samples of walls are the same on any ranks and threads", "[ranks]")
+{
+  const Scene scene = block_before_wall(0.08, 1, components::SymmetryFace());
+  const auto alone = Simulation::make(scene, 1);
+  const SampledShare& expected = records_after(*alone, 50).early_at_walls;
+
+  const auto simulation = Simulation::make(scene, std::make_shared<runtime::Executor>(2, on_shared_cores()),
+                                           runtime::Communicator::world());
+  const SampledShare& seen = records_after(*simulation, 50).early_at_walls;
+
+  CHECK(expected.all.part > 0);
+  CHECK(seen.all.part == expected.all.part);
+  CHECK(seen.above.first.particle == expected.above.first.particle);
 }
 
 TEST_CASE("samples of the state are the same on any ranks and threads", "[ranks]")

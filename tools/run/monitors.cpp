@@ -113,6 +113,9 @@ std::vector<Monitor> of_samples(const tasks::Simulation& simulation)
       monitor("early_contact", seen.early_contact, seen.early_contact.all.value(), limits.early_contact,
               "of the contact impulses push bodies that are more than a quarter of a cell apart: a normal by "
               "\"regression\" lets them push only where they touch"),
+      monitor("early_at_walls", seen.early_at_walls, seen.early_at_walls.all.value(), limits.early_at_walls,
+              "of the loads on walls press matter that is more than a quarter of a cell away from them: what arrives "
+              "at a wall with \"at_edges\" is stopped where it touches"),
       monitor("interpenetration", seen.interpenetration, seen.interpenetration.all.value(), limits.interpenetration,
               "of the contact impulses push bodies that are more than half a cell within each other along their "
               "normal: that of another surface, or by \"regression\", tells better where they meet")};

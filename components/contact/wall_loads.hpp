@@ -1,0 +1,32 @@
+#pragma once
+
+#include <span>
+
+#include "components/contact/wall_gaps.hpp"
+
+/// What matter bears beside walls, and across which gaps.
+namespace tamp::components
+{
+
+/// The load of a particle on the nodes of walls, sum S_ip V_p (-sigma_nn) [J]: all of it, and that which crosses a gap.
+struct WallLoad {
+  double early = 0, whole = 0;
+};
+
+/// Pressures beside walls.
+template <int D>
+struct LoadedParticles {
+  ParticlePlaces<D> places;
+  std::span<const double> volume;              ///< m3, a metre thick in the plane
+  std::span<const SymmetricTensor<D>> stress;  ///< Pa, tension positive
+};
+
+/// The loads of particles in compression on walls. A load is early where more than a quarter of a cell is between the
+/// wall and the material at the node, as `gaps` has it: an edge that cuts through the lattice of particles may seem so
+/// much nearer than it is.
+template <int D>
+void find_wall_loads(const Interpolation<D>& interpolation, const GridBlock<D>& block,
+                     const LoadedParticles<D>& particles, std::span<const PlaneWall> walls, const WallGaps<D>* gaps,
+                     std::span<WallLoad> loads);
+
+}  // namespace tamp::components
