@@ -7,6 +7,7 @@
 
 #include "components/errors.hpp"
 #include "components/geometry/rotations.hpp"
+#include "components/portable_math.hpp"
 
 namespace tamp::tools
 {
@@ -59,6 +60,14 @@ void check_way(const PathRow& before, const PathRow& row, std::ptrdiff_t i)
   }
 }
 
+/// A deformation that does not change at all is left as it is.
+bool keeps_volume(const Matrix<3>& from, const Matrix<3>& to)
+{
+  constexpr double round_off = 1e-9;
+  const double before = from.determinant();
+  return from != to && std::abs(to.determinant() - before) <= round_off * before;
+}
+
 }  // namespace
 
 DeformationPath::DeformationPath(std::vector<PathRow> rows) : rows_(std::move(rows))
@@ -77,8 +86,12 @@ double DeformationPath::time(std::size_t segment, double fraction) const
 
 Matrix<3> DeformationPath::unturned(std::size_t segment, double fraction) const
 {
+  const Matrix<3>&from = rows_[segment].deformation_gradient, &to = rows_[segment + 1].deformation_gradient;
   // Exact at both ends.
-  return (1 - fraction) * rows_[segment].deformation_gradient + fraction * rows_[segment + 1].deformation_gradient;
+  const Matrix<3> straight = (1 - fraction) * from + fraction * to;
+  if (fraction == 0 || fraction == 1 || !keeps_volume(from, to)) return straight;
+  const double volume = std::lerp(from.determinant(), to.determinant(), fraction);
+  return straight * portable::pow(volume / straight.determinant(), 1.0 / 3);
 }
 
 Matrix<3> DeformationPath::deformation_gradient(std::size_t segment, double fraction) const

@@ -15,7 +15,9 @@ struct PathRow {
   Vector<3> axis{Vector<3>::Zero()};  ///< of any length; not read where the angle is 0
 };
 
-/// A deformation prescribed at two or more times. Between them deformation gradient and angle go linearly in time.
+/// A deformation prescribed at two or more times. Between them angle and deformation gradient go linearly in time;
+/// where det F is the same in both rows, to 1e-9, it is kept on the way too: the linear F times the cube root of what
+/// its determinant lacks, so that an undrained path is one between its rows as well. Exact at every row.
 class DeformationPath
 {
  public:

@@ -1,5 +1,6 @@
 #include <Eigen/Geometry>
 #include <catch2/catch.hpp>
+#include <cmath>
 #include <numbers>
 
 #include "components/errors.hpp"
@@ -46,6 +47,28 @@ TEST_CASE("between rows time and deformation go evenly from the one to the other
   CHECK(path.deformation_gradient(0, 0.25).isApprox(diagonal(1.5, 1, 1)));
   CHECK(path.deformation_gradient(1, 0.5).isApprox(diagonal(3, 0.75, 1)));
   CHECK(path.deformation_gradient(1, 1) == diagonal(3, 0.5, 1));
+}
+
+TEST_CASE("between rows of the same volume it stays the same, and rows are met exactly")
+{
+  const Matrix<3> compressed = diagonal(0.8, 1 / std::sqrt(0.8), 1 / std::sqrt(0.8));
+  const DeformationPath path({{0, identity}, {1, compressed}, {2, identity}});
+
+  for (const double fraction : {0.1, 0.5, 0.9}) {
+    CHECK(path.deformation_gradient(0, fraction).determinant() == Approx(1).epsilon(1e-14));
+    CHECK(path.deformation_gradient(1, fraction).determinant() == Approx(1).epsilon(1e-14));
+  }
+  CHECK(path.deformation_gradient(0, 1) == compressed);
+  CHECK(path.deformation_gradient(1, 1) == identity);
+}
+
+TEST_CASE("a path in uniaxial strain stays one between its rows, and a deformation that is held stays to the bit")
+{
+  const Matrix<3> held = diagonal(0.7, 1.1, 1.3);
+  const DeformationPath path({{0, identity}, {1, diagonal(0.9, 1, 1)}, {2, held}, {3, held}});
+
+  CHECK(path.deformation_gradient(0, 0.25) == diagonal(0.75 + 0.25 * 0.9, 1, 1));
+  CHECK(path.deformation_gradient(2, 0.5) == held);
 }
 
 TEST_CASE("the angle of the superposed rotation goes evenly too, and the rotation stands on the left")
