@@ -6,6 +6,7 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <variant>
 
 #include "runtime/storage/whole_file.hpp"
 #include "tools/commands/command_line/assignments.hpp"
@@ -65,7 +66,7 @@ void drive_point(const DriveArguments& options)
   print_notes(checked.notes);
   print_warnings(checked.warnings);
   const tasks::SceneMaterial& material = checked.material;
-  const DeformationPath path = read_path(options.path);
+  const LoadPath path = read_path(options.path);
   expect_outputs({{"--out", options.out}, {"--summary", options.summary}});
   std::optional<runtime::WholeFile> file;
   if (!options.out.empty()) file.emplace(options.out);
@@ -75,12 +76,13 @@ void drive_point(const DriveArguments& options)
   };
   write_line(drive_columns(material.model));
   std::vector<MaterialPoint> points;
-  drive(material, path, options.increment, [&](double time, const MaterialPoint& point) {
+  const ShowPoint show = [&](double time, const MaterialPoint& point) {
     if (!options.summary.empty()) points.push_back(point);
     const std::vector<double> values = drive_values(material.model, time, point);
     check_finite(options, material.model, values);
     write_line(values);
-  });
+  };
+  std::visit([&](const auto& any_path) { drive(material, any_path, options.increment, show); }, path);
   if (file) file->publish();
   if (points.empty()) return;
   write_summary(drive_costs(material.model, points, options.repeat), options.summary);
@@ -90,10 +92,15 @@ void drive_point(const DriveArguments& options)
 
 CLI::App* add_drive_command(CLI::App& app)
 {
-  CLI::App* command = app.add_subcommand("drive", "Take one material point along a path of deformation, as CSV");
+  CLI::App* command = app.add_subcommand("drive", "Take one material point along a path, as CSV");
   const auto options = std::make_shared<DriveArguments>();
   command->add_option("MATERIAL", options->material, "the material's JSON file")->required();
-  command->add_option("PATH", options->path, "CSV (time,F11,F12,...,F33), or prescribed-deformation text")->required();
+  command
+      ->add_option(
+          "PATH", options->path,
+          "CSV (time,F11,F12,...,F33, or S11 and so on, stress in Pa, tension positive, in place of F11; shear "
+          "may be left out), or prescribed-deformation text")
+      ->required();
   add_assignments(*command, options->assignments, "material");
   command->add_option("--increment", options->increment, "largest strain of an increment")
       ->check(is_from_to(1e-9, 0.1));

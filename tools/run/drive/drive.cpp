@@ -1,13 +1,7 @@
 #include "tools/run/drive/drive.hpp"
 
-#include <fmt/core.h>
-
-#include <algorithm>
-#include <cmath>
-#include <limits>
-
-#include "components/kinematics/strain_increment.hpp"
-#include "tasks/simulation_error.hpp"
+#include "tools/run/drive/increments.hpp"
+#include "tools/run/drive/mixed_segment.hpp"
 
 namespace tamp::tools
 {
@@ -15,67 +9,57 @@ namespace tamp::tools
 namespace
 {
 
-/// rad, in one increment
-constexpr double largest_turn = 0.1;
-
-double fraction_of(std::size_t i, std::size_t n)
+/// Takes the point, which is at the path's first row, along it.
+void follow(const Course& course, const DeformationPath& path, MaterialPoint& point)
 {
-  return static_cast<double>(i) / static_cast<double>(n);
-}
-
-/// The largest strain of `n` increments. The superposed rotation is left out: it strains nothing.
-double largest_strain_of(const DeformationPath& path, std::size_t segment, std::size_t n)
-{
-  double largest = 0;
-  Matrix<3> from = path.unturned(segment, 0);
-  for (std::size_t i = 1; i <= n; ++i) {
-    const Matrix<3> to = path.unturned(segment, fraction_of(i, n));
-    const auto step = components::strain_increment<3>(from, to * from.inverse() - Matrix<3>::Identity());
-    if (!step.admissible()) return std::numeric_limits<double>::infinity();
-    largest = std::max(largest, std::sqrt(double_dot(step.strain_increment, step.strain_increment)));
-    from = to;
-  }
-  return largest;
-}
-
-/// As few as keep each within the strain allowed.
-std::size_t n_for_strain(const DeformationPath& path, std::size_t segment, double allowed)
-{
-  std::size_t n = 1;
-  while (true) {
-    // The strain of an increment goes about as the inverse of their number.
-    const double excess = largest_strain_of(path, segment, n) / allowed;
-    if (excess <= 1) return n;
-    n = std::max(n + 1, static_cast<std::size_t>(static_cast<double>(n) * std::min(excess, 2.0)));
+  course.show(path.time(0, 0), point);
+  for (std::size_t segment = 0; segment < path.n_segments(); ++segment) {
+    const std::size_t n = n_increments(path, segment, course.largest_strain);
+    for (std::size_t i = 1; i <= n; ++i) {
+      const double fraction = static_cast<double>(i) / static_cast<double>(n), time = path.time(segment, fraction);
+      const auto failure = deform(course.material.model, path.deformation_gradient(segment, fraction), point);
+      if (failure) throw course.error(*failure, time, segment + 2);
+      course.show(time, point);
+    }
   }
 }
 
-std::size_t n_for_rotation(const DeformationPath& path, std::size_t segment)
+void follow(const Course& course, const MixedPath& path, MaterialPoint& point)
 {
-  const double turn = std::abs(path.rows()[segment + 1].angle - path.rows()[segment].angle);
-  return static_cast<std::size_t>(std::ceil(turn / largest_turn));
+  const auto& rows = path.rows();
+  course.show(rows.front().time, point);
+  for (std::size_t i = 1; i < rows.size(); ++i) {
+    follow(course, MixedSegment{path.controls(), rows[i - 1], rows[i], i + 1}, point);
+  }
+}
+
+/// Fresh material, brought to the stress of a row at the deformation that the row prescribes.
+MaterialPoint brought_to(const Course& course, const std::vector<StressControl>& controls, const MixedRow& row)
+{
+  const Matrix<3> start = completed(row.deformation_gradient, controls, Matrix<3>::Identity());
+  MaterialPoint point = fresh_point(course.material.model, start);
+  MixedRow fresh = row;
+  for (std::size_t k = 0; k < controls.size(); ++k) fresh.stress[k] = controls[k].stress_of(point.stress);
+  const ShowPoint show_nothing = [](double, const MaterialPoint&) {};
+  const Course unseen{course.material, course.largest_strain, show_nothing};
+  follow(unseen, MixedSegment{controls, fresh, row, 1}, point);
+  return point;
 }
 
 }  // namespace
 
 void drive(const tasks::SceneMaterial& material, const DeformationPath& path, double largest_strain,
-           const std::function<void(double time, const MaterialPoint& point)>& show)
+           const ShowPoint& show)
 {
   MaterialPoint point = fresh_point(material.model, path.deformation_gradient(0, 0));
-  show(path.time(0, 0), point);
-  for (std::size_t segment = 0; segment < path.n_segments(); ++segment) {
-    const std::size_t n = std::max(n_for_strain(path, segment, largest_strain), n_for_rotation(path, segment));
-    for (std::size_t i = 1; i <= n; ++i) {
-      const double fraction = fraction_of(i, n), time = path.time(segment, fraction);
-      const auto failure = deform(material.model, path.deformation_gradient(segment, fraction), point);
-      if (failure) {
-        throw tasks::SimulationError(
-            fmt::format("{}: at {} s, on the way to row {} of the path", *failure, time, segment + 2), material.name,
-            -1, {});
-      }
-      show(time, point);
-    }
-  }
+  follow(Course{material, largest_strain, show}, path, point);
+}
+
+void drive(const tasks::SceneMaterial& material, const MixedPath& path, double largest_strain, const ShowPoint& show)
+{
+  const Course course{material, largest_strain, show};
+  MaterialPoint point = brought_to(course, path.controls(), path.rows().front());
+  follow(course, path, point);
 }
 
 }  // namespace tamp::tools

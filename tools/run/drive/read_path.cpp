@@ -8,7 +8,7 @@
 #include <optional>
 #include <sstream>
 
-#include "components/errors.hpp"
+#include "tools/run/drive/path_columns.hpp"
 #include "tools/scene/files/input_file.hpp"
 #include "tools/scene/tables/csv_table.hpp"
 
@@ -18,14 +18,8 @@ namespace tamp::tools
 namespace
 {
 
-const std::vector<std::string>& deformation_columns()
-{
-  static const std::vector<std::string> names{"time", "F11", "F12", "F13", "F21", "F22", "F23", "F31", "F32", "F33"};
-  return names;
-}
-
-/// The prescribed deformation has these after those of F.
-constexpr std::size_t angle_column = 10, axis_column = 11, n_prescribed_columns = 14;
+/// Columns of the prescribed deformation, after the time.
+constexpr std::size_t gradient_column = 1, angle_column = 10, axis_column = 11, n_prescribed_columns = 14;
 
 bool is_data(const std::string& line)
 {
@@ -75,39 +69,80 @@ Table prescribed_deformation(const std::filesystem::path& file, const std::vecto
   return table;
 }
 
-Table path_table(const std::filesystem::path& file)
-{
-  const std::vector<std::string> lines = lines_of(file);
-  const auto first = std::find_if(lines.begin(), lines.end(), is_data);
-  if (first == lines.end()) throw InputError({file.string(), "an empty path", "expected two or more rows"});
-  const bool is_csv = first->find(',') != std::string::npos;
-  return is_csv ? read_csv_table(file, deformation_columns()) : prescribed_deformation(file, lines);
-}
-
-PathRow path_row(const Table& table, std::size_t i)
+std::vector<PathRow> prescribed_rows(const Table& table)
 {
   const auto& columns = table.columns;
-  PathRow row{.time = columns[0][i], .deformation_gradient = {}};
-  for (int k = 0; k < 9; ++k) row.deformation_gradient(k / 3, k % 3) = columns[static_cast<std::size_t>(k) + 1][i];
-  if (columns.size() == n_prescribed_columns) {
+  std::vector<PathRow> rows;
+  for (std::size_t i = 0; i < table.n_rows(); ++i) {
+    PathRow row{.time = columns[0][i], .deformation_gradient = {}};
+    for (std::size_t k = 0; k < 9; ++k) {
+      row.deformation_gradient(static_cast<int>(k) / 3, static_cast<int>(k) % 3) = columns[gradient_column + k][i];
+    }
     row.angle = columns[angle_column][i] * std::numbers::pi / 180;
     for (std::size_t k = 0; k < 3; ++k) row.axis[static_cast<int>(k)] = columns[axis_column + k][i];
+    rows.push_back(row);
   }
-  return row;
+  return rows;
+}
+
+std::vector<std::string> names_in(const std::string& heading)
+{
+  std::vector<std::string> names;
+  std::istringstream stream(heading);
+  for (std::string name; std::getline(stream, name, ',');) {
+    const std::size_t first = name.find_first_not_of(" \t\r");
+    names.push_back(first == std::string::npos ? "" : name.substr(first, name.find_last_not_of(" \t\r") - first + 1));
+  }
+  return names;
+}
+
+/// The rows of a CSV path; what no column names is 0.
+std::vector<MixedRow> csv_rows(const Table& table, const std::vector<std::string>& names,
+                               const std::vector<StressControl>& controls)
+{
+  std::vector<MixedRow> rows;
+  for (std::size_t i = 0; i < table.n_rows(); ++i) {
+    MixedRow row{0, Matrix<3>::Zero(), std::vector<double>(controls.size())};
+    for (std::size_t k = 0; k < names.size(); ++k) {
+      const std::string& name = names[k];
+      const double value = table.columns[k][i];
+      if (name == "time") row.time = value;
+      if (name[0] == 'F') row.deformation_gradient(name[1] - '1', name[2] - '1') = value;
+      for (std::size_t c = 0; c < controls.size(); ++c) {
+        if (controls[c].name == name) row.stress[c] = value;
+      }
+    }
+    rows.push_back(std::move(row));
+  }
+  return rows;
+}
+
+LoadPath csv_path(Table& table, const std::vector<std::string>& names, const std::vector<StressControl>& controls)
+{
+  return made_from(table, [&](const Table& read) -> LoadPath {
+    std::vector<MixedRow> rows = csv_rows(read, names, controls);
+    if (!controls.empty()) return MixedPath(controls, std::move(rows));
+    std::vector<PathRow> deformations;
+    for (const MixedRow& row : rows) deformations.push_back({row.time, row.deformation_gradient});
+    return DeformationPath(std::move(deformations));
+  });
 }
 
 }  // namespace
 
-DeformationPath read_path(const std::filesystem::path& file)
+LoadPath read_path(const std::filesystem::path& file)
 {
-  const Table table = path_table(file);
-  std::vector<PathRow> rows;
-  for (std::size_t i = 0; i < table.n_rows(); ++i) rows.push_back(path_row(table, i));
-  try {
-    return DeformationPath(std::move(rows));
-  } catch (const components::BadValue& bad) {
-    throw InputError(table.problem(bad.row, bad.found, "expected " + bad.expected));
+  const std::vector<std::string> lines = lines_of(file);
+  const auto first = std::find_if(lines.begin(), lines.end(), is_data);
+  if (first == lines.end()) throw InputError({file.string(), "an empty path", "expected two or more rows"});
+  if (first->find(',') == std::string::npos) {
+    Table table = prescribed_deformation(file, lines);
+    return made_from(table, [](const Table& read) { return DeformationPath(prescribed_rows(read)); });
   }
+  const std::vector<std::string> names = names_in(*first);
+  const auto controls = stress_controls(names, fmt::format("{}:{}", file.string(), first - lines.begin() + 1));
+  Table table = read_csv_table(file, names);
+  return csv_path(table, names, controls);
 }
 
 }  // namespace tamp::tools

@@ -37,6 +37,11 @@ double sum_of(const std::string& table, const std::string& name)
   return sum;
 }
 
+std::ptrdiff_t n_rows(const std::string& table)
+{
+  return std::count(table.begin(), table.end(), '\n') - 1;
+}
+
 }  // namespace
 
 TEST_CASE("drive names its columns with units and begins with the initial state")
@@ -100,6 +105,28 @@ TEST_CASE("drive ends with 2 for a bad path, material or increment, and with 4 f
   CHECK(tamp_with("drive " + sand + " " + path + " --out /no/such/folder/out.csv").exit_code == 4);
 }
 
+TEST_CASE("drive ends with 3 where the material cannot follow a stress, and has written the rows so far")
+{
+  const TemporaryFolder folder;
+  const std::string clay =
+      folder
+          .write("clay.json",
+                 R"({"type": "drucker_prager", "density": 2000, "bulk_modulus": 2e7, "shear_modulus": 1.2e7,
+                                  "friction_angle": 0, "cohesion": 5e4})")
+          .string();
+  const std::string path = folder.write("path.csv", "time,S11,S22,S33\n0,0,0,0\n1,-4e5,0,0\n").string();
+
+  const Outcome outcome = tamp_with("drive " + clay + " " + path);
+
+  // 2 c is 100 kPa, a quarter of what is asked for.
+  CHECK(outcome.exit_code == 3);
+  CHECK(
+      outcome.err ==
+      "tamp: the material cannot follow: S11 is -100000 Pa, and should be -400000 Pa at the end: at 0.25 s, on the way "
+      "to row 2 of the path\n");
+  CHECK(n_rows(outcome.out) > 3);
+}
+
 TEST_CASE("drive tells what the updates of a path cost, and writes the same stresses")
 {
   const TemporaryFolder folder;
@@ -111,7 +138,7 @@ TEST_CASE("drive tells what the updates of a path cost, and writes the same stre
   CHECK(outcome.exit_code == 0);
   CHECK(outcome.out == tamp_with(line).out);
   const auto summary = nlohmann::json::parse(read_text(file));
-  CHECK(summary["updates"] == std::count(outcome.out.begin(), outcome.out.end(), '\n') - 2);
+  CHECK(summary["updates"] == n_rows(outcome.out) - 1);
   CHECK(summary["substeps"] == sum_of(outcome.out, "substeps"));
   CHECK(summary["modulus_evaluations"] >= summary["substeps"]);
   CHECK(summary["evaluations_per_update"].get<double>() ==
