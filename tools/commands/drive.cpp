@@ -32,6 +32,7 @@ namespace
 struct DriveArguments {
   std::string material;
   std::string path;
+  LaboratoryTest test;
   std::vector<std::string> assignments;
   std::string out;
   double increment = 1e-3;
@@ -60,13 +61,31 @@ void check_finite(const DriveArguments& options, const tasks::MaterialModel& mod
                     "expected constants and a path that give numbers"});
 }
 
+/// Options that the test has no use for are refused.
+void check_test_options(const CLI::App& command, const std::string& test)
+{
+  const auto refuse = [&](const std::string& option, const std::string& expected) {
+    if (command.count(option) > 0) throw InputError({option, "given with --test " + test, expected});
+  };
+  if (!goes_to_strain(test)) refuse("--strain", "expected --pressure, to which it goes");
+  if (!has_lateral_ratio(test)) refuse("--k0", "expected no lateral stress, which it answers");
+}
+
+using Load = std::variant<DeformationPath, MixedPath, LaboratoryTest>;
+
+Load asked_load(const DriveArguments& options)
+{
+  if (!options.test.name.empty()) return options.test;
+  return std::visit([](auto path) -> Load { return path; }, read_path(options.path));
+}
+
 void drive_point(const DriveArguments& options)
 {
   const CheckedMaterial checked = read_checked_material(options.material, options.assignments);
   print_notes(checked.notes);
   print_warnings(checked.warnings);
   const tasks::SceneMaterial& material = checked.material;
-  const LoadPath path = read_path(options.path);
+  const Load asked = asked_load(options);
   expect_outputs({{"--out", options.out}, {"--summary", options.summary}});
   std::optional<runtime::WholeFile> file;
   if (!options.out.empty()) file.emplace(options.out);
@@ -82,25 +101,45 @@ void drive_point(const DriveArguments& options)
     check_finite(options, material.model, values);
     write_line(values);
   };
-  std::visit([&](const auto& any_path) { drive(material, any_path, options.increment, show); }, path);
+  std::visit([&](const auto& load) { drive(material, load, options.increment, show); }, asked);
   if (file) file->publish();
   if (points.empty()) return;
   write_summary(drive_costs(material.model, points, options.repeat), options.summary);
+}
+
+/// Options of a laboratory test, which stands in place of a path.
+void add_test_options(CLI::App& command, CLI::Option* path, LaboratoryTest& test)
+{
+  CLI::Option* name =
+      command.add_option("--test", test.name, "a test of the soil laboratory; axis 1 is axial, in simple shear axis 2")
+          ->type_name("NAME")
+          ->check(is_one_of(laboratory_test_names()))
+          ->excludes(path);
+  const auto add = [&](const std::string& option, auto& value, const std::string& meaning) {
+    return command.add_option(option, value, meaning)->needs(name);
+  };
+  add("--pressure", test.pressure, "axial stress at the start, of isotropic at the end; Pa, compression positive")
+      ->check(is_at_least_zero());
+  add("--k0", test.lateral_ratio, "lateral over axial stress at the start")->check(is_at_least_zero());
+  add("--strain", test.strain, "axial shortening over length, or shear displacement over height, at the end")
+      ->check(is_from_to(-0.9, 0.9));
+  add("--cycles", test.n_cycles, "ways to the end and back to the start; 0 is only to the end")
+      ->check(is_whole_from_to(0, 10'000));
 }
 
 }  // namespace
 
 CLI::App* add_drive_command(CLI::App& app)
 {
-  CLI::App* command = app.add_subcommand("drive", "Take one material point along a path, as CSV");
+  CLI::App* command =
+      app.add_subcommand("drive", "Take one material point along a path or through a laboratory test, as CSV");
   const auto options = std::make_shared<DriveArguments>();
   command->add_option("MATERIAL", options->material, "the material's JSON file")->required();
-  command
-      ->add_option(
-          "PATH", options->path,
-          "CSV (time,F11,F12,...,F33, or S11 and so on, stress in Pa, tension positive, in place of F11; shear "
-          "may be left out), or prescribed-deformation text")
-      ->required();
+  CLI::Option* path = command->add_option(
+      "PATH", options->path,
+      "CSV (time,F11,F12,...,F33, or S11 and so on, stress in Pa, tension positive, in place of F11; shear may be left "
+      "out), or prescribed-deformation text");
+  add_test_options(*command, path, options->test);
   add_assignments(*command, options->assignments, "material");
   command->add_option("--increment", options->increment, "largest strain of an increment")
       ->check(is_from_to(1e-9, 0.1));
@@ -113,9 +152,16 @@ CLI::App* add_drive_command(CLI::App& app)
       ->needs(summary);
   command->footer(examples(
       {{"tamp drive inputs/materials/concrete-sand/table.json path.csv --out answer.csv", "stresses along the path"},
+       {"tamp drive inputs/materials/concrete-sand/table.json --test triaxial --pressure 200e3 --strain 0.15",
+        "a drained triaxial test at 200 kPa"},
        {"tamp drive inputs/materials/concrete-sand/mlp.json path.csv --summary cost.json",
         "and what an update costs"}}));
-  command->callback([options] { drive_point(*options); });
+  command->callback([options, command] {
+    const std::string& test = options->test.name;
+    if (options->path.empty() && test.empty()) throw CLI::RequiredError("PATH or --test");
+    if (!test.empty()) check_test_options(*command, test);
+    drive_point(*options);
+  });
   return command;
 }
 

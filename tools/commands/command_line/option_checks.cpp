@@ -66,6 +66,11 @@ CLI::Validator is_above_zero()
   return number_check("above 0", [](double value) { return value > 0; });
 }
 
+CLI::Validator is_at_least_zero()
+{
+  return number_check("at least 0", [](double value) { return value >= 0; });
+}
+
 CLI::Validator is_from_to(double least, double most)
 {
   return number_check(fmt::format("{} to {}", least, most),

@@ -14,6 +14,7 @@ CLI::Validator is_whole_from(std::int64_t least);
 /// A whole number from `least` to `most`, both of which belong to it.
 CLI::Validator is_whole_from_to(std::int64_t least, std::int64_t most);
 CLI::Validator is_above_zero();
+CLI::Validator is_at_least_zero();
 /// Both ends belong to it.
 CLI::Validator is_from_to(double least, double most);
 

@@ -38,10 +38,11 @@ MaterialPoint brought_to(const Course& course, const std::vector<StressControl>&
 {
   const Matrix<3> start = completed(row.deformation_gradient, controls, Matrix<3>::Identity());
   MaterialPoint point = fresh_point(course.material.model, start);
+  if (controls.empty()) return point;
   MixedRow fresh = row;
   for (std::size_t k = 0; k < controls.size(); ++k) fresh.stress[k] = controls[k].stress_of(point.stress);
   const ShowPoint show_nothing = [](double, const MaterialPoint&) {};
-  const Course unseen{course.material, course.largest_strain, show_nothing};
+  const Course unseen{course.material, course.largest_strain, show_nothing, course.is_test};
   follow(unseen, MixedSegment{controls, fresh, row, 1}, point);
   return point;
 }
@@ -60,6 +61,16 @@ void drive(const tasks::SceneMaterial& material, const MixedPath& path, double l
   const Course course{material, largest_strain, show};
   MaterialPoint point = brought_to(course, path.controls(), path.rows().front());
   follow(course, path, point);
+}
+
+void drive(const tasks::SceneMaterial& material, const LaboratoryTest& test, double largest_strain,
+           const ShowPoint& show)
+{
+  const Course course{material, largest_strain, show, true};
+  const auto [controls, stress] = stress_at_start(test);
+  MaterialPoint point = brought_to(course, controls, {0, Matrix<3>::Identity(), stress});
+  const LoadPath path = path_of(test, point.deformation_gradient);
+  std::visit([&](const auto& any_path) { follow(course, any_path, point); }, path);
 }
 
 }  // namespace tamp::tools

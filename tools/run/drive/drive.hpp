@@ -1,6 +1,7 @@
 #pragma once
 
 #include "tools/run/drive/course.hpp"
+#include "tools/run/drive/laboratory_test.hpp"
 #include "tools/run/drive/mixed_path.hpp"
 #include "tools/run/drive/path.hpp"
 
@@ -20,5 +21,9 @@ void drive(const tasks::SceneMaterial& material, const DeformationPath& path, do
 /// Throws SimulationError, also with the stress reached and wanted, where the material cannot follow in 1e-9 of a
 /// segment, or fails to thousands of times, as it does beyond its strength.
 void drive(const tasks::SceneMaterial& material, const MixedPath& path, double largest_strain, const ShowPoint& show);
+
+/// As above, with the start of a laboratory test in place of the first row, and then along the test.
+void drive(const tasks::SceneMaterial& material, const LaboratoryTest& test, double largest_strain,
+           const ShowPoint& show);
 
 }  // namespace tamp::tools

@@ -105,6 +105,37 @@ TEST_CASE("drive ends with 2 for a bad path, material or increment, and with 4 f
   CHECK(tamp_with("drive " + sand + " " + path + " --out /no/such/folder/out.csv").exit_code == 4);
 }
 
+TEST_CASE("drive makes a test of the laboratory in place of a path")
+{
+  const Outcome outcome = tamp_with("drive " + sand + " --test triaxial --pressure 5e6 --strain 0.01");
+
+  CHECK(outcome.exit_code == 0);
+  CHECK(sum_of(outcome.out, "s22[Pa]") == Approx(-5e6 * static_cast<double>(n_rows(outcome.out))));
+}
+
+TEST_CASE("drive takes either a path or a test, and of a test only what that has")
+{
+  const TemporaryFolder folder;
+  const std::string path = folder.write("path.csv", compression).string();
+  const auto said_of = [](const std::string& arguments) {
+    const Outcome outcome = tamp_with("drive " + sand + " " + arguments);
+    CHECK(outcome.exit_code == 2);
+    CHECK(outcome.out.empty());
+    return outcome.err;
+  };
+
+  CHECK(said_of("") == "tamp: PATH or --test is required; see tamp help drive\n");
+  CHECK(said_of(path + " --test triaxial") == "tamp: PATH excludes --test\n");
+  CHECK(said_of(path + " --pressure 1e5") == "tamp: --pressure requires --test\n");
+  CHECK(said_of("--test triaxal") == "tamp: --test: triaxal; did you mean triaxial?\n");
+  CHECK(said_of("--test triaxial --pressure -1") == "tamp: --pressure: -1; expected at least 0\n");
+  CHECK(said_of("--test triaxial --strain 1") == "tamp: --strain: 1; expected -0.9 to 0.9\n");
+  CHECK(said_of("--test isotropic --strain 0.1") ==
+        "tamp: --strain: given with --test isotropic; expected --pressure, to which it goes\n");
+  CHECK(said_of("--test oedometer --k0 1") ==
+        "tamp: --k0: given with --test oedometer; expected no lateral stress, which it answers\n");
+}
+
 TEST_CASE("drive ends with 3 where the material cannot follow a stress, and has written the rows so far")
 {
   const TemporaryFolder folder;
