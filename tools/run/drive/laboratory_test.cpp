@@ -170,6 +170,7 @@ const TestKind& kind_of(std::string_view test)
 std::vector<std::string> laboratory_test_names()
 {
   std::vector<std::string> names;
+  names.reserve(test_kinds.size());
   for (const TestKind& kind : test_kinds) names.emplace_back(kind.name);
   return names;
 }

@@ -123,6 +123,7 @@ LoadPath csv_path(Table& table, const std::vector<std::string>& names, const std
     std::vector<MixedRow> rows = csv_rows(read, names, controls);
     if (!controls.empty()) return MixedPath(controls, std::move(rows));
     std::vector<PathRow> deformations;
+    deformations.reserve(rows.size());
     for (const MixedRow& row : rows) deformations.push_back({row.time, row.deformation_gradient});
     return DeformationPath(std::move(deformations));
   });

@@ -126,6 +126,7 @@ TEST_CASE("the deformation that a mixed path finds, prescribed in full, gives th
   const auto points = points_along(sand, path);
 
   std::vector<tools::PathRow> rows;
+  rows.reserve(points.size());
   for (const MaterialPoint& point : points) {
     rows.push_back({static_cast<double>(rows.size()), point.deformation_gradient});
   }
