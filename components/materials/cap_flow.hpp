@@ -152,4 +152,12 @@ Number flow_error(const FlowStartOf<Number>& start, const ReturnPointOf<Number>&
   return returned * turn * (0.5 * uneven + of_turn_squared * turn);
 }
 
+/// The same of a step whose volume is given, and whose deviator returns along itself.
+template <class Number>
+Number shear_error(const ReturnPointOf<Number>& point, const Number& cosine)
+{
+  const Number turn = sqrt(greater_of<Number>(2.0 - 2.0 * cosine, 0.0));
+  return 0.5 * point.at.shear_modulus * point.multiplier * turn;
+}
+
 }  // namespace tamp::components

@@ -83,6 +83,14 @@ class CapIntegrator
         return step_.after_flow(old, strain, size, FlowStart{}, Combination{1, 0}, all, back.point(step_.yield()));
       }
     }
+    const auto ended = [&](const FlowStart& start, const Combination& along, const Combination& left,
+                           const ReturnPoint& point) {
+      const double d = start.plastic_volumetric + point.plastic_volumetric;
+      if (step_.ends_dilation() && d < step_.most_dilation(old)) {
+        return after_last_dilation(path, old, strain, size, deviatoric, whole, trial, start, along);
+      }
+      return step_.after_flow(old, strain, size, start, along, left, point);
+    };
     FlowStart start = flow_start(step_.yield(), old, deviatoric, trial);
     if (start.on_kink) start.normal = normal_of_kink(step_.yield(), start.pressure, trial.crush_pressure);
     const Combination along = start.along(trial.shear_modulus);
@@ -91,13 +99,29 @@ class CapIntegrator
       const auto rest = path(left.trial(deviatoric), start.plastic_volumetric, start.plastic_volumetric);
       const ReturnPoint point = return_to_surface(step_.yield(), rest, rest(0), start.guess);
       count_path(point.n_evaluations);
-      if (point.status == ReturnStatus::cone_or_cap) {
-        return step_.after_flow(old, strain, size, start, along, left, point);
-      }
+      if (point.status == ReturnStatus::cone_or_cap) return ended(start, along, left, point);
       start.multiplier = start.plastic_volumetric = 0;
     }
-    const ReturnPoint point = return_alone(path, deviatoric, whole, trial);
-    return step_.after_flow(old, strain, size, start, along, all, point);
+    return ended(start, along, all, return_alone(path, deviatoric, whole, trial));
+  }
+
+  /// The end of a flow whose normal asks for more dilation than the sand has left. What would then lie beyond the
+  /// tension vertex returns there, and is stretched.
+  template <class MakePath, class Path>
+  CapOutcome after_last_dilation(const MakePath& path, const CapParticle& old, const CapStrain& strain, double size,
+                                 const Deviatoric& deviatoric, const Path& whole, const PathPoint& trial,
+                                 FlowStart start, const Combination& along)
+  {
+    const Combination all{0, 1};
+    const double d = step_.most_dilation(old);
+    const PathPoint at = path(deviatoric, 0, 0.5 * d)(d);
+    count_path(1);
+    if (at.pressure < step_.yield().vertex_pressure()) {
+      const VertexReturn back = vertex_return(path, deviatoric, whole, trial);
+      return step_.after_flow(old, strain, size, FlowStart{}, Combination{1, 0}, all, back.point(step_.yield()));
+    }
+    start.multiplier = start.plastic_volumetric = 0;
+    return step_.after_flow(old, strain, size, start, along, all, cap_return::end_of_dilation(step_.yield(), d, at));
   }
 
   using VertexReturn = cap_return::VertexReturnOf<double>;

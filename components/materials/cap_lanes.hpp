@@ -115,6 +115,10 @@ class CapLanes
     const ReturnPointOf<Lanes> point = cap_return::surface_point(back.end, 0);
     assign_where(flowing, step_.after_flow(old, strain, size, start, along, left, point), outcome.end);
     outcome.left = flowing && !back.found;
+    if (step_.ends_dilation()) {
+      const Lanes d = start.plastic_volumetric + back.end.d;
+      outcome.left = outcome.left || (flowing && d < step_.most_dilation(old));
+    }
     add_where(flowing, asks_along_path() ? back.n_evaluations : Lanes(1.0), outcome.n_evaluations);
   }
 

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <optional>
 #include <tuple>
 
 #include "components/materials/cap_flow.hpp"
@@ -32,7 +33,8 @@ class CapStep
         crush_curve_(sand.parameters().crush_curve),
         model_(model),
         shear_ratio_(sand.shear_ratio()),
-        form_(sand.parameters().elastic_update)
+        form_(sand.parameters().elastic_update),
+        dilation_limit_(sand.parameters().dilation_limit)
   {
   }
 
@@ -44,6 +46,14 @@ class CapStep
   Number crush_pressure(const Number& plastic_volumetric) const
   {
     return crush_curve_.at(greater_of<Number>(plastic_volumetric, 0.0)).value;
+  }
+
+  bool ends_dilation() const { return dilation_limit_.has_value(); }
+  /// The least plastic volumetric strain that flow on the cone may still add: that of the most dilation, or 0.
+  template <class Number>
+  Number most_dilation(const CapParticleOf<Number>& old) const
+  {
+    return lesser_of<Number>(-*dilation_limit_ - old.plastic_volumetric, 0.0);
   }
 
   /// The products of the stress deviator and that of the substep's strain.
@@ -132,12 +142,14 @@ class CapStep
                        flow_pressure * point.plastic_volumetric + point.sqrt_j2 * point.multiplier;
 
     Number error = modulus_error(old, strain, size, now.pressure, point.at);
-    if (point.status == ReturnStatus::cone_or_cap) {
+    const auto cosine = [&] {
       // A deviator of nothing but round-off has no direction.
       const Mask<Number> sheared = start.sqrt_j2 > cap_return::no_shear * point.at.crush_pressure && trial > 0.0;
       const Number product = along.double_dot(trial_deviator, deviatoric(old, strain, size));
-      error += flow_error(start, point, select(sheared, product / (2.0 * start.sqrt_j2 * trial), Number(1.0)));
-    }
+      return select(sheared, product / (2.0 * start.sqrt_j2 * trial), Number(1.0));
+    };
+    if (point.status == ReturnStatus::cone_or_cap) error += flow_error(start, point, Number(cosine()));
+    if (point.status == ReturnStatus::end_of_dilation) error += shear_error(point, Number(cosine()));
     error = error / error_scale(old, now.pressure, point.sqrt_j2, point.at);
     if (point.status == ReturnStatus::failed) error = no_stress;
     return {now, finite_or_infinite<Number>(now.pressure + point.sqrt_j2 + error, error)};
@@ -192,6 +204,7 @@ class CapStep
   const Model& model_;
   double shear_ratio_;
   ElasticUpdate form_;
+  std::optional<double> dilation_limit_;
 };
 
 }  // namespace tamp::components

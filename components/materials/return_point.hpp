@@ -42,7 +42,8 @@ struct SurfaceNormalOf {
 };
 using SurfaceNormal = SurfaceNormalOf<double>;
 
-enum class ReturnStatus { elastic, cone_or_cap, apex, tension_vertex, failed };
+/// At the end of dilation the volume is given, and not by the normal.
+enum class ReturnStatus { elastic, cone_or_cap, apex, tension_vertex, end_of_dilation, failed };
 
 template <class Number>
 struct ReturnPointOf {
@@ -121,6 +122,16 @@ ReturnPointOf<Number> surface_point(const ResidualOf<Number>& r, int n_evaluatio
   const Number q = lesser_of(r.limit, r.at.trial_sqrt_j2);
   const Number multiplier = (r.at.trial_sqrt_j2 - q) / r.at.shear_modulus;
   return {ReturnStatus::cone_or_cap, r.d, r.at, q, multiplier, r.normal, r.value, n_evaluations};
+}
+
+/// The surface after a plastic volumetric strain d that the normal has not chosen: all of the rest is a return of the
+/// deviator along itself.
+template <class Number>
+ReturnPointOf<Number> end_of_dilation(const YieldSurface& surface, const Number& d, const PathPointOf<Number>& at)
+{
+  ReturnPointOf<Number> point = surface_point(evaluate(surface, d, at), 1);
+  point.status = ReturnStatus::end_of_dilation;
+  return point;
 }
 
 }  // namespace cap_return

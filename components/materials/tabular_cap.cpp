@@ -34,6 +34,9 @@ TabularCap::TabularCap(TabularCapParameters parameters) : parameters_(std::move(
   if (const auto part = parameters_.separation_density; part && !(*part > 0 && *part <= 1)) {
     throw BadValue("a part of " + std::to_string(*part) + " of the density", "one above 0 and up to 1");
   }
+  if (const auto limit = parameters_.dilation_limit; limit && !(*limit >= 0)) {
+    throw BadValue("a greatest expansion of " + std::to_string(*limit), "0 or more");
+  }
 }
 
 double TabularCap::crush_pressure(double plastic_volumetric) const

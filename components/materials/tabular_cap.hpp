@@ -57,6 +57,9 @@ struct TabularCapParameters {
   /// Part of the initial density below which sand at the tension vertex separates, see separation.hpp; without it, it
   /// never does.
   std::optional<double> separation_density{};
+  /// Plastic volumetric expansion since the start beyond which shear changes the volume of the sand no more; without
+  /// it, flow stays associated however loose the sand is, as published.
+  std::optional<double> dilation_limit{};
 };
 
 class TabularCap

@@ -28,6 +28,14 @@ const TabularCap& rate_sand()
   return sand;
 }
 
+/// One of the two, whose dilation ends.
+TabularCap limited_sand(const TabularCap& sand, double dilation_limit)
+{
+  TabularCapParameters parameters = sand.parameters();
+  parameters.dilation_limit = dilation_limit;
+  return TabularCap(parameters);
+}
+
 /// The state sand in steps that are never cut.
 TabularCap uncut_sand()
 {
@@ -604,9 +612,44 @@ TEST_CASE("an increment of half the sand's volume in one step is refused")
   CHECK(failure->fault == UpdateFault::too_large);
 }
 
+TEST_CASE("sand that is sheared on ends at the volume of its limit, at constant stress")
+{
+  const bool is_rate = GENERATE(false, true);
+  const TabularCap& published = is_rate ? rate_sand() : state_sand();
+  // Less than it takes to press the sand, whose volume is kept, against its cap.
+  const double dilation = is_rate ? 2e-3 : 5e-5;
+  const TabularCap limited = limited_sand(published, dilation);
+  Sample<3> sample, without_end;
+  double before = 0;
+  for (int i = 0; i < 200; ++i) {
+    before = sample.pressure();
+    sample.strain(limited, tensor(0, 0, 0, 5e-3));
+    without_end.strain(published, tensor(0, 0, 0, 5e-3));
+    REQUIRE(sample.plastic_work >= 0);
+  }
+
+  const double p = sample.pressure();
+  CHECK(sample.state.plastic_volumetric == Approx(-dilation).epsilon(1e-12));
+  CHECK(p == Approx(before).epsilon(1e-9));
+  CHECK(sample.sqrt_j2() == Approx(limited.parameters().yield.limit(p, limited.crush_pressure(-dilation))));
+  CHECK(without_end.state.plastic_volumetric < -1.5 * dilation);
+}
+
+TEST_CASE("until it has dilated so far, sand with a limit gives the bits of sand without")
+{
+  const TabularCap limited = limited_sand(state_sand(), 0.2);
+  for (Case c : random_cases(50, 1e-3)) {
+    Case same = c;
+    c.sample.strain(state_sand(), c.increment);
+    same.sample.strain(limited, same.increment);
+    REQUIRE(c.sample.stress == same.sample.stress);
+  }
+}
+
 TEST_CASE("no sequence of random strains makes the update fail or leave the yield surface")
 {
-  for (const TabularCap* sand : {&state_sand(), &rate_sand()}) {
+  const TabularCap limited = limited_sand(state_sand(), 0.01);
+  for (const TabularCap* sand : {&state_sand(), &rate_sand(), &limited}) {
     std::mt19937 random(11);
     std::normal_distribution<double> normal(0, 1);
     for (int path = 0; path < 20; ++path) {
@@ -621,7 +664,7 @@ TEST_CASE("no sequence of random strains makes the update fail or leave the yiel
         REQUIRE_NOTHROW(sample.strain(*sand, increment));
         const double crush = sand->crush_pressure(sample.state.plastic_volumetric);
         REQUIRE(sample.sqrt_j2() <= sand->parameters().yield.limit(sample.pressure(), crush) + 1e-8 * crush);
-        if (sand == &state_sand()) REQUIRE(std::abs(sample.pressure() - sand->pressure(sample.state)) <= 1e-9 * crush);
+        if (sand != &rate_sand()) REQUIRE(std::abs(sample.pressure() - sand->pressure(sample.state)) <= 1e-9 * crush);
       }
     }
   }

@@ -158,7 +158,10 @@ std::vector<Key> keys_of<components::TabularCap>()
            Number{{.lower = 0, .upper = 1, .holds_lower = false}},
            "",
            {TabularCapParameters::usual_separation_density},
-           "part of the initial density below which sand that may separate does so"}};
+           "part of the initial density below which sand that may separate does so"},
+          {"dilation_limit", Number{components::zero_or_above}, "", none,
+           "plastic volumetric expansion since the start beyond which shear widens the sand no more; none as "
+           "published"}};
 }
 
 template <class... Model>

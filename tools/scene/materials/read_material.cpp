@@ -128,6 +128,7 @@ std::optional<tasks::MaterialModel> read_tabular_cap(JsonReader& reader)
   const int max_substeps = reader.whole_number("max_substeps");
   const bool separates = reader.flag("separation");
   const double separation_density = reader.number("separation_density");
+  const std::optional<double> dilation_limit = reader.optional_number("dilation_limit");
   const auto measure = reader.choice<StrainMeasure>("strain_measure");
   check_tests(reader);
   const auto modulus = read_modulus(reader, measure);
@@ -138,7 +139,7 @@ std::optional<tasks::MaterialModel> read_tabular_cap(JsonReader& reader)
   compare_with_tables(reader, *modulus, measure, loading.curves());
   try {
     return components::TabularCap({poisson_ratio, update, *modulus, crush->curve, *yield, tolerance, max_substeps,
-                                   separates ? std::optional(separation_density) : std::nullopt});
+                                   separates ? std::optional(separation_density) : std::nullopt, dilation_limit});
   } catch (const BadValue& bad) {
     // All but the crush curve was checked above.
     if (crush->table) {
