@@ -135,10 +135,10 @@ Number flow_error(const FlowStartOf<Number>& start, const ReturnPointOf<Number>&
     return sqrt(bulk * volumetric * volumetric + shear * deviatoric * deviatoric);
   };
   const SurfaceNormalOf<Number>& a = start.normal;
-  // That of the flow itself, which on a kink of the envelope is neither side's.
+  // That of the flow itself, which on a kink of the envelope is neither side's; but at the apex, where it has none.
   SurfaceNormalOf<Number> b = point.normal;
-  b.slope_sine =
-      select(point.multiplier > 0.0, -point.plastic_volumetric / point.multiplier * b.sine, point.normal.slope_sine);
+  b.slope_sine = select(point.multiplier > 0.0 && b.sine > 0.0, -point.plastic_volumetric / point.multiplier * b.sine,
+                        point.normal.slope_sine);
   const Number product = bulk * a.slope_sine * b.slope_sine + shear * a.sine * b.sine * cosine;
   const Number lengths = length(a.slope_sine, a.sine) * length(b.slope_sine, b.sine);
   const Number turn = sqrt(greater_of<Number>(2.0 - 2.0 * product / lengths, 0.0));

@@ -410,6 +410,23 @@ TEST_CASE("sand at the end of its cap is sheared within any tolerance, in subste
   }
 }
 
+TEST_CASE("sand at the end of its cap is compacted further with a shear however small")
+{
+  const TabularCap& sand = GENERATE(false, true) ? state_sand() : rate_sand();
+  for (double part = 1e-3; part > 1e-17; part /= 10) {
+    CAPTURE(part);
+    Sample<3> sample, without;
+    for (Sample<3>* one : {&sample, &without}) {
+      for (int i = 0; i < 35; ++i) one->strain(sand, compaction(3e-4));
+    }
+    const double further = 6e-5;
+    sample.strain(sand, compaction(further) + further * part * tensor(-2, 1, 1));
+    without.strain(sand, compaction(further));
+    REQUIRE(sample.pressure() == Approx(without.pressure()).epsilon(1e-9));
+    REQUIRE(sample.sqrt_j2() <= sample.bulk_modulus * 4 * further * part + 1e-14 * sample.pressure());
+  }
+}
+
 TEST_CASE("a closed elastic loop gives the stress back")
 {
   Sample<3> sample;
