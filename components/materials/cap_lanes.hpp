@@ -115,11 +115,27 @@ class CapLanes
     const ReturnPointOf<Lanes> point = cap_return::surface_point(back.end, 0);
     assign_where(flowing, step_.after_flow(old, strain, size, start, along, left, point), outcome.end);
     outcome.left = flowing && !back.found;
-    if (step_.ends_dilation()) {
-      const Lanes d = start.plastic_volumetric + back.end.d;
-      outcome.left = outcome.left || (flowing && d < step_.most_dilation(old));
-    }
     add_where(flowing, asks_along_path() ? back.n_evaluations : Lanes(1.0), outcome.n_evaluations);
+    if (!step_.ends_dilation()) return;
+    const Some beyond = flowing && start.plastic_volumetric + back.end.d < step_.most_dilation(old);
+    if (any(beyond)) end_dilation(path, old, strain, size, deviatoric, start, along, beyond, outcome);
+  }
+
+  /// For the lanes whose normal asks for more dilation than the sand has left.
+  template <class MakePath>
+  void end_dilation(const MakePath& path, const Particles& old, const Strains& strain, const Lanes& size,
+                    const Deviatoric& deviatoric, FlowStartOf<Lanes> start, const CombinationOf<Lanes>& along,
+                    const Some& beyond, Outcome& outcome) const
+  {
+    const YieldSurface& yield = step_.yield();
+    const Lanes d = step_.most_dilation(old);
+    const Point at = path(deviatoric, Lanes(0.0), Lanes(0.5 * d))(d);
+    add_where(beyond, 1.0, outcome.n_evaluations);
+    start.multiplier = start.plastic_volumetric = 0.0;
+    const CombinationOf<Lanes> all{0.0, 1.0};
+    const ReturnPointOf<Lanes> point = cap_return::end_of_dilation(yield, d, at);
+    assign_where(beyond, step_.after_flow(old, strain, size, start, along, all, point), outcome.end);
+    outcome.left = outcome.left || (beyond && at.pressure < yield.vertex_pressure());
   }
 
   struct Return {
