@@ -62,7 +62,7 @@ runtime::TaskList time_step(const Method<D>& method)
                                             {"rigid bodies", rigid_nodes_after_contact(method)},
                                             {"contact", contact(method)},
                                             {"contact", contact_of_solids(method)},
-                                            {"walls", find_wall_gaps(method, method.edge_walls)},
+                                            {"walls", find_wall_gaps(method)},
                                             {"walls", walls(method)},
                                             {"loads", account_for_pressure(method)},
                                             {"rigid bodies", move_rigid_bodies(method)},

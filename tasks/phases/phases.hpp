@@ -67,11 +67,9 @@ runtime::TaskList contact(const Method<D>& method);
 template <int D>
 runtime::TaskList contact_of_solids(const Method<D>& method);
 
-/// The gaps between the edges of deformable matter and these walls of the method; of some materials, or of all if none
-/// are given.
+/// The gaps between matter and walls that it touches at its edges.
 template <int D>
-runtime::TaskList find_wall_gaps(const Method<D>& method, const std::vector<components::PlaneWall>& walls,
-                                 std::vector<int> materials = {});
+runtime::TaskList find_wall_gaps(const Method<D>& method);
 
 /// Nothing crosses a wall of the domain.
 template <int D>

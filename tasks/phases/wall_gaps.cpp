@@ -1,7 +1,5 @@
 #include "components/contact/wall_gaps.hpp"
 
-#include <utility>
-
 #include "tasks/labels.hpp"
 #include "tasks/phases/phases.hpp"
 #include "tasks/phases/places.hpp"
@@ -11,28 +9,25 @@ namespace tamp::tasks
 {
 
 template <int D>
-runtime::TaskList find_wall_gaps(const Method<D>& method, const std::vector<components::PlaneWall>& walls,
-                                 std::vector<int> materials)
+runtime::TaskList find_wall_gaps(const Method<D>& method)
 {
-  if (walls.empty()) return {};
+  if (method.edge_walls.empty()) return {};
   return {runtime::task("find gaps to walls")
-              .over_patches_and_groups(std::move(materials))
+              .over_patches_and_groups()
               .sparse()
               .reads(particle::position<D>.previous(), particle::deformation_gradient<D>.previous())
               .accumulates(node::wall_gaps<D>.halo(method.halo))
-              .body([&method, &walls](const runtime::TaskContext& at, auto data) {
+              .body([&method](const runtime::TaskContext& at, auto data) {
                 if (method.rigid_body(at.group) != nullptr) return;
                 const auto gaps = data[node::wall_gaps<D>];
                 const double size = method.cell_size / method.scene.particles_per_axis_of(at.group);
                 components::add_wall_gaps<D>(method.interpolation(at.group), block_of<D>(at.layout, gaps),
-                                             places_at_start<D>(data), size, walls, gaps.data());
+                                             places_at_start<D>(data), size, method.edge_walls, gaps.data());
                 fold_images(method, at, gaps, true);
               })};
 }
 
-template runtime::TaskList find_wall_gaps(const Method<2>&, const std::vector<components::PlaneWall>&,
-                                          std::vector<int>);
-template runtime::TaskList find_wall_gaps(const Method<3>&, const std::vector<components::PlaneWall>&,
-                                          std::vector<int>);
+template runtime::TaskList find_wall_gaps(const Method<2>&);
+template runtime::TaskList find_wall_gaps(const Method<3>&);
 
 }  // namespace tamp::tasks
