@@ -84,7 +84,7 @@ struct ContactSample {
                  runtime::Least{&ContactSample::first_within}};
 };
 
-/// Loads on walls with an image behind them [J], see components::WallLoad: those across a gap, and all.
+/// Loads on walls with an image behind them [J], see components::WallLoads: those across a gap, and all.
 struct WallSample {
   Share early;
   /// Of the particles whose load crosses a gap that with the lowest id.

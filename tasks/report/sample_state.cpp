@@ -159,7 +159,7 @@ runtime::HostData sample_data(const Method<D>& method)
       {&particle::id, &particle::position<D>, &particle::volume, &particle::mass, &particle::velocity<D>,
        &particle::stress<D>, &particle::deformation_gradient<D>, &monitor_records},
       {&state_sample, &swollen_sample, &cell::pressure}};
-  if (!wall_sample_tasks(method).empty()) data.results.push_back(&wall_sample);
+  if (!wall_sample_tasks(method).empty()) data.results.insert(data.results.end(), {&wall_sample, &node::wall_gaps<D>});
   std::set<const runtime::Label*> states;
   for (const int material : method.deformable_materials) {
     std::visit(
