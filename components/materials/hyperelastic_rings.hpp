@@ -23,8 +23,7 @@ inline Matrix<3> with_hoop(const Matrix<2>& in_plane, double hoop_stretch)
 
 /// The answer of a solid to a batch of rings of the plane.
 template <Hyperelastic Model>
-BatchFailure update_rings(const Model& model, const MaterialBatch<2, NoState>& batch,
-                          std::span<const double> hoop_stretch, UpdateCounts& counts)
+BatchFailure update_rings(const Model& model, const MaterialBatch<2, NoState>& batch, UpdateCounts& counts)
 {
   constexpr std::size_t n_at_once = 32;
   std::array<Matrix<3>, n_at_once> gradients;
@@ -32,7 +31,7 @@ BatchFailure update_rings(const Model& model, const MaterialBatch<2, NoState>& b
   for (std::size_t first = 0; first < batch.stress.size(); first += n_at_once) {
     const std::size_t n = std::min(n_at_once, batch.stress.size() - first);
     for (std::size_t i = 0; i < n; ++i) {
-      gradients[i] = with_hoop(batch.deformation_gradient[first + i], hoop_stretch[first + i]);
+      gradients[i] = with_hoop(batch.deformation_gradient[first + i], batch.hoop_stretch[first + i]);
     }
     const auto failure = update(model,
                                 MaterialBatch<3, NoState>{.strain_increment = {},

@@ -76,6 +76,8 @@ struct MaterialBatch {
   std::span<double> shear_modulus;
   /// Work on the step's plastic strain [J per m3 of current volume], not negative.
   std::span<double> plastic_work;
+  /// Of rings about the axis, which the deformation gradient in the plane does not have; empty elsewhere.
+  std::span<const double> hoop_stretch{};
 };
 
 /// Cost of batches, and counts of exceptional updates in them.

@@ -242,8 +242,12 @@ class CapBatch
     return {before, before && volume >= parted_at};
   }
 
-  /// det F
-  double volume_of(std::size_t i) const { return batch_.deformation_gradient[i].determinant(); }
+  /// Over that at the start.
+  double volume_of(std::size_t i) const
+  {
+    const double in_plane = batch_.deformation_gradient[i].determinant();
+    return batch_.hoop_stretch.empty() ? in_plane : in_plane * batch_.hoop_stretch[i];
+  }
 
   /// The strain of particles that were whole.
   Tensors of_solid(Tensors strain, const Parted& parted) const

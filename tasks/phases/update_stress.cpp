@@ -51,6 +51,7 @@ MaterialBatch<D, typename Model::State> batch_at(std::size_t first, const Data& 
     batch.old_state = data[particle::state<Model>.previous()].subspan(first, n);
     batch.state = data[particle::state<Model>].subspan(first, n);
   }
+  if (!data[particle::hoop_stretch].empty()) batch.hoop_stretch = data[particle::hoop_stretch].subspan(first, n);
   return batch;
 }
 
@@ -159,16 +160,14 @@ void forget_gradients(const Data& data, std::size_t first, std::span<const doubl
   }
 }
 
-/// The answer of the material to a batch from `first` on.
-template <int D, class Model, class Data>
+/// The answer of the material to a batch.
+template <int D, class Model>
 components::BatchFailure update_batch(const Method<D>& method, const Model& model,
-                                      const MaterialBatch<D, typename Model::State>& batch, std::size_t first,
-                                      const Data& data, components::UpdateCounts& counts)
+                                      const MaterialBatch<D, typename Model::State>& batch,
+                                      components::UpdateCounts& counts)
 {
   if constexpr (D == 2 && components::Hyperelastic<Model>) {
-    if (method.axisymmetric) {
-      return update_rings(model, batch, data[particle::hoop_stretch].subspan(first, batch.stress.size()), counts);
-    }
+    if (method.axisymmetric) return update_rings(model, batch, counts);
   }
   return update(model, batch, counts);
 }
@@ -184,7 +183,7 @@ void update_batches(const Method<D>& method, const Model& model, const TaskConte
     const auto batch = batch_at<D, Model>(first, data, answer);
     const std::size_t n = batch.stress.size();
     std::copy(batch.stress.begin(), batch.stress.end(), old_stress.begin());
-    if (const auto failure = update_batch<D>(method, model, batch, first, data, totals.updates)) {
+    if (const auto failure = update_batch(method, model, batch, totals.updates)) {
       totals.failed =
           std::min(totals.failed, failed_update<D>(model, at.group, first + failure->particle, failure->fault, data));
     }
@@ -205,16 +204,26 @@ runtime::TaskDeclaration with_body(const Method<D>& method, const Model& model, 
   }
 }
 
+template <class Model>
+bool may_separate(const Model& model)
+{
+  if constexpr (requires { model.may_separate(); }) return model.may_separate();
+  return false;
+}
+
+/// Whether the material asks how long rings are by now, or how large.
+template <class Model>
+bool asks_for_hoop(const Model& model)
+{
+  return components::Hyperelastic<Model> || may_separate(model);
+}
+
 /// Where particles take the velocity of the nodes, these have slowed the motion within what separates.
 template <class Model>
 bool forgets_gradients(const Model& model, const Scene& scene)
 {
-  if constexpr (requires { model.may_separate(); }) {
-    return model.may_separate() && components::brings_own_gradients(scene.transfer) &&
-           scene.stress_timing != StressTiming::usf;
-  } else {
-    return false;
-  }
+  return may_separate(model) && components::brings_own_gradients(scene.transfer) &&
+         scene.stress_timing != StressTiming::usf;
 }
 
 template <int D, class Model>
@@ -231,7 +240,7 @@ runtime::TaskDeclaration update_of(const Method<D>& method, int material, const 
                  particle::volume.previous(), particle::volume, particle::viscous_pressure.previous(),
                  particle::own_stiffness, particle::strain_increment<D>, particle::position<D>.previous(),
                  particle::velocity<D>.at(end),
-                 particle::hoop_stretch.when(method.axisymmetric && components::Hyperelastic<Model>))
+                 particle::hoop_stretch.when(method.axisymmetric && asks_for_hoop(model)))
           .updates(particle::stress<D>, particle::velocity_gradient<D>.when(forgets_gradients(model, method.scene)))
           .computes(particle::viscous_pressure)
           .reduces(step_totals));

@@ -309,4 +309,35 @@ TEST_CASE("sand that separates below none or above all of its density is refused
   }
 }
 
+TEST_CASE("a ring of sand parts and joins by its whole volume, of which its hoop's stretch is a part")
+{
+  const TabularCap sand = parting_sand(ElasticUpdate::state);
+  Sample<2> ring;
+  Sample<3> block;
+  double hoop = 1;
+
+  for (const double stretch : {1.0, 0.999, -1.0, 1.1}) {
+    for (int k = 0; k < 250; ++k) {
+      SymmetricTensor<2> increment = SymmetricTensor<2>::Zero();
+      increment[2] = 1e-3 * stretch;
+      hoop *= std::exp(increment[2]);
+      block.deformation_gradient(2, 2) = hoop;
+      block.strain(sand, (SymmetricTensor<3>() << increment[0], increment[1], increment[2], 0, 0, 0).finished());
+      const MaterialBatch<2, CapState> batch{.strain_increment = {&increment, 1},
+                                             .deformation_gradient = {&ring.deformation_gradient, 1},
+                                             .old_state = {&ring.state, 1},
+                                             .stress = {&ring.stress, 1},
+                                             .state = {&ring.state, 1},
+                                             .bulk_modulus = {&ring.bulk_modulus, 1},
+                                             .shear_modulus = {&ring.shear_modulus, 1},
+                                             .plastic_work = {&ring.plastic_work, 1},
+                                             .hoop_stretch = {&hoop, 1}};
+      REQUIRE(!update(sand, batch, ring.counts));
+      REQUIRE(ring.state.separation_volume == block.state.separation_volume);
+      REQUIRE((ring.stress - block.stress.head<4>()).norm() <= 1e-12 * block.stress.norm());
+    }
+  }
+  CHECK(ring.counts.separations == 2);
+}
+
 }  // namespace test_separation
