@@ -60,6 +60,8 @@ inline const runtime::ParticleLabel<double, "viscous pressure"> viscous_pressure
 /// The state that a material model keeps for each particle; only for models that have one.
 template <class Model>
 inline const runtime::ParticleLabel<typename Model::State, Model::state_name> state;
+/// Gaps between grains, as a volumetric strain, see components::Gaps; only of soil that keeps them.
+inline const runtime::ParticleLabel<double, "opening"> opening;
 /// In the nodes of this step, see components::own_stiffness; 0 where the rule for the time step does not ask.
 inline const runtime::ParticleLabel<double, "own stiffness"> own_stiffness;
 /// Strain increment of this step, in the frame of its end.

@@ -16,13 +16,14 @@ namespace
 
 void add_state_of(const MaterialModel& model, runtime::HostData& data)
 {
+  const auto add = [&](const runtime::Label& label) {
+    const bool is_new = std::find(data.state.begin(), data.state.end(), &label) == data.state.end();
+    if (is_new) data.state.push_back(&label);
+  };
   std::visit(
-      [&]<class Model>(const Model&) {
-        if constexpr (components::has_state<Model>) {
-          const runtime::Label* const label = &particle::state<Model>;
-          const bool is_new = std::find(data.state.begin(), data.state.end(), label) == data.state.end();
-          if (is_new) data.state.push_back(label);
-        }
+      [&]<class Model>(const Model& of_material) {
+        if constexpr (components::has_state<Model>) add(particle::state<Model>);
+        if (components::keeps_gaps(of_material)) add(particle::opening);
       },
       model);
 }

@@ -1,21 +1,15 @@
 #pragma once
 
-#include <array>
 #include <limits>
 #include <span>
 #include <string_view>
 
 #include "components/materials/material_batch.hpp"
-#include "components/materials/state_columns.hpp"
+#include "components/materials/soil_state.hpp"
 #include "components/parameter.hpp"
 
 namespace tamp::components
 {
-
-struct DruckerPragerState {
-  double plastic_volumetric = 0;  ///< compression positive: dilation makes it fall
-  double equivalent_plastic = 0;  ///< sum of sqrt(2/3 de:de), e the plastic strain's deviator
-};
 
 /// Sand or soil for which triaxial tests are all there is: constant elastic moduli, and perfectly plastic on the cone
 ///
@@ -28,13 +22,17 @@ struct DruckerPragerState {
 /// as alpha is from phi; at the tension cut-off, that of -p. (D. C. Drucker and W. Prager, Q. Appl. Math. 10, 1952; E.
 /// A. de Souza Neto, D. Peric and D. R. J. Owen, Computational Methods for Plasticity, Wiley 2008, section 8.3.)
 struct DruckerPrager {
-  using State = DruckerPragerState;
+  using State = SoilState;
   static constexpr std::string_view type = "drucker_prager";
   static constexpr bool is_soil = true;
   static constexpr char state_name[] = "drucker prager state";
-  static std::span<const Parameter<DruckerPrager>, 6> parameters();
+  static std::span<const Parameter<DruckerPrager>, 8> parameters();
   static std::span<const StateColumn<DruckerPrager>, 2> columns();
   static std::span<const StateExtreme, 3> extremes();
+  static constexpr std::string_view meaning_of_friction =
+      "Mohr and Coulomb's, in triaxial compression; from 0 to below 90";
+  static constexpr std::string_view meaning_of_cohesion =
+      "Mohr and Coulomb's, in triaxial compression; above 0 where there is no friction";
 
   double bulk_modulus;        ///< Pa
   double shear_modulus;       ///< Pa
@@ -43,7 +41,13 @@ struct DruckerPrager {
   double cohesion = 0;        ///< Pa
   /// The mean tension that it bears [Pa]; at most that of the cone's apex, c / tan(phi).
   double tension_cutoff = std::numeric_limits<double>::infinity();
+  /// Plastic volumetric expansion beyond which it widens no more as it is sheared.
+  double dilation_limit = std::numeric_limits<double>::infinity();
+  /// Whether grains part at the cut-off, and bear nothing until they meet again, see Gaps.
+  bool separation = false;
 
+  bool may_separate() const { return separation; }
+  bool keeps_gaps() const { return separation; }
   TangentModuli initial_moduli() const { return {bulk_modulus, shear_modulus}; }
   /// The mean tension at which the cone ends [Pa]; infinite without friction.
   double apex_tension() const;
@@ -55,6 +59,6 @@ struct DruckerPrager {
 /// starts without shear and does not meet the cut-off before the cone; of first order otherwise. An increment that is
 /// not finite is refused.
 template <int D>
-BatchFailure update(const DruckerPrager& soil, const MaterialBatch<D, DruckerPragerState>& batch, UpdateCounts& counts);
+BatchFailure update(const DruckerPrager& soil, const MaterialBatch<D, SoilState>& batch, UpdateCounts& counts);
 
 }  // namespace tamp::components

@@ -18,7 +18,7 @@
 ///    or a `read_model` of its own in tools/scene/materials/read_material.cpp;
 ///  - `initial_moduli()`, K and G without strain;
 ///  - `update(model, batch, counts)`, which answers a batch of particles;
-///  - where it may lose all stiffness, `may_separate()`;
+///  - where it may lose all stiffness, `may_separate()`, and where it then keeps gaps, see Gaps, `keeps_gaps()`;
 ///  - where it is soil, `is_soil`;
 ///  - with a state, `state_name`, and `columns()` and `extremes()`, what output shows of it, see state_columns.hpp;
 ///  - where the stress follows from the deformation gradient alone, `stored_energy<D>(deformation_gradient)`.
@@ -40,6 +40,14 @@ concept Hyperelastic = requires(const Model& model, const Matrix<3>& f)
 {
   model.template stored_energy<3>(f);
 };
+
+/// Whether a model keeps gaps between its grains.
+template <class Model>
+bool keeps_gaps(const Model& model)
+{
+  if constexpr (requires { model.keeps_gaps(); }) return model.keeps_gaps();
+  return false;
+}
 
 /// Sand, clay and the like.
 template <class Model>
@@ -78,6 +86,10 @@ struct MaterialBatch {
   std::span<double> plastic_work;
   /// Of rings about the axis, which the deformation gradient in the plane does not have; empty elsewhere.
   std::span<const double> hoop_stretch{};
+  /// Of soil whose grains may part: gaps between them, as a volumetric strain; `opening` may be the same memory as
+  /// `old_opening`. Both empty where they may not.
+  std::span<const double> old_opening{};
+  std::span<double> opening{};
 };
 
 /// Cost of batches, and counts of exceptional updates in them.

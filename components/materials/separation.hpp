@@ -18,10 +18,10 @@ inline bool is_torn(const TabularCap& sand, double pressure, double j2)
   return j2 == 0 && pressure <= (1 - round_off) * sand.parameters().yield.vertex_pressure();
 }
 
-/// Whether what is torn is so light that it separates.
+/// Whether what is torn is so light that it separates, which with gaps it does at any density.
 inline bool is_light(const TabularCap& sand, double volume)
 {
-  return volume * sand.parameters().separation_density.value() > 1;
+  return sand.keeps_gaps() || volume * sand.parameters().separation_density.value() > 1;
 }
 
 /// Energy that is lost as a particle at the tension vertex separates, beside the work on its plastic strain in that
@@ -36,9 +36,10 @@ inline double energy_of_parting(double pressure, double bulk_modulus, double exp
 /// Volumetric compaction beyond the volume at which it parted, measured as strain increments are. A particle joins
 /// without stress at the end of the step in which it gets there, and counts this as plastic: with its stiffness it may
 /// stand less of a step than it just took without.
-inline double compaction_beyond(double separation_volume, double volume)
+template <class Number>
+Number compaction_beyond(const Number& separation_volume, const Number& volume)
 {
-  return 2 * (separation_volume - volume) / (separation_volume + volume);
+  return 2.0 * (separation_volume - volume) / (separation_volume + volume);
 }
 
 }  // namespace tamp::components

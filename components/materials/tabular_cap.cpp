@@ -5,6 +5,7 @@
 #include <string>
 
 #include "components/materials/cap_tile.hpp"
+#include "components/materials/gaps.hpp"
 #include "components/materials/separation.hpp"
 #include "components/tensor_lanes.hpp"
 
@@ -195,7 +196,7 @@ class CapBatch
   void load_lanes(std::size_t first, std::size_t i, std::size_t n)
   {
     const std::size_t begin = first + i;
-    const Parted parted = parted_of(begin, n);
+    const Gaps parted = parted_of(begin, n);
     const Tensors increment = lanes_at(batch_.strain_increment, begin), stress = lanes_at(batch_.stress, begin);
     const Tensors strain = of_solid(increment, parted);
     std::array<const double*, n_lanes> states;
@@ -227,19 +228,22 @@ class CapBatch
     return batch_.old_state[begin + std::min(l, n - 1)];
   }
 
-  /// Which particles were apart when the step started, and which still are when it ends.
-  struct Parted {
-    Mask<Lanes> before{false}, still{false};
-  };
-  Parted parted_of(std::size_t begin, std::size_t n) const
+  /// Which particles were apart when the step started, which still are when it ends, and what becomes of their gaps.
+  Gaps parted_of(std::size_t begin, std::size_t n) const
   {
     if (!may_part_) return {};
+    if (sand_.keeps_gaps()) {
+      return {lanes_at(batch_.old_opening, begin), trace(lanes_at(batch_.strain_increment, begin))};
+    }
     const Lanes parted_at =
         each_lane([&](std::size_t l) -> double { return old_state(begin, n, l).separation_volume; });
-    const Mask<Lanes> before = parted_at > 0.0;
-    if (!any(before)) return {};
+    Gaps gaps;
+    gaps.before = parted_at > 0.0;
+    if (!any(gaps.before)) return gaps;
     const Lanes volume = each_lane([&](std::size_t l) { return volume_of(begin + std::min(l, n - 1)); });
-    return {before, before && volume >= parted_at};
+    gaps.still = gaps.before && volume >= parted_at;
+    gaps.compaction = select(gaps.before, compaction_beyond(parted_at, volume), Lanes(0.0));
+    return gaps;
   }
 
   /// Over that at the start.
@@ -250,7 +254,7 @@ class CapBatch
   }
 
   /// The strain of particles that were whole.
-  Tensors of_solid(Tensors strain, const Parted& parted) const
+  Tensors of_solid(Tensors strain, const Gaps& parted) const
   {
     if (!may_part_) return strain;
     for (int k = 0; k < n_symmetric<D>; ++k) strain[k] = select(parted.before, Lanes(0.0), strain[k]);
@@ -268,7 +272,7 @@ class CapBatch
   {
     const std::size_t begin = first + i;
     const auto [now, error] = tile_.lanes_at(i);
-    const Parted parted = parted_of(begin, n);
+    const Gaps parted = parted_of(begin, n);
     const Mask<Lanes> found = is_finite(error), within = is_in_range(now) || parted.still;
     const Tensors e = deviator(of_solid(lanes_at(batch_.strain_increment, begin), parted));
     const Tensors old = lanes_at(batch_.stress, begin), s = deviator(old);
@@ -285,12 +289,9 @@ class CapBatch
     if (!may_part_ && all_of(found)) return set_states(begin, n, now);
     for (std::size_t l = 0; l < n; ++l) {
       if (found[l]) {
-        set_state(begin + l,
-                  {now.elastic_volumetric[l], now.plastic_volumetric[l], now.equivalent_plastic[l], now.bulk_modulus[l],
-                   batch_.old_state[begin + l].n_failures},
-                  now.pressure[l], now.j2[l]);
+        set_state(begin + l, now, parted, l);
       } else if (may_part_ && parted.still[l]) {
-        stay_apart(begin + l);
+        stay_apart(begin + l, parted.opening[l]);
       } else {
         fail(begin + l);
       }
@@ -311,34 +312,44 @@ class CapBatch
                         states, n);
   }
 
-  /// That of a particle which found a stress of this pressure and J2.
-  void set_state(std::size_t i, const CapState& state, double pressure, double j2)
+  /// That of particle i, which found the stress of lane l. It may have joined, or be torn now.
+  void set_state(std::size_t i, const CapParticleOf<Lanes>& now, const Gaps& parted, std::size_t l)
   {
-    const double parted_at = batch_.old_state[i].separation_volume;
-    batch_.state[i] = state;
-    if (may_part_) join_or_part(i, parted_at, pressure, j2);
-  }
-
-  /// The tile has left its stress, its moduli and its plastic work at zero.
-  void stay_apart(std::size_t i)
-  {
-    batch_.state[i] = batch_.old_state[i];
-    ++counts_.apart;
-  }
-
-  /// After an update, of a particle that was apart until then (from `parted_at` on) or may separate now.
-  void join_or_part(std::size_t i, double parted_at, double pressure, double j2)
-  {
-    if (parted_at > 0) {
-      batch_.state[i].plastic_volumetric += compaction_beyond(parted_at, volume_of(i));
-    } else if (is_torn(sand_, pressure, j2) && is_light(sand_, volume_of(i))) {
-      part(i, pressure);
+    const CapState old = batch_.old_state[i];
+    batch_.state[i] = {now.elastic_volumetric[l], now.plastic_volumetric[l], now.equivalent_plastic[l],
+                       now.bulk_modulus[l], old.n_failures};
+    if (!may_part_) return;
+    set_opening(i, 0);
+    if (parted.before[l]) {
+      batch_.state[i].plastic_volumetric += parted.compaction[l];
+    } else if (is_torn(sand_, now.pressure[l], now.j2[l]) && is_light(sand_, volume_of(i))) {
+      part(i, now.pressure[l], old.plastic_volumetric);
     }
   }
 
-  void part(std::size_t i, double pressure)
+  void set_opening(std::size_t i, double opening)
+  {
+    if (sand_.keeps_gaps()) batch_.opening[i] = opening;
+  }
+
+  /// The tile has left its stress, its moduli and its plastic work at zero.
+  void stay_apart(std::size_t i, double opening)
+  {
+    batch_.state[i] = batch_.old_state[i];
+    set_opening(i, opening);
+    ++counts_.apart;
+  }
+
+  /// With gaps, what it was stretched by beyond the vertex is one, and its plastic volume stays as it was.
+  void part(std::size_t i, double pressure, double old_plastic)
   {
     CapState& state = batch_.state[i];
+    if (sand_.keeps_gaps()) {
+      const double opening = old_plastic - state.plastic_volumetric;
+      if (!(opening > 0)) return;
+      set_opening(i, opening);
+      state.plastic_volumetric = old_plastic;
+    }
     const double released = energy_of_parting(pressure, state.bulk_modulus, trace(batch_.strain_increment[i]));
     batch_.plastic_work[i] = std::max(batch_.plastic_work[i] + released, 0.0);
     state.elastic_volumetric = state.bulk_modulus = 0;
@@ -376,6 +387,7 @@ class CapBatch
     batch_.bulk_modulus[i] = bulk;
     batch_.shear_modulus[i] = sand_.shear_ratio() * bulk;
     batch_.plastic_work[i] = 0;
+    if (sand_.keeps_gaps()) batch_.opening[i] = batch_.old_opening[i];
   }
 
   UpdateFault fault_of(std::size_t i) const

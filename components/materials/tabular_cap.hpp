@@ -37,7 +37,8 @@ struct CapState {
   double equivalent_plastic = 0;  ///< sum of sqrt(2/3 de:de), e the plastic strain's deviator
   double bulk_modulus = 0;        ///< that the last update ended with; 0 before the first and where it is apart
   std::int32_t n_failures = 0;    ///< updates that failed, and left stress and strains as they were
-  /// det F at which it came apart; 0 while it is whole. Not a double, so that a state takes no more than 40 bytes.
+  /// Volume over that at the start, at which it came apart; 0 while it is whole. Not a double, so that a state takes no
+  /// more than 40 bytes.
   float separation_volume = 0;
 };
 
@@ -60,6 +61,9 @@ struct TabularCapParameters {
   /// Plastic volumetric expansion since the start beyond which shear changes the volume of the sand no more; without
   /// it, flow stays associated however loose the sand is, as published.
   std::optional<double> dilation_limit{};
+  /// Whether sand that is torn separates at any density, and what it is stretched by while it is torn is a gap, see
+  /// Gaps, and no plastic volume.
+  bool gaps = false;
 };
 
 class TabularCap
@@ -81,7 +85,8 @@ class TabularCap
   const TabularCapParameters& parameters() const { return parameters_; }
   double poisson_ratio() const { return parameters_.poisson_ratio; }
 
-  bool may_separate() const { return parameters_.separation_density.has_value(); }
+  bool may_separate() const { return parameters_.separation_density.has_value() || parameters_.gaps; }
+  bool keeps_gaps() const { return parameters_.gaps; }
 
   /// G / K.
   double shear_ratio() const { return shear_ratio_; }

@@ -52,6 +52,10 @@ MaterialBatch<D, typename Model::State> batch_at(std::size_t first, const Data& 
     batch.state = data[particle::state<Model>].subspan(first, n);
   }
   if (!data[particle::hoop_stretch].empty()) batch.hoop_stretch = data[particle::hoop_stretch].subspan(first, n);
+  if (!data[particle::opening].empty()) {
+    batch.old_opening = data[particle::opening.previous()].subspan(first, n);
+    batch.opening = data[particle::opening].subspan(first, n);
+  }
   return batch;
 }
 
@@ -215,7 +219,8 @@ bool may_separate(const Model& model)
 template <class Model>
 bool asks_for_hoop(const Model& model)
 {
-  return components::Hyperelastic<Model> || may_separate(model);
+  return components::Hyperelastic<Model> ||
+         (may_separate(model) && !std::is_same_v<typename Model::State, components::SoilState>);
 }
 
 /// Where particles take the velocity of the nodes, these have slowed the motion within what separates.
@@ -240,9 +245,10 @@ runtime::TaskDeclaration update_of(const Method<D>& method, int material, const 
                  particle::volume.previous(), particle::volume, particle::viscous_pressure.previous(),
                  particle::own_stiffness, particle::strain_increment<D>, particle::position<D>.previous(),
                  particle::velocity<D>.at(end),
-                 particle::hoop_stretch.when(method.axisymmetric && asks_for_hoop(model)))
+                 particle::hoop_stretch.when(method.axisymmetric && asks_for_hoop(model)),
+                 particle::opening.previous().when(components::keeps_gaps(model)))
           .updates(particle::stress<D>, particle::velocity_gradient<D>.when(forgets_gradients(model, method.scene)))
-          .computes(particle::viscous_pressure)
+          .computes(particle::viscous_pressure, particle::opening.when(components::keeps_gaps(model)))
           .reduces(step_totals));
 }
 

@@ -75,6 +75,10 @@ void add_state_fields(const Model& model, std::vector<ParticleField>& fields)
           particle::state<Model>, particle::stress<D>);
     }
   }
+  if (components::keeps_gaps(model)) {
+    fields.emplace_back(
+        "opening", ColumnKind::scalar, [](double gap) { return gap; }, particle::opening);
+  }
 }
 
 /// The pressure of particles less the mean in their cells.

@@ -117,4 +117,53 @@ TEST_CASE("sand that has separated joins where it is pushed together, on any thr
   CHECK(simulation->digest() == other->digest());
 }
 
+TEST_CASE("soil that is thrown apart and falls together again does so on any threads alike, and loses energy alone")
+{
+  Scene scene = spinning_sand(2);
+  const bool is_cone = GENERATE(true, false);
+  components::DruckerPrager cone{.bulk_modulus = 20e6, .shear_modulus = 12e6, .friction_angle = 35};
+  cone.separation = true;
+  components::BoltonSand bolton{.grain_density = 2650,
+                                .e_min = 0.55,
+                                .e_max = 0.95,
+                                .critical_friction_angle = 32,
+                                .shear_modulus_number = 125,
+                                .poisson_ratio = 0.05};
+  bolton.fill(scene.materials[0].density);
+  bolton.choose_strength(true);
+  scene.materials[0].model = is_cone ? components::MaterialModel(cone) : components::MaterialModel(bolton);
+  for (std::size_t axis = 0; axis < 2; ++axis) add_walls(scene, axis);
+  const auto simulation = Simulation::make(scene, 1), other = Simulation::make(scene, 2);
+  const double given = simulation->report().kinetic;
+
+  for (Simulation* one : {simulation.get(), other.get()}) advance_to(*one, 0.05);
+
+  CHECK(static_cast<double>(simulation->updates().separations) > 1000);
+  CHECK(simulation->updates().apart > 1000);
+  CHECK(simulation->report().kinetic < given);
+  CHECK(simulation->report().kinetic + worked(simulation->energies()) == Approx(given).epsilon(0.2));
+  CHECK(simulation->updates().failures == 0);
+  CHECK(simulation->digest() == other->digest());
+}
+
+TEST_CASE("a block of dry soil that is dropped keeps its volume where its grains may part, and swells where not")
+{
+  Scene scene = empty_scene(2, {16, 12, 1}, 0.025);
+  scene.gravity = {0, -9.81, 0};
+  for (std::size_t axis = 0; axis < 2; ++axis) add_walls(scene, axis);
+  add_box(scene, 0, {0.1, 0.025, 0}, {0.3, 0.125, 0}, {0, -1, 0});
+  const auto mean_volume = [&](bool separation) {
+    components::DruckerPrager soil{.bulk_modulus = 1e6, .shear_modulus = 6e5, .friction_angle = 35};
+    soil.separation = separation;
+    scene.materials = {{"soil", 1600, soil}};
+    const auto simulation = Simulation::make(scene, 2);
+    advance_to(*simulation, 0.6);
+    const std::vector<double> volume = numbers_of(*simulation, "J");
+    return sum(volume) / static_cast<double>(volume.size());
+  };
+
+  CHECK(mean_volume(true) == Approx(1).margin(0.03));
+  CHECK(mean_volume(false) > 1.2);
+}
+
 }  // namespace test_sand_apart

@@ -261,7 +261,7 @@ void PlainMlsMpm<D>::update_stress(Particle& p, const Matrix<D>& g) const
 }
 
 template <int D>
-typename PlainMlsMpm<D>::Stress PlainMlsMpm<D>::returned(Stress stress, components::DruckerPragerState& state) const
+typename PlainMlsMpm<D>::Stress PlainMlsMpm<D>::returned(Stress stress, components::SoilState& state) const
 {
   const double K = problem_.soil.bulk_modulus, G = problem_.soil.shear_modulus;
   const double trial_pressure = -(stress[0] + stress[1] + stress[2]) * (1.0 / 3);

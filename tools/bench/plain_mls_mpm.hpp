@@ -25,7 +25,7 @@ struct PlainParticle {
   double mass;
   /// At the start and now.
   double initial_volume, volume;
-  components::DruckerPragerState state;
+  components::SoilState state;
 };
 
 /// Soil above a smooth floor, the plane of the nodes 0 along the last axis, under gravity along it. APIC with quadratic
@@ -74,7 +74,7 @@ class PlainMlsMpm
   void grid_to_particles(double step_size);
   /// `g` is the velocity gradient times the step.
   void update_stress(Particle& particle, const typename Particle::Matrix& g) const;
-  Stress returned(Stress trial, components::DruckerPragerState& state) const;
+  Stress returned(Stress trial, components::SoilState& state) const;
 
   Problem problem_;
   Cone cone_;

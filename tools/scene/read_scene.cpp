@@ -286,7 +286,7 @@ class SceneReader
     }
     for (auto& [name, reader] : root_.members("materials")) {
       material_names_.push_back(name);
-      auto material = read_material(name, std::move(reader));
+      auto material = read_material(name, std::move(reader), dimension() == 2 && !scene_.axisymmetric);
       if (material) scene_.materials.push_back(std::move(*material));
     }
   }

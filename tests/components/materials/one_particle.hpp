@@ -14,19 +14,20 @@ struct OneParticle {
   Matrix<D> deformation_gradient = Matrix<D>::Identity();
   SymmetricTensor<D> stress = SymmetricTensor<D>::Zero();
   typename Model::State state{};
-  double bulk_modulus = 0, shear_modulus = 0, plastic_work = 0;
+  double bulk_modulus = 0, shear_modulus = 0, plastic_work = 0, opening = 0;
   components::UpdateCounts counts{};
 
   components::BatchFailure update(const Model& model, const SymmetricTensor<D>& increment)
   {
-    const components::MaterialBatch<D, typename Model::State> batch{.strain_increment = {&increment, 1},
-                                                                    .deformation_gradient = {&deformation_gradient, 1},
-                                                                    .old_state = {&state, 1},
-                                                                    .stress = {&stress, 1},
-                                                                    .state = {&state, 1},
-                                                                    .bulk_modulus = {&bulk_modulus, 1},
-                                                                    .shear_modulus = {&shear_modulus, 1},
-                                                                    .plastic_work = {&plastic_work, 1}};
+    components::MaterialBatch<D, typename Model::State> batch{.strain_increment = {&increment, 1},
+                                                              .deformation_gradient = {&deformation_gradient, 1},
+                                                              .old_state = {&state, 1},
+                                                              .stress = {&stress, 1},
+                                                              .state = {&state, 1},
+                                                              .bulk_modulus = {&bulk_modulus, 1},
+                                                              .shear_modulus = {&shear_modulus, 1},
+                                                              .plastic_work = {&plastic_work, 1}};
+    if (components::keeps_gaps(model)) batch.old_opening = batch.opening = {&opening, 1};
     return components::update(model, batch, counts);
   }
 

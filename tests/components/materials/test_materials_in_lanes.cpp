@@ -63,15 +63,18 @@ std::pair<BatchFailure, UpdateCounts> update_together(const Model& model, Partic
   std::vector<SymmetricTensor<D>> strain, stress;
   std::vector<Matrix<D>> gradient;
   std::vector<typename Model::State> state;
+  std::vector<double> opening;
   for (const std::size_t i : order) {
     strain.push_back(increments[i]);
     stress.push_back(all[i].stress);
     gradient.push_back(all[i].deformation_gradient);
     state.push_back(all[i].state);
+    if (keeps_gaps(model)) opening.push_back(all[i].opening);
   }
   std::vector<double> bulk(order.size()), shear(order.size()), work(order.size());
   UpdateCounts counts;
-  const MaterialBatch<D, typename Model::State> batch{strain, gradient, state, stress, state, bulk, shear, work};
+  const MaterialBatch<D, typename Model::State> batch{strain, gradient, state, stress,  state,
+                                                      bulk,   shear,    work,  opening, opening};
 
   const BatchFailure failure = update(model, batch, counts);
 
@@ -79,6 +82,7 @@ std::pair<BatchFailure, UpdateCounts> update_together(const Model& model, Partic
     auto& particle = all[order[k]];
     particle.stress = stress[k];
     particle.state = state[k];
+    if (keeps_gaps(model)) particle.opening = opening[k];
     particle.bulk_modulus = bulk[k];
     particle.shear_modulus = shear[k];
     particle.plastic_work = work[k];
@@ -92,8 +96,9 @@ std::vector<double> numbers_of(const test::OneParticle<D, Model>& particle)
 {
   std::vector<double> numbers(particle.stress.data(), particle.stress.data() + particle.stress.size());
   numbers.insert(numbers.end(), {particle.bulk_modulus, particle.shear_modulus, particle.plastic_work});
-  if constexpr (std::is_same_v<Model, DruckerPrager>) {
-    numbers.insert(numbers.end(), {particle.state.plastic_volumetric, particle.state.equivalent_plastic});
+  if constexpr (std::is_same_v<typename Model::State, SoilState>) {
+    numbers.insert(numbers.end(),
+                   {particle.state.plastic_volumetric, particle.state.equivalent_plastic, particle.opening});
   }
   return numbers;
 }
@@ -156,6 +161,13 @@ TEST_CASE("particles of a batch have the bits of scalar code, in any order and b
   check_any_order("drucker prager", soil);
   check_any_order("with a cut-off", cut_off);
   check_any_order("without friction", cohesive);
+  cut_off.separation = true;
+  check_any_order("that may part", cut_off);
+  check_any_order("mohr coulomb", MohrCoulomb{2e8, 1e8, 30, 10, 1e4});
+  BoltonSand sand{2650, 0.6, 1, 32, 125, 0.05};
+  sand.fill(1500);
+  sand.choose_strength(false);
+  check_any_order("bolton", sand);
 }
 
 TEST_CASE("soil of a batch returns to its cone as one particle after the other, with branches, does")

@@ -95,7 +95,7 @@ TEST_CASE("a missing file is refused with the path that was tried")
   CHECK(problems_with_sand({"/materials/sand/file=nothing.json"}) ==
         "--set#/materials/sand/file: there is no file nothing.json; expected the path of a JSON file\n"
         "scenes/scene.json#/materials/sand/type: missing; expected one of hypoelastic, neo_hookean, neo_hookean_log, "
-        "drucker_prager, tabular_cap");
+        "drucker_prager, mohr_coulomb, bolton_sand, tabular_cap");
   CHECK(problems_with_sand({"/materials/sand/crush_curve=no.csv"}) ==
         "--set#/materials/sand/crush_curve: there is no file no.csv; expected the path of a file");
 }

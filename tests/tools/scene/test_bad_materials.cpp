@@ -10,7 +10,7 @@ TEST_CASE("a material of no type, or whose numbers do not go together, is refuse
   check_rows(problems_with,
              {{"/materials/steel/type=hypoelastik",
                "/materials/steel/type: \"hypoelastik\"; expected one of hypoelastic, neo_hookean, neo_hookean_log, "
-               "drucker_prager, tabular_cap, did you mean \"hypoelastic\"?"},
+               "drucker_prager, mohr_coulomb, bolton_sand, tabular_cap, did you mean \"hypoelastic\"?"},
               {"/materials/steel/density=-8000", "/materials/steel/density: -8000; expected a number above 0 [kg/m^3]"},
               {"/materials/steel/particles_per_axis=2.5",
                "/materials/steel/particles_per_axis: 2.5; expected a whole number from 1 to 16"},
@@ -57,6 +57,27 @@ TEST_CASE("soil whose numbers do not go together is refused, with the one that d
        {friction + soil + "/cohesion=1e4 /materials/steel/tension_cutoff=2e4",
         soil + "/tension_cutoff: 20000; expected at most 17320.5 Pa, where the cone ends"},
        {friction + soil + "/cohesion=much", soil + "/cohesion: \"much\"; expected a number of 0 or above [Pa]"}});
+}
+
+TEST_CASE("sand by density and pressure whose packing or critical angle is that of no sand is refused")
+{
+  const std::string sand = "/materials/steel";
+
+  check_rows(
+      problems_with,
+      sand +
+          "={'type':'bolton_sand','density':1500,'grain_density':2650,'e_min':0.6,'e_max':1,"
+          "'critical_friction_angle':32,'shear_modulus_number':125,'poisson_ratio':0.05} ",
+      {{"", ""},
+       {sand + "/density=1656.25", ""},
+       {sand + "/density=1700",
+        sand + "/density: 1700, a void ratio of 0.5588; expected 1325 to 1656.2 kg/m^3: from e_max 1 to e_min 0.6"},
+       {sand + "/density=1200",
+        sand + "/density: 1200, a void ratio of 1.208; expected 1325 to 1656.2 kg/m^3: from e_max 1 to e_min 0.6"},
+       {sand + "/e_min=1", sand + "/e_min: 1; expected below e_max, 1"},
+       {sand + "/critical_friction_angle=19",
+        sand + "/critical_friction_angle: 19; expected a number from 20 to 45 [degrees]"},
+       {sand + "/poisson_ratio=0.5", sand + "/poisson_ratio: 0.5; expected a number above -1 and below 0.5"}});
 }
 
 TEST_CASE("sand that separates at no density, or perhaps, is refused")

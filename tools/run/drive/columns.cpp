@@ -31,10 +31,11 @@ std::string header_of(const components::StateColumn<Model>& column)
 void add_names(const tasks::MaterialModel& material, Shown shown, std::vector<std::string>& names)
 {
   std::visit(
-      [&]<class Model>(const Model&) {
+      [&]<class Model>(const Model& model) {
         for (const auto& column : components::state_columns<Model>()) {
           if (column.shown == shown) names.push_back(header_of(column));
         }
+        if (shown == Shown::by_drive && components::keeps_gaps(model)) names.push_back("opening[-]");
       },
       material);
 }
@@ -48,6 +49,7 @@ void add_values(const tasks::MaterialModel& material, Shown shown, const Materia
         for (const auto& column : components::state_columns<Model>()) {
           if (column.shown == shown) values.push_back(column.value(model, state, point.invariants()));
         }
+        if (shown == Shown::by_drive && components::keeps_gaps(model)) values.push_back(point.opening);
       },
       material);
 }

@@ -26,6 +26,7 @@ class RecordedUpdates
     const std::size_t n = std::min(n_of_batch, size());
     stress_.resize(n);
     state_.resize(n);
+    opening_.resize(n);
     bulk_modulus_.resize(n);
     shear_modulus_.resize(n);
     plastic_work_.resize(n);
@@ -54,6 +55,7 @@ class RecordedUpdates
     deformation_gradient_.push_back(to.deformation_gradient);
     old_stress_.push_back(rotated<3>(from.stress, step.rotation_increment));
     old_state_.push_back(std::any_cast<const State&>(from.state));
+    old_opening_.push_back(from.opening);
   }
 
   void update(std::size_t first, std::size_t n, components::UpdateCounts& counts)
@@ -61,14 +63,18 @@ class RecordedUpdates
     const auto part = [first, n](const auto& values) { return std::span(values).subspan(first, n); };
     const auto room = [n](auto& values) { return std::span(values).first(n); };
     std::ranges::copy(part(old_stress_), stress_.begin());
-    const components::MaterialBatch<3, State> batch{.strain_increment = part(strain_),
-                                                    .deformation_gradient = part(deformation_gradient_),
-                                                    .old_state = part(old_state_),
-                                                    .stress = room(stress_),
-                                                    .state = room(state_),
-                                                    .bulk_modulus = room(bulk_modulus_),
-                                                    .shear_modulus = room(shear_modulus_),
-                                                    .plastic_work = room(plastic_work_)};
+    components::MaterialBatch<3, State> batch{.strain_increment = part(strain_),
+                                              .deformation_gradient = part(deformation_gradient_),
+                                              .old_state = part(old_state_),
+                                              .stress = room(stress_),
+                                              .state = room(state_),
+                                              .bulk_modulus = room(bulk_modulus_),
+                                              .shear_modulus = room(shear_modulus_),
+                                              .plastic_work = room(plastic_work_)};
+    if (components::keeps_gaps(model_)) {
+      batch.old_opening = part(old_opening_);
+      batch.opening = room(opening_);
+    }
     // None fails here that did not fail in the drive.
     components::update(model_, batch, counts);
   }
@@ -77,10 +83,11 @@ class RecordedUpdates
   std::vector<SymmetricTensor<3>> strain_, old_stress_;
   std::vector<Matrix<3>> deformation_gradient_;
   std::vector<State> old_state_;
+  std::vector<double> old_opening_;
   // Data of one batch.
   std::vector<SymmetricTensor<3>> stress_;
   std::vector<State> state_;
-  std::vector<double> bulk_modulus_, shear_modulus_, plastic_work_;
+  std::vector<double> opening_, bulk_modulus_, shear_modulus_, plastic_work_;
 };
 
 }  // namespace

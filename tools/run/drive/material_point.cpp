@@ -16,14 +16,15 @@ std::optional<std::string> update(const Model& model, const SymmetricTensor<3>& 
   double plastic_work = 0;
   auto& state = std::any_cast<State&>(point.state);
   point.last_update = {};
-  const components::MaterialBatch<3, State> batch{.strain_increment = {&strain, 1},
-                                                  .deformation_gradient = {&point.deformation_gradient, 1},
-                                                  .old_state = {&state, 1},
-                                                  .stress = {&point.stress, 1},
-                                                  .state = {&state, 1},
-                                                  .bulk_modulus = {&point.bulk_modulus, 1},
-                                                  .shear_modulus = {&point.shear_modulus, 1},
-                                                  .plastic_work = {&plastic_work, 1}};
+  components::MaterialBatch<3, State> batch{.strain_increment = {&strain, 1},
+                                            .deformation_gradient = {&point.deformation_gradient, 1},
+                                            .old_state = {&state, 1},
+                                            .stress = {&point.stress, 1},
+                                            .state = {&state, 1},
+                                            .bulk_modulus = {&point.bulk_modulus, 1},
+                                            .shear_modulus = {&point.shear_modulus, 1},
+                                            .plastic_work = {&plastic_work, 1}};
+  if (components::keeps_gaps(model)) batch.old_opening = batch.opening = {&point.opening, 1};
   if (const auto failure = components::update(model, batch, point.last_update)) return to_string(failure->fault);
   point.plastic_work += plastic_work * point.volume;
   return std::nullopt;

@@ -18,6 +18,7 @@ struct MaterialPoint {
   std::any state{};                                       ///< the `State` of its model
   double bulk_modulus = 0;                                ///< Pa
   double shear_modulus = 0;                               ///< Pa
+  double opening = 0;                                     ///< gaps between grains, as a volumetric strain
   double plastic_work = 0;                                ///< since the start, J per m3 of initial volume
   components::UpdateCounts last_update{};
 

@@ -129,6 +129,10 @@ std::optional<tasks::MaterialModel> read_tabular_cap(JsonReader& reader)
   const bool separates = reader.flag("separation");
   const double separation_density = reader.number("separation_density");
   const std::optional<double> dilation_limit = reader.optional_number("dilation_limit");
+  const bool gaps = reader.flag("gaps");
+  if (gaps && separates) {
+    reader.add_problem("gaps", "true with separation", "expected one of the two: gaps separate at any density");
+  }
   const auto measure = reader.choice<StrainMeasure>("strain_measure");
   check_tests(reader);
   const auto modulus = read_modulus(reader, measure);
@@ -139,7 +143,7 @@ std::optional<tasks::MaterialModel> read_tabular_cap(JsonReader& reader)
   compare_with_tables(reader, *modulus, measure, loading.curves());
   try {
     return components::TabularCap({poisson_ratio, update, *modulus, crush->curve, *yield, tolerance, max_substeps,
-                                   separates ? std::optional(separation_density) : std::nullopt, dilation_limit});
+                                   separates ? std::optional(separation_density) : std::nullopt, dilation_limit, gaps});
   } catch (const BadValue& bad) {
     // All but the crush curve was checked above.
     if (crush->table) {
@@ -151,50 +155,57 @@ std::optional<tasks::MaterialModel> read_tabular_cap(JsonReader& reader)
   }
 }
 
+/// What a model has to know of the scene and the rest of its material.
+struct Surroundings {
+  double density;
+  bool in_plane_strain;
+};
+
 /// A model that consists of numbers.
 template <class Model>
-std::optional<tasks::MaterialModel> read_model(JsonReader& reader)
+std::optional<tasks::MaterialModel> read_model(JsonReader& reader, const Surroundings& around)
 {
   const std::size_t n_problems = reader.document().problems.size();
   Model model{};
   read_parameters(reader, model);
   if (reader.document().problems.size() > n_problems) return std::nullopt;
-  if constexpr (requires { model.check(); }) {
-    try {
-      model.check();
-    } catch (const components::BadParameter& bad) {
-      reader.add_problem(bad.key, bad.found, "expected " + bad.expected);
-      return std::nullopt;
-    }
+  try {
+    if constexpr (requires { model.check(); }) model.check();
+    if constexpr (requires { model.fill(around.density); }) model.fill(around.density);
+    if constexpr (requires { model.choose_strength(true); }) model.choose_strength(around.in_plane_strain);
+  } catch (const components::BadParameter& bad) {
+    reader.add_problem(bad.key, bad.found, "expected " + bad.expected);
+    return std::nullopt;
   }
   return model;
 }
 
 template <>
-std::optional<tasks::MaterialModel> read_model<components::TabularCap>(JsonReader& reader)
+std::optional<tasks::MaterialModel> read_model<components::TabularCap>(JsonReader& reader, const Surroundings&)
 {
   return read_tabular_cap(reader);
 }
 
 /// Reads the model among those of a variant whose type it is.
 template <class... Model>
-std::optional<tasks::MaterialModel> read_model(const std::string& type, JsonReader& reader,
+std::optional<tasks::MaterialModel> read_model(const std::string& type, JsonReader& reader, const Surroundings& around,
                                                const std::variant<Model...>*)
 {
   std::optional<tasks::MaterialModel> model;
-  ((type == Model::type ? void(model = read_model<Model>(reader)) : void()), ...);
+  ((type == Model::type ? void(model = read_model<Model>(reader, around)) : void()), ...);
   return model;
 }
 
 }  // namespace
 
-std::optional<tasks::SceneMaterial> read_material(const std::string& name, JsonReader reader)
+std::optional<tasks::SceneMaterial> read_material(const std::string& name, JsonReader reader, bool in_plane_strain)
 {
   reader.expect_numbers_to_multiply();
   const std::string type = reader.type();
   if (type.empty()) return std::nullopt;
   const double density = reader.number("density");
-  const auto model = read_model(type, reader, static_cast<const tasks::MaterialModel*>(nullptr));
+  const auto model =
+      read_model(type, reader, {density, in_plane_strain}, static_cast<const tasks::MaterialModel*>(nullptr));
   std::optional<int> particles_per_axis;
   if (reader.has("particles_per_axis")) particles_per_axis = reader.whole_number("particles_per_axis");
   reader.finish();

@@ -11,8 +11,10 @@
 namespace tamp::tools
 {
 
-/// Reads one material, tables and all. Empty if there is a problem, which the reader's document then knows.
-std::optional<tasks::SceneMaterial> read_material(const std::string& name, JsonReader reader);
+/// Reads one material, tables and all. Empty if there is a problem, which the reader's document then knows. Strength
+/// that depends on the kind of a scene is that of plane strain, or else of triaxial compression.
+std::optional<tasks::SceneMaterial> read_material(const std::string& name, JsonReader reader,
+                                                  bool in_plane_strain = false);
 
 /// A material that may be used, and its JSON with every default filled in and paths absolute.
 struct CheckedMaterial {
