@@ -15,6 +15,7 @@
 #include "tasks/energy_ledger.hpp"
 #include "tasks/occurrences.hpp"
 #include "tasks/rigid_body.hpp"
+#include "tasks/step_records.hpp"
 #include "tasks/step_totals.hpp"
 
 /// Every field of the method, by where it lives. SI units, tension positive unless the name says otherwise; in plane
@@ -158,8 +159,9 @@ inline const runtime::ReductionLabel<RigidCouplings, "rigid couplings"> rigid_co
 
 /// Since the start.
 inline const runtime::GlobalLabel<EnergyLedger, "energy ledger"> energy_ledger;
-/// The longest next step that is stable, before the multiplier [s].
-inline const runtime::GlobalLabel<double, "longest step"> longest_step;
+inline const runtime::GlobalLabel<StepBound, "longest step"> longest_step;
+/// What set the steps since the start.
+inline const runtime::GlobalLabel<StepRecords, "step records"> step_records;
 /// Tries of steps that were refused, since the start.
 inline const runtime::GlobalLabel<Occurrences, "refused steps"> refused_steps;
 

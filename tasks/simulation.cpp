@@ -51,7 +51,8 @@ class SimulationOf : public Simulation
     make_rigid_bodies(particles);
     warehouse().global_state(refused_steps) = {};
     warehouse().global_state(monitor_records) = {};
-    warehouse().global_state(longest_step) = initial_stable_step(method_, particles);
+    warehouse().global_state(tasks::step_records) = {};
+    warehouse().global_state(longest_step) = {initial_stable_step(method_, particles), {}};
     warehouse().global_state(energy_ledger).elastic = particles.stored_energy();
     forecast_bytes_ =
         static_cast<std::size_t>(runtime::forecast_bytes(engine_->graphs(), n_particles, communicator.size()));
@@ -123,6 +124,13 @@ void Simulation::note_refusal()
   warehouse().global_state(refused_steps).add(n_steps(), time(), place);
 }
 
+/// The last step, and the bound that it had to keep within.
+void Simulation::note_step(const StepBound& bound, bool is_redone)
+{
+  const StepCause cause = cause_of(last_step_size(), scene_.time, bound, n_steps() == 1, is_redone);
+  warehouse().global_state(tasks::step_records).add(cause, {n_steps(), time(), last_step_size(), bound.setter});
+}
+
 void Simulation::sample_state()
 {
   if (!scene_.has_deformable()) return;
@@ -165,12 +173,15 @@ void Simulation::sample_contact(double step_size)
 void Simulation::advance(double end)
 {
   try {
+    const StepBound bound = warehouse().global_state(longest_step);
     double size = std::min(next_step_size(), end - time());
     if (scene_.limits.samples_after(n_steps() + 1)) sample_contact(size);
-    for (int n_tries = 1; !engine_->advance(size, end); ++n_tries) {
+    int n_tries = 1;
+    for (; !engine_->advance(size, end); ++n_tries) {
       note_refusal();
       size = shorter_step(size, n_tries);
     }
+    note_step(bound, n_tries > 1);
     if (scene_.limits.samples_after(n_steps())) sample_state();
   } catch (const SimulationError&) {
     throw;

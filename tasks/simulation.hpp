@@ -14,6 +14,7 @@
 #include "tasks/monitors.hpp"
 #include "tasks/report/report.hpp"
 #include "tasks/scene.hpp"
+#include "tasks/step_records.hpp"
 #include "tasks/step_totals.hpp"
 
 namespace tamp::tasks
@@ -70,7 +71,7 @@ class Simulation
   double time() const { return engine_->progress().time; }
   double last_step_size() const { return engine_->progress().step_size; }
   /// The longest next step that is stable, before the multiplier [s].
-  double stable_step() const { return warehouse().global_state(longest_step); }
+  double stable_step() const { return warehouse().global_state(longest_step).size; }
   const EnergyLedger& energies() const { return warehouse().global_state(energy_ledger); }
   /// Stress updates of all materials since the start.
   const components::UpdateCounts& updates() const { return warehouse().total(step_totals).updates; }
@@ -79,6 +80,8 @@ class Simulation
   /// Since the start.
   const LostParticles& lost() const { return warehouse().total(lost_particles); }
 
+  /// What set the steps since the start.
+  const StepRecords& step_records() const { return warehouse().global_state(tasks::step_records); }
   /// Tries of steps that were refused since the start.
   const Occurrences& refused() const { return warehouse().global_state(refused_steps); }
 
@@ -130,6 +133,7 @@ class Simulation
   double next_step_size() const;
   double shorter_step(double refused_size, int n_tries) const;
   void note_refusal();
+  void note_step(const StepBound& bound, bool is_redone);
   void sample_state();
   /// The contact of the next step, as it will be.
   void sample_contact(double step_size);

@@ -41,6 +41,27 @@ struct FailedUpdate : ParticlePlace {
   std::string reason(const components::MaterialModel& model) const;
 };
 
+/// A deformable particle and its own bound on the next step, at the end of this one; its place is that at the start.
+struct StepSetter : ParticlePlace {
+  double bound = std::numeric_limits<double>::infinity();  ///< s
+  double volume_ratio = 0;                                 ///< its volume over that at its material's density
+  double pressure = 0;                                     ///< Pa, compression positive
+  double wave_speed = 0;                                   ///< of dilatational waves [m/s]
+
+  /// By the bound; of equal ones the lowest id comes first.
+  bool operator<(const StepSetter& other) const
+  {
+    return bound < other.bound || (bound == other.bound && ParticlePlace::operator<(other));
+  }
+};
+
+/// The longest next step that is stable, before the multiplier.
+struct StepBound {
+  double size = std::numeric_limits<double>::infinity();  ///< s
+  /// The particle whose bound it is; none where that is of contact, of a rigid body, or of bodies at the start.
+  StepSetter setter;
+};
+
 /// Sums and bounds over all particles and nodes of one step.
 struct StepTotals {
   /// The longest next step that is stable, before the multiplier [s].
@@ -63,6 +84,10 @@ struct StepTotals {
   FailedUpdate failed;
   /// That with the lowest id; a step with one is refused.
   BadMotion bad_motion;
+  /// Of all deformable particles that with the least bound on the next step.
+  StepSetter setter;
+
+  StepBound next_bound() const { return {stable_step, setter.bound == stable_step ? setter : StepSetter{}}; }
 
   static constexpr auto fields = std::tuple{runtime::Least{&StepTotals::stable_step},
                                             runtime::Greatest{&StepTotals::greatest_wave_speed},
@@ -74,7 +99,8 @@ struct StepTotals {
                                             &StepTotals::stress_work_at_end,
                                             &StepTotals::updates,
                                             runtime::Least{&StepTotals::failed},
-                                            runtime::Least{&StepTotals::bad_motion}};
+                                            runtime::Least{&StepTotals::bad_motion},
+                                            runtime::Least{&StepTotals::setter}};
 };
 
 /// Work of body forces in one step [J].

@@ -105,6 +105,7 @@ runtime::HostData host_data(const Method<D>& method)
                           &forces_taken_at,
                           &energy_ledger,
                           &longest_step,
+                          &step_records,
                           &refused_steps,
                           &monitor_records},
                          {}};

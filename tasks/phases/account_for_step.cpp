@@ -27,7 +27,7 @@ runtime::TaskList account_for_step(const Method<D>& method)
                 ledger = data[energy_ledger.previous()];
                 ledger.add(step, data[grid_totals], data[body_force_work], data[load_totals],
                            method.deforms_by_other_velocities());
-                data[longest_step] = step.stable_step;
+                data[longest_step] = step.next_bound();
               })};
 }
 

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <optional>
 #include <span>
 
@@ -61,9 +62,12 @@ MaterialBatch<D, typename Model::State> batch_at(std::size_t first, const Data& 
 
 using Account = components::StressAccount<batch_size>;
 
-/// Adds up what `n` particles add, in their order, whatever lanes it has been worked out in.
-void add_to(StepTotals& totals, const Account& account, std::size_t n)
+/// Adds up what `n` particles add, in their order, whatever lanes it has been worked out in. Whether one of them bounds
+/// the next step at least as much as the setter so far.
+bool add_to(StepTotals& totals, const Account& account, std::size_t n)
 {
+  const double least_before = totals.setter.bound;
+  bool is_least = false;
   for (std::size_t k = 0; k < n; ++k) {
     totals.elastic += account.elastic[k];
     totals.plastic += account.plastic[k];
@@ -73,12 +77,41 @@ void add_to(StepTotals& totals, const Account& account, std::size_t n)
     const double stable_step = account.stable_step[k];
     totals.stable_step = stable_step >= totals.stable_step ? totals.stable_step : stable_step;
     totals.greatest_wave_speed = std::max(totals.greatest_wave_speed, account.wave_speed[k]);
+    is_least = is_least || stable_step <= least_before;
   }
+  return is_least;
+}
+
+/// The particle of a batch that bounds the next step most; of equal ones that with the lowest id.
+std::size_t setter_among(std::span<const std::int64_t> id, const Account& account)
+{
+  std::size_t setter = 0;
+  for (std::size_t k = 1; k < id.size(); ++k) {
+    const double bound = account.stable_step[k], least = account.stable_step[setter];
+    if (bound < least || (bound == least && id[k] < id[setter])) setter = k;
+  }
+  return setter;
+}
+
+/// The setter among the `n` particles from `first`.
+template <int D, class Data>
+StepSetter setter_of_batch(const Method<D>& method, int material, const Data& data, std::size_t first, std::size_t n,
+                           const Account& account)
+{
+  const auto id = data[particle::id.previous()];
+  const std::size_t k = setter_among(id.subspan(first, n), account), p = first + k;
+  const double density = method.materials[static_cast<std::size_t>(material)].density;
+  StepSetter setter{place_of<D>(id[p], material, data[particle::position<D>.previous()][p])};
+  setter.bound = account.stable_step[k];
+  setter.volume_ratio = data[particle::volume][p] * density / data[particle::mass.previous()][p];
+  setter.pressure = components::invariants(data[particle::stress<D>][p]).pressure;
+  setter.wave_speed = account.wave_speed[k];
+  return setter;
 }
 
 /// One batch after the material has answered.
 template <int D, class Data>
-void account(const Method<D>& method, double dt, const Data& data, std::size_t first,
+void account(const Method<D>& method, const TaskContext& at, const Data& data, std::size_t first,
              std::span<const SymmetricTensor<D>> old_stress, const BatchAnswer& answer)
 {
   const std::size_t n = old_stress.size();
@@ -97,9 +130,11 @@ void account(const Method<D>& method, double dt, const Data& data, std::size_t f
       .shear_modulus = std::span(answer.shear_modulus).first(n),
       .plastic_work = std::span(answer.plastic_work).first(n)};
   Account account;
-  components::account_for_stress({method.cell_size, method.time_step_rule, method.viscosity, method.amplification}, dt,
-                                 batch, of_batch(data[particle::viscous_pressure]), account);
-  add_to(data[step_totals], account, n);
+  components::account_for_stress({method.cell_size, method.time_step_rule, method.viscosity, method.amplification},
+                                 at.step.size, batch, of_batch(data[particle::viscous_pressure]), account);
+  StepTotals& totals = data[step_totals];
+  if (!add_to(totals, account, n)) return;
+  totals.setter = std::min(totals.setter, setter_of_batch(method, at.group, data, first, n, account));
 }
 
 /// A particle that could not follow the motion, see `leave_undeformed`, or has none; where it was before.
@@ -192,7 +227,7 @@ void update_batches(const Method<D>& method, const Model& model, const TaskConte
           std::min(totals.failed, failed_update<D>(model, at.group, first + failure->particle, failure->fault, data));
     }
     check_finite(method, at.group, data, first, n);
-    account(method, at.step.size, data, first, std::span<const SymmetricTensor<D>>(old_stress.data(), n), answer);
+    account(method, at, data, first, std::span<const SymmetricTensor<D>>(old_stress.data(), n), answer);
     forget_gradients<D>(data, first, batch.bulk_modulus);
   }
 }

@@ -66,6 +66,7 @@ TEST_CASE("a step that goes wrong is taken in shorter ones")
   CHECK(refused.first.position[0] == Approx(0.6).margin(0.1));
   CHECK(simulation->n_steps() == 1);
   CHECK(simulation->last_step_size() == allowed * std::pow(0.5, static_cast<double>(refused.count)));
+  CHECK(simulation->step_records().count(StepCause::redone) == 1);
   CHECK(simulation->updates().failures == 0);
 }
 
@@ -111,6 +112,8 @@ TEST_CASE("steps are refused and redone with the same bits on any ranks and thre
   CHECK(simulation->time() == alone->time());
   CHECK(simulation->refused().count == alone->refused().count);
   CHECK(simulation->refused().first.particle == alone->refused().first.particle);
+  CHECK(simulation->step_records().by_cause == alone->step_records().by_cause);
+  CHECK(simulation->step_records().last.setter.particle == alone->step_records().last.setter.particle);
   CHECK(simulation->energies().plastic == alone->energies().plastic);
 }
 
