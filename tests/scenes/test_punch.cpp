@@ -145,6 +145,7 @@ TEST_CASE("a run's folder holds what scripts rely on", "[scenes]")
                           "particles",
                           "steps",
                           "simulated_time_s",
+                          "time_step",
                           "wall_s",
                           "wall_per_step_s",
                           "particle_updates_per_s",

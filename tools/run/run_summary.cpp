@@ -9,6 +9,7 @@
 
 #include "tools/advice/penetration.hpp"
 #include "tools/run/monitors.hpp"
+#include "tools/run/step_summary.hpp"
 #include "tools/scene/bodies/symmetry.hpp"
 #include "tools/system/version.hpp"
 
@@ -212,6 +213,7 @@ Json run_summary(tasks::Simulation& simulation, const RunHistory& history, const
           {"steps", simulation.n_steps()},
           {"restarted_at_step", outcome.restarted_at < 0 ? Json(nullptr) : Json(outcome.restarted_at)},
           {"simulated_time_s", simulation.time()},
+          {"time_step", step_summary(simulation)},
           {"wall_s", outcome.wall},
           {"wall_per_step_s", outcome.wall_per_step},
           {"wall_parts_s",
