@@ -77,7 +77,10 @@ double shear_by_bulk(const BoltonSand& sand)
 class BoltonResponse
 {
  public:
-  explicit BoltonResponse(const BoltonSand& sand) : sand_(sand), shear_by_bulk_(shear_by_bulk(sand)) {}
+  explicit BoltonResponse(const BoltonSand& sand)
+      : sand_(sand), shear_by_bulk_(shear_by_bulk(sand)), crushing_pressure_(sand.crushing_pressure())
+  {
+  }
 
   /// The strain's secant modulus gives the shear modulus of the step.
   template <int D>
@@ -114,9 +117,11 @@ class BoltonResponse
     return {bulk, shear_by_bulk_ * bulk};
   }
 
+  Mask<Lanes> is_beyond(const Lanes& pressure) const { return pressure > crushing_pressure_; }
+
  private:
   const BoltonSand& sand_;
-  double shear_by_bulk_;
+  double shear_by_bulk_, crushing_pressure_;
 };
 
 constexpr Range void_ratios{.lower = 0, .upper = 2.97, .holds_lower = false, .holds_upper = false};
@@ -207,6 +212,16 @@ void BoltonSand::choose_strength(bool in_plane_strain)
 {
   if (std::isfinite(strength_per_index)) return;
   strength_per_index = in_plane_strain ? strength_in_plane_strain : strength_in_triaxial_compression;
+}
+
+double BoltonSand::crushing_pressure() const
+{
+  return 1e3 * portable::exp(Q - R);
+}
+
+Tested BoltonSand::tested(const SoilState& /*state*/, double pressure) const
+{
+  return pressure > crushing_pressure() ? Tested::beyond : Tested::within;
 }
 
 double BoltonSand::void_ratio(const SoilState& state) const

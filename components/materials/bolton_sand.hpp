@@ -60,6 +60,11 @@ struct BoltonSand {
   /// Chooses the strength of the scene's kind where none was given.
   void choose_strength(bool in_plane_strain);
 
+  /// The pressure beyond which not even the densest sand dilates, as its grains crush [Pa].
+  double crushing_pressure() const;
+  /// Beyond that pressure nothing here holds.
+  Tested tested(const SoilState& state, double pressure) const;
+
   double void_ratio(const SoilState& state) const;
   /// I_R at a pressure [Pa], compression positive, without a bound.
   double dilatancy_index(const SoilState& state, double pressure) const;

@@ -56,6 +56,11 @@ concept Soil = requires
   Model::is_soil;
 };
 
+/// Where a state in compression lies beside those that a model was made for: `looser` has less plastic volumetric
+/// strain than any tested sand, as what has dilated, `beyond` is past the largest strain or pressure. In tension sand
+/// has next to no stress, and lies `within`.
+enum class Tested { within, looser, beyond };
+
 /// Elastic moduli [Pa], of one state or of as many as there are lanes.
 template <class Number>
 struct ModuliOf {
@@ -98,7 +103,7 @@ struct UpdateCounts {
   std::size_t split_updates = 0;        ///< that took more than one substep
   std::size_t limited_substeps = 0;     ///< accepted with an estimated error beyond the tolerance
   std::size_t modulus_evaluations = 0;  ///< of the elastic model
-  std::size_t with_range = 0;           ///< updates by an elastic model that is made for a range of strains
+  std::size_t with_range = 0;           ///< updates by a model that is made for a range of strains or pressures
   std::size_t extrapolated = 0;         ///< of those, the ones that ended outside that range
   std::size_t pulled_out = 0;           ///< of those, the ones in tension, where sand has next to no stress
   std::size_t looser = 0;               ///< of the others, the ones looser than any test

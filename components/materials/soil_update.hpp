@@ -15,7 +15,8 @@
 ///
 ///  - `trial<D>(old stress, strain increment, state)` gives a SoilTrial;
 ///  - `returned<D>(trial, state)` gives a SoilReturn;
-///  - `stiffness(state, pressure)`, moduli for waves at the end of the step, pressure compression positive.
+///  - `stiffness(state, pressure)`, moduli for waves at the end of the step, pressure compression positive;
+///  - where it is made for a range, `is_beyond(pressure)`.
 namespace tamp::components
 {
 
@@ -93,8 +94,10 @@ class SoilBatch
         state.plastic_volumetric + select(finite, gaps.compaction - now.expansion, Lanes(0.0)),
         state.equivalent_plastic + select(finite, now.equivalent, Lanes(0.0))};
     set_state(i, next);
-    set_moduli(i, response_.stiffness(next, trace(stress) / -3.0), parts || gaps.still);
+    const Lanes pressure = trace(stress) / -3.0;
+    set_moduli(i, response_.stiffness(next, pressure), parts || gaps.still);
     count_lanes(i, finite, gaps.still);
+    if constexpr (requires { response_.is_beyond(pressure); }) count_range(i, response_.is_beyond(pressure));
   }
 
   /// Takes all stress from soil that was torn in this step, and keeps its gap. Its plastic work is what it had stored,
@@ -149,6 +152,13 @@ class SoilBatch
         ++(apart[l] ? counts_.apart : counts_.substeps);
       }
     }
+  }
+
+  void count_range(std::size_t i, const Mask<Lanes>& is_beyond)
+  {
+    const std::size_t n = std::min(n_lanes, batch_.stress.size() - i);
+    counts_.with_range += n;
+    counts_.extrapolated += count(is_beyond && first_lanes(n));
   }
 
   Response response_;

@@ -26,11 +26,6 @@ namespace tamp::components
 /// dp = K d(elastic), as published, which loses the pressure that goes with a change of plastic strain.
 enum class ElasticUpdate { rate, state };
 
-/// Where a state in compression lies beside the strains that the modulus was made for: `looser` has less plastic
-/// volumetric strain than any of them, as sand that has dilated, `beyond` is past the largest. In tension sand has next
-/// to no stress, and lies `within`.
-enum class Tested { within, looser, beyond };
-
 struct CapState {
   double elastic_volumetric = 0;  ///< compression positive
   double plastic_volumetric = 0;  ///< compression positive

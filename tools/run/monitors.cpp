@@ -39,9 +39,9 @@ std::vector<Monitor> of_steps(const tasks::Simulation& simulation)
        "smaller /time/multiplier makes the strains of a step smaller"},
       {"out_of_range", number(tasks::n_out_of_range(updates)), tasks::out_of_range(updates), limits.out_of_range,
        seen.out_of_range,
-       "of the updates ended in compression beyond the largest strains that the modulus was made for, where it is a "
-       "guess: results rest on that as far as such sand carries load; measurements to larger strains would settle "
-       "it"}};
+       "of the updates ended in compression beyond the largest strains that the modulus was made for, or beyond the "
+       "pressure at which grains crush that do not here: a guess, on which results rest as far as such sand carries "
+       "load; measurements to larger strains would settle it"}};
 }
 
 std::vector<Monitor> of_balances(const tasks::Simulation& simulation, const RunHistory& history)

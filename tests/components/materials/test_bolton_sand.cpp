@@ -174,6 +174,20 @@ TEST_CASE("sand sheared at constant volume ends at the pressure at which its den
   }
 }
 
+TEST_CASE("sand under more pressure than its grains bear is counted as out of range")
+{
+  const BoltonSand material = sand(0.9);
+  CHECK(material.crushing_pressure() == Approx(1e3 * std::exp(9.0)));
+  for (const double part : {0.99, 1.01}) {
+    const double pressure = part * material.crushing_pressure();
+    Sample sample = confined(pressure);
+    sample.strain(material, SymmetricTensor<3>::Zero());
+    CHECK(sample.counts.with_range == 1);
+    CHECK(sample.counts.extrapolated == (part > 1 ? 1 : 0));
+    CHECK(material.tested(sample.state, pressure) == (part > 1 ? Tested::beyond : Tested::within));
+  }
+}
+
 TEST_CASE("a scene's kind gives the strength of sand that says none, and grains and density its void ratio")
 {
   BoltonSand material = sand(0.5);
