@@ -66,8 +66,9 @@ struct SceneBody {
   std::optional<BodyDrive> drive{};
   /// Followed in reports.
   std::optional<BodyAxis> axis{};
-  /// Sand that has settled in its place: see SettledSand.
+  /// Ground that has settled in its place, with this stress across over that along the vertical: see SettledGround.
   bool initial_stress = false;
+  std::optional<double> k0{};
   /// Only on a body that is not rigid.
   std::optional<BodyPressure> pressure{};
   /// The functions of its problem, if it has one: they say more of its start than the above, and what acts on it. A

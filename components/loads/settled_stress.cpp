@@ -6,13 +6,28 @@
 namespace tamp::components
 {
 
-Eigen::VectorXd continuum_stress(const LayerColumn& column, double density, const LinearForce& force)
+Eigen::VectorXd continuum_stress(const LayerColumn& column, const LinearForce& force)
 {
-  const Eigen::Map<const Eigen::VectorXd> x(column.layers.data(), static_cast<Eigen::Index>(column.layers.size()));
-  const Eigen::VectorXd integral = x.unaryExpr([&](double at) { return force.integral(at); });
-  const bool between_walls = column.lower_wall && column.upper_wall;
-  const double at_end = between_walls ? integral.mean() : force.integral(column.free_end());
-  return density * (at_end - integral.array()).matrix();
+  const auto n = static_cast<Eigen::Index>(column.layers.size());
+  const Eigen::VectorXd integral = Eigen::Map<const Eigen::VectorXd>(column.layers.data(), n).unaryExpr([&](double at) {
+    return force.integral(at);
+  });
+  const auto density = [&](Eigen::Index l) { return column.density[static_cast<std::size_t>(l)]; };
+  const bool between_walls = column.lower_wall && column.upper_wall, hangs = column.upper_wall && !column.lower_wall;
+  Eigen::VectorXd stress(n);
+  // From the free end on; `end` is where the layers of this density begin, and `carried` the stress there.
+  double end = between_walls ? integral.mean() : force.integral(column.free_end()), carried = 0;
+  for (Eigen::Index i = 0; i < n; ++i) {
+    const Eigen::Index l = hangs ? i : n - 1 - i, before = hangs ? l - 1 : l + 1;
+    if (i > 0 && density(l) != density(before)) {
+      const double edge =
+          0.5 * (column.layers[static_cast<std::size_t>(l)] + column.layers[static_cast<std::size_t>(before)]);
+      carried += density(before) * (end - force.integral(edge));
+      end = force.integral(edge);
+    }
+    stress[l] = carried + density(l) * (end - integral[l]);
+  }
+  return stress;
 }
 
 namespace
@@ -50,7 +65,7 @@ LayerWeights layer_weights(const Shape& shape, const LayerColumn& column)
 
 }  // namespace
 
-std::vector<double> settled_stress(Interpolator interpolator, int n_per_axis, const LayerColumn& column, double density,
+std::vector<double> settled_stress(Interpolator interpolator, int n_per_axis, const LayerColumn& column,
                                    const LinearForce& force)
 {
   LayerWeights weights =
@@ -64,7 +79,12 @@ std::vector<double> settled_stress(Interpolator interpolator, int n_per_axis, co
   if (column.lower_wall) fold(0, 2);
   if (column.upper_wall) fold(last, last - 2);
 
-  // sum sigma dS = rho b sum S at each node that is accelerated; a node that an edge touches to round-off is not.
+  // As parts of the first layer's mass.
+  const double density = column.density.front();
+  const Eigen::Map<const Eigen::VectorXd> densities(column.density.data(), weight.cols());
+  const Eigen::MatrixXd mass = weight * (densities / density).asDiagonal();
+
+  // sum sigma dS = b sum rho S at each node that is accelerated; a node that an edge touches to round-off is not.
   constexpr double least_weight = 1e-24;
   std::vector<Eigen::Index> free;
   for (Eigen::Index i = column.lower_wall ? 2 : 0; i <= (column.upper_wall ? last - 2 : last); ++i) {
@@ -74,11 +94,11 @@ std::vector<double> settled_stress(Interpolator interpolator, int n_per_axis, co
   Eigen::VectorXd load(static_cast<Eigen::Index>(free.size()));
   for (std::size_t i = 0; i < free.size(); ++i) {
     const double x = column.nodes.origin[0] + static_cast<double>(free[i]) * column.nodes.cell_size;
-    load[static_cast<Eigen::Index>(i)] = density * force.at(x) * weight.row(free[i]).sum();
+    load[static_cast<Eigen::Index>(i)] = density * force.at(x) * mass.row(free[i]).sum();
   }
 
   const Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> least_norm(balance);
-  Eigen::VectorXd stress = continuum_stress(column, density, force);
+  Eigen::VectorXd stress = continuum_stress(column, force);
   // The second pass takes off the round-off of the first.
   for (int pass = 0; pass < 2; ++pass) stress += least_norm.solve(load - balance * stress);
   return {stress.begin(), stress.end()};

@@ -20,6 +20,8 @@ struct LayerColumn {
   /// Middles of the layers [m], ascending and `spacing` apart. They reach to the walls there are.
   std::vector<double> layers;
   double spacing;
+  /// Of each layer [kg/m^3]; between two walls that of all.
+  std::vector<double> density;
 
   /// The end that is no wall [m]; of a column between walls, its upper end.
   double free_end() const
@@ -39,14 +41,14 @@ struct LinearForce {
 
 /// The stress of the column that solves sigma' + rho b = 0 without a grid: from zero at the free end, or, between two
 /// walls, with a mean of zero.
-Eigen::VectorXd continuum_stress(const LayerColumn& column, double density, const LinearForce& force);
+Eigen::VectorXd continuum_stress(const LayerColumn& column, const LinearForce& force);
 
 /// Stress of each layer along the column's axis [Pa, tension positive] under which every free node is at rest to
-/// round-off: the internal force of the layers balances the body force at the node's place on the node's mass, mirror
-/// images counted. Of all such stresses it is the one nearest to that of the continuum. Where bodies fill whole walls
-/// of a box, layers of three such columns across each other are at rest in the plane and in space too, as weights are
-/// products of weights along the axes.
-std::vector<double> settled_stress(Interpolator interpolator, int n_per_axis, const LayerColumn& column, double density,
+/// round-off: the internal force of all layers together balances the body force at the node's place on the node's mass,
+/// mirror images counted. Of all such stresses it is the one nearest to that of the continuum. Where bodies fill whole
+/// walls of a box, layers of three such columns across each other are at rest in the plane and in space too, as weights
+/// are products of weights along the axes.
+std::vector<double> settled_stress(Interpolator interpolator, int n_per_axis, const LayerColumn& column,
                                    const LinearForce& force);
 
 }  // namespace tamp::components

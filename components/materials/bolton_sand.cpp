@@ -187,7 +187,7 @@ std::span<const StateExtreme, 3> BoltonSand::extremes()
 
 TangentModuli BoltonSand::initial_moduli() const
 {
-  const double bulk = PressureLaw<double>(*this, initial_void_ratio).bulk_modulus(0);
+  const double bulk = bulk_modulus({}, 0);
   return {bulk, shear_by_bulk(*this) * bulk};
 }
 
@@ -212,6 +212,20 @@ void BoltonSand::choose_strength(bool in_plane_strain)
 {
   if (std::isfinite(strength_per_index)) return;
   strength_per_index = in_plane_strain ? strength_in_plane_strain : strength_in_triaxial_compression;
+}
+
+SoilState BoltonSand::settled_state(const SettledStress& settled) const
+{
+  const double pressure = invariants(settled.stress).pressure;
+  check_tension(pressure, 0);
+  const double index = std::clamp(dilatancy_index({}, pressure), 0.0, most_index);
+  check_is_borne(settled, portable::sin(degree * (critical_friction_angle + strength_per_index * index)), 0);
+  return {};
+}
+
+double BoltonSand::bulk_modulus(const SoilState& state, double pressure) const
+{
+  return PressureLaw<double>(*this, void_ratio(state)).bulk_modulus(pressure);
 }
 
 double BoltonSand::crushing_pressure() const

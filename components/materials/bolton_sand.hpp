@@ -5,6 +5,7 @@
 #include <string_view>
 
 #include "components/materials/material_batch.hpp"
+#include "components/materials/settled_start.hpp"
 #include "components/materials/soil_state.hpp"
 #include "components/parameter.hpp"
 
@@ -59,6 +60,11 @@ struct BoltonSand {
   void fill(double density);
   /// Chooses the strength of the scene's kind where none was given.
   void choose_strength(bool in_plane_strain);
+
+  /// Throws BadValue for a stress beyond the strength.
+  State settled_state(const SettledStress& settled) const;
+  /// Tangent modulus [Pa].
+  double bulk_modulus(const SoilState& state, double pressure) const;
 
   /// The pressure beyond which not even the densest sand dilates, as its grains crush [Pa].
   double crushing_pressure() const;

@@ -38,6 +38,7 @@ class ConeResponse
   {
   }
 
+  double tension() const { return tension_; }
   double apex_tension() const { return alpha_ > 0 ? k_ / alpha_ : std::numeric_limits<double>::infinity(); }
 
   template <int D>
@@ -65,9 +66,13 @@ class ConeResponse
     return {soil_.bulk_modulus, soil_.shear_modulus};
   }
 
- private:
-  Lanes strength(const Lanes& pressure) const { return k_ + alpha_ * pressure; }
+  template <class Number>
+  Number strength(const Number& pressure) const
+  {
+    return k_ + alpha_ * pressure;
+  }
 
+ private:
   /// `tau` is the trial's sqrt(J2).
   ConeReturn to_cone(const Lanes& trial_pressure, const Lanes& tau, const Lanes& beta) const
   {
@@ -131,5 +136,14 @@ BatchFailure update(const DruckerPrager& soil, const MaterialBatch<D, SoilState>
 
 template BatchFailure update<2>(const DruckerPrager&, const MaterialBatch<2, SoilState>&, UpdateCounts&);
 template BatchFailure update<3>(const DruckerPrager&, const MaterialBatch<3, SoilState>&, UpdateCounts&);
+
+SoilState DruckerPrager::settled_state(const SettledStress& settled) const
+{
+  const ConeResponse cone(*this);
+  const Invariants now = invariants(settled.stress);
+  check_tension(now.pressure, cone.tension());
+  check_is_borne(now, cone.strength(now.pressure));
+  return {};
+}
 
 }  // namespace tamp::components

@@ -5,6 +5,7 @@
 #include <string_view>
 
 #include "components/materials/material_batch.hpp"
+#include "components/materials/settled_start.hpp"
 #include "components/materials/soil_state.hpp"
 #include "components/parameter.hpp"
 
@@ -53,6 +54,10 @@ struct DruckerPrager {
   double apex_tension() const;
   /// Throws BadParameter where the numbers do not go together.
   void check() const;
+
+  double poisson_ratio() const { return initial_moduli().poisson_ratio(); }
+  /// Throws BadValue for a stress outside of the cone, or in more tension than the cut-off.
+  State settled_state(const SettledStress& settled) const;
 };
 
 /// One return to the cone, the cut-off, or where they meet: exact, however long the increment, where a straight path

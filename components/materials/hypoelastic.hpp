@@ -4,6 +4,7 @@
 #include <string_view>
 
 #include "components/materials/material_batch.hpp"
+#include "components/materials/settled_start.hpp"
 #include "components/parameter.hpp"
 
 namespace tamp::components
@@ -19,6 +20,9 @@ struct Hypoelastic {
   double shear_modulus;
 
   TangentModuli initial_moduli() const { return {bulk_modulus, shear_modulus}; }
+  double poisson_ratio() const { return initial_moduli().poisson_ratio(); }
+  /// It bears any stress.
+  NoState settled_state(const SettledStress&) const { return {}; }
 };
 
 constexpr std::array<Parameter<Hypoelastic>, 2> Hypoelastic::parameters()

@@ -21,7 +21,8 @@
 ///  - where it may lose all stiffness, `may_separate()`, and where it then keeps gaps, see Gaps, `keeps_gaps()`;
 ///  - where it is soil, `is_soil`;
 ///  - with a state, `state_name`, and `columns()` and `extremes()`, what output shows of it, see state_columns.hpp;
-///  - where the stress follows from the deformation gradient alone, `stored_energy<D>(deformation_gradient)`.
+///  - where the stress follows from the deformation gradient alone, `stored_energy<D>(deformation_gradient)`;
+///  - where bodies may start settled, `poisson_ratio()` and `settled_state(stress)`, see settled_start.hpp.
 ///
 /// A model stands in the list of material_model.hpp; the tasks and tools loop over that.
 namespace tamp::components
@@ -68,6 +69,10 @@ struct ModuliOf {
   Number shear_modulus;
 
   Number youngs_modulus() const { return 9 * bulk_modulus * shear_modulus / (3 * bulk_modulus + shear_modulus); }
+  Number poisson_ratio() const
+  {
+    return (3 * bulk_modulus - 2 * shear_modulus) / (2 * (3 * bulk_modulus + shear_modulus));
+  }
 };
 using TangentModuli = ModuliOf<double>;
 

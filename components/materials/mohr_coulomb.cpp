@@ -76,6 +76,14 @@ void MohrCoulomb::check() const
   check_constant_soil(*this);
 }
 
+SoilState MohrCoulomb::settled_state(const SettledStress& settled) const
+{
+  check_tension(invariants(settled.stress).pressure, std::min(tension_cutoff, apex_tension()));
+  const double angle = in_radians(friction_angle);
+  check_is_borne(settled, portable::sin(angle), 2 * cohesion * portable::cos(angle));
+  return {};
+}
+
 template <int D>
 BatchFailure update(const MohrCoulomb& soil, const MaterialBatch<D, SoilState>& batch, UpdateCounts& counts)
 {

@@ -5,6 +5,7 @@
 #include <string_view>
 
 #include "components/materials/material_batch.hpp"
+#include "components/materials/settled_start.hpp"
 #include "components/materials/soil_state.hpp"
 #include "components/parameter.hpp"
 
@@ -48,6 +49,10 @@ struct MohrCoulomb {
   double apex_tension() const;
   /// Throws BadParameter where the numbers do not go together.
   void check() const;
+
+  double poisson_ratio() const { return initial_moduli().poisson_ratio(); }
+  /// Throws BadValue for a stress beyond the strength.
+  State settled_state(const SettledStress& settled) const;
 };
 
 /// One return to the surface, exact on each of its parts. An increment that is not finite is refused.

@@ -102,6 +102,14 @@ double TabularCap::plastic_volumetric_at_crush(double pressure) const
   return curve.x()[segment] + (pressure - curve.y()[segment]) / curve.slope_of_segment(segment);
 }
 
+CapState TabularCap::settled_state(const SettledStress& settled) const
+{
+  const Invariants now = invariants(settled.stress);
+  const double plastic = plastic_volumetric_at_crush(settled.greatest);
+  check_is_borne(now, parameters_.yield.limit(now.pressure, crush_pressure(plastic)));
+  return state_at_pressure(now.pressure, plastic);
+}
+
 namespace
 {
 

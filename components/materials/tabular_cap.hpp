@@ -10,6 +10,7 @@
 #include "components/errors.hpp"
 #include "components/materials/crush_curve.hpp"
 #include "components/materials/material_batch.hpp"
+#include "components/materials/settled_start.hpp"
 #include "components/materials/state_columns.hpp"
 #include "components/materials/yield_surface.hpp"
 #include "components/tensors.hpp"
@@ -108,6 +109,10 @@ class TabularCap
   /// The least plastic volumetric strain whose crush pressure is `pressure` (0 where less than any): what a sand has
   /// that was loaded to it.
   double plastic_volumetric_at_crush(double pressure) const;
+
+  /// That of sand which was loaded to the greatest pressure on it, and not more: it is the crush pressure at least.
+  /// Throws BadValue for a stress outside of the yield surface.
+  State settled_state(const SettledStress& settled) const;
 
  private:
   TabularCapParameters parameters_;

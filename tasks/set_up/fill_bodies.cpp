@@ -86,7 +86,7 @@ BodyParticles<D>::BodyParticles(const Scene& scene, const runtime::PatchLayout& 
 {
   std::int64_t id = 0;
   for (std::size_t b = 0; b < scene.bodies.size(); ++b) {
-    if (scene.bodies[b].initial_stress) settled_.emplace(b, SettledSand<D>(scene, scene.bodies[b]));
+    if (scene.bodies[b].initial_stress) settled_.emplace(b, SettledGround<D>(scene, scene.bodies[b]));
     Vector<D> sum = Vector<D>::Zero();
     double weight = 0;
     for (const components::Site<D>& site : particle_sites<D>(scene, scene.bodies[b])) {
@@ -226,9 +226,15 @@ void BodyParticles<D>::store(const Particles& particles, int patch, int material
       state(particle::stress<D>)[p] = start.stress;
     }
     if (!body.initial_stress) continue;
-    const auto settled = settled_.at(number).at(particles.position[p]);
-    state(particle::stress<D>)[p] = settled.stress;
-    state(particle::state<components::TabularCap>)[p] = settled.state;
+    settled_.at(number).check_at(particles.position[p]);
+    const components::SettledStress settled = settled_.at(number).at(particles.position[p]);
+    state(particle::stress<D>)[p] = settled.stress.template head<n_symmetric<D>>();
+    const auto set_state = [&]<class Model>(const Model& model) {
+      if constexpr (components::Settling<Model> && components::has_state<Model>) {
+        state(particle::state<Model>)[p] = model.settled_state(settled);
+      }
+    };
+    std::visit(set_state, scene_.materials[static_cast<std::size_t>(material)].model);
   }
   if (carried == CarriedGradient::moment) store_velocity_moments(particles, patch, material, warehouse);
 }

@@ -10,7 +10,7 @@
 #include "runtime/warehouse/warehouse.hpp"
 #include "tasks/scene.hpp"
 #include "tasks/set_up/body_sites.hpp"
-#include "tasks/set_up/settled_sand.hpp"
+#include "tasks/set_up/settled_ground.hpp"
 
 namespace tamp::tasks
 {
@@ -59,7 +59,7 @@ class BodyParticles
   /// Mean place of each body's particles.
   std::vector<Vector<D>> centres_;
   /// Those that start settled, by their place in the scene's list.
-  std::map<std::size_t, SettledSand<D>> settled_;
+  std::map<std::size_t, SettledGround<D>> settled_;
 };
 
 }  // namespace tamp::tasks

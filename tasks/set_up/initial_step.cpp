@@ -8,7 +8,7 @@
 #include "components/materials/wave_speed.hpp"
 #include "tasks/set_up/deformed_start.hpp"
 #include "tasks/set_up/initial_moduli.hpp"
-#include "tasks/set_up/settled_sand.hpp"
+#include "tasks/set_up/settled_ground.hpp"
 
 namespace tamp::tasks
 {
@@ -24,7 +24,7 @@ components::TangentModuli greatest_initial_moduli(const Scene& scene, const Scen
   if (body.functions.deformation_gradient) moduli = greatest_deformed_moduli<D>(scene, body);
   if (body.initial_stress) {
     const double ratio = moduli.shear_modulus / moduli.bulk_modulus;
-    moduli.bulk_modulus = SettledSand<D>(scene, body).greatest_bulk_modulus();
+    moduli.bulk_modulus = SettledGround<D>(scene, body).greatest_bulk_modulus();
     moduli.shear_modulus = ratio * moduli.bulk_modulus;
   }
   return moduli;

@@ -11,6 +11,7 @@
 
 #include "tasks/set_up/body_sites.hpp"
 #include "tasks/set_up/initial_moduli.hpp"
+#include "tasks/set_up/settled_ground.hpp"
 #include "tools/advice/penetration.hpp"
 #include "tools/scene/files/file_kind.hpp"
 #include "tools/scene/tables/csv_table.hpp"
@@ -113,7 +114,9 @@ void check_contact(const tasks::Scene& scene, Warnings& warnings)
   const bool are_splines =
       components::with_shape<1>(scene.interpolator, 1, [](const auto& shape) { return shape.is_spline; });
   for (std::size_t i = 0; are_splines && i < scene.contacts.size(); ++i) {
-    if (!std::holds_alternative<components::FlatterNormal>(scene.contacts[i].normal)) continue;
+    const tasks::SceneContact& contact = scene.contacts[i];
+    const bool is_flatter = std::holds_alternative<components::FlatterNormal>(contact.normal);
+    if (!is_flatter || tasks::are_strata(scene, contact.material_a, contact.material_b)) continue;
     warnings.push_back(
         fmt::format("/contact/{}/normal: with \"flatter\" and splines the sides of a body catch on what it "
                     "slides over; with \"regression\", or the flatter material's name, they do not",

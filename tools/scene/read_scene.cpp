@@ -10,6 +10,7 @@
 #include "tasks/method.hpp"
 #include "tasks/report/field_columns.hpp"
 #include "tasks/report/report.hpp"
+#include "tasks/set_up/settled_ground.hpp"
 #include "tools/scene/bodies/check_bodies.hpp"
 #include "tools/scene/bodies/read_body.hpp"
 #include "tools/scene/check_axisymmetry.hpp"
@@ -305,6 +306,7 @@ class SceneReader
     if (!grid_is_good || document_.problems.size() > n_before) return;
     check_no_overlap(scene_, root_.object("bodies"));
     check_rigid_bodies(scene_, root_.object("bodies"));
+    if (document_.problems.size() == n_before) check_settled_bodies(scene_, root_.object("bodies"));
     if (scene_.axisymmetric) check_axisymmetric_bodies(scene_, root_.object("bodies"));
     check_mirrored_bodies(scene_, root_);
   }
@@ -345,13 +347,18 @@ class SceneReader
     });
   }
 
+  /// Strata of ground touch from the start. With splines the planes of regression see a gap there, which would close.
+  bool is_flatter_usual(int a, int b) const { return scene_.is_periodic() || tasks::are_strata(scene_, a, b); }
+
   /// Pairs that are not listed slide freely, with normals like those of others.
   void add_other_contacts()
   {
     const int n = static_cast<int>(scene_.materials.size());
     for (int a = 0; a < n; ++a) {
       for (int b = a + 1; b < n; ++b) {
-        if (!is_listed(a, b)) scene_.contacts.push_back({a, b, 0, components::RegressionNormal()});
+        if (is_listed(a, b)) continue;
+        scene_.contacts.push_back({a, b, 0, components::RegressionNormal()});
+        if (is_flatter_usual(a, b)) scene_.contacts.back().normal = components::FlatterNormal();
       }
     }
   }
@@ -363,8 +370,9 @@ class SceneReader
     std::optional<int> place = reader.value_of_object("normal");
     ContactNormal normal;
     if (!place) {
+      const auto number = [&](std::size_t i) { return materials.empty() ? -1 : material_number(materials[i]); };
       const std::string_view usual =
-          scene_.is_periodic() ? components::FlatterNormal::word : components::RegressionNormal::word;
+          is_flatter_usual(number(0), number(1)) ? components::FlatterNormal::word : components::RegressionNormal::word;
       const std::string name = reader.name("normal", materials, std::string(usual));
       normal = components::OwnNormal{material_number(name)};
       const bool is_material = std::find(materials.begin(), materials.end(), name) != materials.end();

@@ -20,8 +20,9 @@ constexpr double density = 1600;
 /// Layers that fill `height` cells of a grid of 8, `n_per_cell` in each, above a wall at 0.
 LayerColumn layers_above_wall(double cell_size, int n_per_cell, double height, bool upper_wall = false)
 {
-  LayerColumn column{{Vector<1>(-cell_size), cell_size, {11}, {1}}, true, upper_wall, {}, cell_size / n_per_cell};
+  LayerColumn column{{Vector<1>(-cell_size), cell_size, {11}, {1}}, true, upper_wall, {}, cell_size / n_per_cell, {}};
   for (int l = 0; (l + 0.5) / n_per_cell < height; ++l) column.layers.push_back((l + 0.5) * column.spacing);
+  column.density.assign(column.layers.size(), density);
   return column;
 }
 
@@ -69,7 +70,7 @@ TEST_CASE("one layer in each cell carries the layers above it and half of itself
 {
   const double g = 10;
 
-  const auto stress = settled_stress("gimp", 1, layers_above_wall(2, 1, 3), density, {-g, 0});
+  const auto stress = settled_stress("gimp", 1, layers_above_wall(2, 1, 3), {-g, 0});
 
   REQUIRE(stress.size() == 3);
   for (std::size_t l = 0; l < 3; ++l) {
@@ -84,10 +85,10 @@ TEST_CASE("settled layers are at rest on every free node, whatever their number 
   const LinearForce force{-200, GENERATE(0.0, 36.0)};
   const LayerColumn column = layers_above_wall(0.005, n_per_cell, height);
 
-  const auto stress = settled_stress("gimp", n_per_cell, column, density, force);
+  const auto stress = settled_stress("gimp", n_per_cell, column, force);
 
   CHECK(greatest_acceleration(column, stress, n_per_cell, force) < 1e-12 * 200);
-  const Eigen::VectorXd weight = continuum_stress(column, density, force);
+  const Eigen::VectorXd weight = continuum_stress(column, force);
   for (std::size_t l = 0; l < stress.size(); ++l) {
     // Within the weight of a quarter of a cell.
     CHECK(std::abs(stress[l] - weight[static_cast<Eigen::Index>(l)]) < 0.25 * density * 200 * 0.005);
@@ -100,7 +101,7 @@ TEST_CASE("layers between two walls balance a force that grows along them, with 
   const LinearForce force{-36 * 0.013, 36};
   const LayerColumn column = layers_above_wall(0.005, n_per_cell, 8, true);
 
-  const auto stress = settled_stress("gimp", n_per_cell, column, density, force);
+  const auto stress = settled_stress("gimp", n_per_cell, column, force);
 
   CHECK(greatest_acceleration(column, stress, n_per_cell, force) < 1e-12);
   double mean = 0;

@@ -188,6 +188,21 @@ TEST_CASE("sand under more pressure than its grains bear is counted as out of ra
   }
 }
 
+TEST_CASE("sand may start settled as far as its strength at that density and pressure goes")
+{
+  const BoltonSand dense = sand(0.9), loose = sand(0.1);
+  const auto settled = [](double across) {
+    SymmetricTensor<3> stress = SymmetricTensor<3>::Zero();
+    stress.head<3>() << -100e3, -across, -across;
+    return SettledStress{stress, 100e3};
+  };
+
+  CHECK_NOTHROW(dense.settled_state(settled(20e3)));
+  CHECK_THROWS_AS(loose.settled_state(settled(20e3)), BadValue);
+  CHECK_NOTHROW(loose.settled_state(settled(35e3)));
+  CHECK(dense.bulk_modulus({}, 400e3) == Approx(2 * dense.bulk_modulus({}, 100e3)));
+}
+
 TEST_CASE("a scene's kind gives the strength of sand that says none, and grains and density its void ratio")
 {
   BoltonSand material = sand(0.5);

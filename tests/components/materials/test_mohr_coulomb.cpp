@@ -279,6 +279,24 @@ TEST_CASE("soil widens by its dilation angle up to its limit, and no further")
   CHECK(-sample.state.plastic_volumetric == Approx(end).epsilon(1e-9));
 }
 
+TEST_CASE("soil of Mohr and Coulomb may start settled as far as its strength goes")
+{
+  const MohrCoulomb material = soil(30, 0, 0);
+  const auto settled = [](double across) {
+    SymmetricTensor<3> stress = SymmetricTensor<3>::Zero();
+    stress.head<3>() << -100e3, -across, -across;
+    return SettledStress{stress, 100e3};
+  };
+
+  CHECK(material.poisson_ratio() == Approx(2.0 / 7));
+  CHECK_NOTHROW(material.settled_state(settled(100e3 / 3)));
+  CHECK_NOTHROW(material.settled_state(settled(300e3)));
+  CHECK_THROWS_WITH(material.settled_state(settled(30e3)),
+                    "1e+05 Pa beside 3e+04 Pa across it; expected at most the "
+                    "strength there, 9e+04 Pa");
+  CHECK_THROWS_AS(material.settled_state(settled(310e3)), BadValue);
+}
+
 TEST_CASE("numbers of Mohr and Coulomb's soil that do not go together are refused")
 {
   MohrCoulomb material = soil(30, 10, 10e3);

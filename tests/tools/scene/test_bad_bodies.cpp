@@ -121,7 +121,12 @@ TEST_CASE("sand that cannot have settled is refused with why")
   const std::string floor = settled + "/bodies/block/geometry/upper=[2,1] /gravity=[0,-10] ";
   const std::string moves = stress + ": a body with a velocity; expected one at rest";
 
-  check_rows(problems_with, {{settled, stress + ": material \"steel\"; expected a material of type tabular_cap"}});
+  const std::string rubber =
+      "/materials/rubber={'type':'neo_hookean','density':1000,'bulk_modulus':1e6,'shear_modulus':1e6} "
+      "/bodies/block/material=rubber ";
+  check_rows(problems_with,
+             {{settled + rubber, stress + ": material \"rubber\" of type neo_hookean; expected one of "
+                                          "type hypoelastic, drucker_prager, mohr_coulomb, bolton_sand, tabular_cap"}});
   check_rows(
       problems_with_sand, "/bodies/block/material=sand",
       {{settled, stress + ": a body not between walls along xy; expected sides and floor on walls, and one free "
@@ -130,12 +135,52 @@ TEST_CASE("sand that cannot have settled is refused with why")
         stress + ": q = *at most the sand's strength there*"},
        {settled + "/bodies/block/geometry={'type':'difference','of':[{'type':'box','lower':[0,0],'upper':[2,1.5]},"
                   "{'type':'box','lower':[0,0.5],'upper':[2,1]}]} /gravity=[0,-10]",
-        stress + ": a region with a gap along y; expected a box"},
+        stress + ": a region with a gap along y; expected a box along the axes; other ground can settle in the run, "
+                 "with \"local_damping\""},
+       {settled + "/bodies/block/geometry={'type':'polygon','corners':[[0,0],[2,0],[2,2],[1,2]]}",
+        stress + ": a region with 12 of the 16 particles of the box around it; expected a box along the axes*"},
        {floor + "/bodies/block/velocity=[0,0]", ""},
        {floor + "/bodies/block/velocity=[0,1]", moves},
        {floor + "/bodies/block/angular_velocity=[1]", moves},
        {floor + "/bodies/block/rigid=true",
         stress + ": a rigid body, which has no stress; expected one that is not rigid"}});
+}
+
+TEST_CASE("ground whose sides press too little or not at all is refused with where")
+{
+  const std::string k0 = "/bodies/block/k0", settled = "/bodies/block/initial_stress=true /gravity=[0,-10] ";
+  const std::string soil =
+      "/materials/soil={'type':'drucker_prager','density':2000,'bulk_modulus':2e8,'shear_modulus':1e8,"
+      "'friction_angle':30} /bodies/block/material=soil /bodies/block/geometry/upper=[2,1] /boundaries/y+=open ";
+
+  check_rows(problems_with, soil + settled,
+             {{k0 + "=0.34", ""},
+              // (1 - sin 30) / (1 + sin 30)
+              {k0 + "=0.33", "/bodies/block/initial_stress: q = *at most the strength there*"},
+              {k0 + "=7.1", "/bodies/block/initial_stress: q = *at most the strength there*"},
+              {k0 + "=0", k0 + ": 0*"},
+              {k0 + "=0.5 /bodies/block/initial_stress=false",
+               k0 + ": that of a body without \"initial_stress\"; expected it with that key"}});
+}
+
+TEST_CASE("strata with a gap between them, or of unlike particles, are refused with which")
+{
+  const std::string second =
+      "/bodies/second={'material':'fine','initial_stress':true,'geometry':{'type':'box','lower':";
+  const std::string pile =
+      "/grid/upper=[2,4] /boundaries/y+=open /gravity=[0,-10] /bodies/block/geometry/upper=[2,1] "
+      "/bodies/block/initial_stress=true /materials/fine={'type':'hypoelastic','density':2000,'bulk_modulus':1e9,"
+      "'shear_modulus':7e8} ";
+
+  check_rows(
+      problems_with, pile,
+      {{second + "[0,1],'upper':[2,2]}}", ""},
+       {second + "[0,1.5],'upper':[2,2]}}",
+        "*a gap of 0.5 m between bodies \"block\" and \"second\"; expected bodies "
+        "that lie on one another*"},
+       {second + "[0,1],'upper':[2,2]}} /materials/fine/particles_per_axis=3",
+        "*2 particles along the edge of a cell in body \"block\", 3 in body \"second\"; expected the same number*"},
+       {second + "[0,1],'upper':[2,4]}} /boundaries/y+=symmetry", "*: two walls along y; expected sides and floor*"}});
 }
 
 TEST_CASE("a nose or a tail that is not of its body, or the same place, is refused")

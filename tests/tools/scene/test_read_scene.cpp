@@ -106,6 +106,30 @@ TEST_CASE("the scene as resolved reads back as the same scene, from any folder")
   CHECK(std::get<components::TabularCap>(again.scene.materials.at(1).model).crush_pressure(0.1) == 2e7);
 }
 
+TEST_CASE("strata that start settled meet by the normal of the flatter surface, unless the scene has another")
+{
+  const TemporaryFolder folder;
+  const auto file = folder.write("small.json", small_scene);
+  const auto normal = [&](const std::string& set) {
+    return read_scene(file, {"/materials/soil={\"type\":\"hypoelastic\",\"density\":2000,\"bulk_modulus\":1e9,"
+                             "\"shear_modulus\":7e8}",
+                             "/bodies/block/initial_stress=true", "/bodies/block/geometry/upper=[2,1]",
+                             "/bodies/top={\"material\":\"soil\",\"initial_stress\":true,\"geometry\":"
+                             "{\"type\":\"box\",\"lower\":[0,1],\"upper\":[2,2]}}",
+                             "/boundaries/y+=open", "/gravity=[0,-10]", set})
+        .scene.contacts.at(0)
+        .normal;
+  };
+  const auto listed = [](const std::string& more) {
+    return "/contact=[{\"materials\":[\"steel\",\"soil\"],\"friction\":0.5" + more + "}]";
+  };
+
+  CHECK(std::holds_alternative<components::FlatterNormal>(normal("/title=unlisted")));
+  CHECK(std::holds_alternative<components::FlatterNormal>(normal(listed(""))));
+  CHECK(std::holds_alternative<components::RegressionNormal>(normal(listed(",\"normal\":\"regression\""))));
+  CHECK(std::holds_alternative<components::RegressionNormal>(normal("/bodies/top/initial_stress=false")));
+}
+
 TEST_CASE("every scene that comes with the program is sound")
 {
   const std::filesystem::path inputs = std::filesystem::path(TAMP_SOURCE_DIR) / "inputs";

@@ -5,8 +5,10 @@
 #include <optional>
 #include <set>
 
+#include "components/errors.hpp"
 #include "tasks/rigid_body.hpp"
 #include "tasks/set_up/body_sites.hpp"
+#include "tasks/set_up/settled_ground.hpp"
 #include "tools/scene/bodies/symmetry.hpp"
 #include "tools/scene/json/place_text.hpp"
 
@@ -92,6 +94,24 @@ void check_rigid(const tasks::Scene& scene, const tasks::SceneBody& body, const 
                          fmt::format("rigid, and so near to the rigid body \"{}\" that they meet", other.name),
                          "expected one of them to be deformable, or no node of the grid that both reach");
     }
+  }
+}
+
+/// Is the body at rest, and can it bear the stress that it is to start with?
+template <int D>
+void check_settled(const tasks::Scene& scene, const tasks::SceneBody& body, const JsonReader& bodies)
+{
+  const auto add_problem = [&](const std::string& found, const std::string& expected) {
+    bodies.document().add_problem(bodies.pointer(body.name) / "initial_stress", found, "expected " + expected);
+  };
+  constexpr tasks::Triple zero{0, 0, 0};
+  if (body.velocity != zero || body.angular_velocity != zero) add_problem("a body with a velocity", "one at rest");
+  if (body.rigid) add_problem("a rigid body, which has no stress", "one that is not rigid");
+  try {
+    const tasks::SettledGround<D> settled(scene, body);
+    for (const Vector<D>& x : tasks::sites_of<D>(scene, body)) settled.check_at(x);
+  } catch (const components::BadValue& bad) {
+    add_problem(bad.found, bad.expected);
   }
 }
 
@@ -246,6 +266,14 @@ void check_rigid_bodies(const tasks::Scene& scene, const JsonReader& bodies)
   for (const tasks::SceneBody& body : scene.bodies) {
     if (!body.rigid) continue;
     scene.grid.dimension == 2 ? check_rigid<2>(scene, body, bodies) : check_rigid<3>(scene, body, bodies);
+  }
+}
+
+void check_settled_bodies(const tasks::Scene& scene, const JsonReader& bodies)
+{
+  for (const tasks::SceneBody& body : scene.bodies) {
+    if (!body.initial_stress) continue;
+    scene.grid.dimension == 2 ? check_settled<2>(scene, body, bodies) : check_settled<3>(scene, body, bodies);
   }
 }
 

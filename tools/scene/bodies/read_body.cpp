@@ -9,7 +9,6 @@
 #include "components/geometry/ball.hpp"
 #include "tasks/method.hpp"
 #include "tasks/set_up/body_sites.hpp"
-#include "tasks/set_up/settled_sand.hpp"
 #include "tools/scene/bodies/cut_solid.hpp"
 #include "tools/scene/bodies/read_pressure.hpp"
 #include "tools/scene/bodies/read_problem.hpp"
@@ -60,25 +59,6 @@ void check_axis(const tasks::BodyAxis& axis, const components::Solid<D>& solid, 
   };
   check("nose", nose, tail);
   check("tail", tail, nose);
-}
-
-/// Is the body at rest, and can it bear the stress that it is to start with?
-template <int D>
-void check_settled(const tasks::Scene& scene, const tasks::SceneBody& body, const JsonReader& reader)
-{
-  constexpr tasks::Triple zero{0, 0, 0};
-  if (body.velocity != zero || body.angular_velocity != zero) {
-    reader.add_problem("initial_stress", "a body with a velocity", "expected one at rest");
-  }
-  if (body.rigid) {
-    reader.add_problem("initial_stress", "a rigid body, which has no stress", "expected one that is not rigid");
-  }
-  try {
-    const tasks::SettledSand<D> settled(scene, body);
-    for (const Vector<D>& x : tasks::sites_of<D>(scene, body)) settled.at(x);
-  } catch (const components::BadValue& bad) {
-    reader.add_problem("initial_stress", bad.found, "expected " + bad.expected);
-  }
 }
 
 /// The part of a solid that mirrors which cut it in halves leave.
@@ -229,6 +209,9 @@ std::optional<tasks::SceneBody> read(const std::string& name, JsonReader& reader
   const auto solid = read_solid<D>(reader, "geometry");
   const auto layout = reader.choice<tasks::ParticleLayout>("particles");
   const bool initial_stress = reader.flag("initial_stress");
+  const std::optional<double> k0 = reader.optional_number("k0");
+  if (k0 && !initial_stress)
+    reader.add_problem("k0", "that of a body without \"initial_stress\"", "expected it with that key");
   auto pressure = read_pressure<D>(reader);
   const std::size_t n_before = reader.document().problems.size();
   const auto problem = read_problem(reader);
@@ -286,9 +269,9 @@ std::optional<tasks::SceneBody> read(const std::string& name, JsonReader& reader
   }
   body.axis = axis;
   body.initial_stress = initial_stress;
+  body.k0 = k0;
   body.pressure = std::move(pressure);
   if (axis) check_axis<D>(*axis, *solid, scene.grid.cell_size / scene.particles_per_axis_of(number), reader);
-  if (initial_stress) check_settled<D>(scene, body, reader);
   if (body.pressure) check_pressed<D>(scene, body, reader);
   if (problem) check_functions<D>(scene, body, reader);
   return body;

@@ -1,5 +1,9 @@
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 #include "components/problems/problem.hpp"
 #include "tasks/scene_body.hpp"
+#include "tasks/set_up/settled_ground.hpp"
 #include "tools/scene/json/keys.hpp"
 #include "tools/scene/json/parameter_keys.hpp"
 
@@ -83,6 +87,11 @@ const ObjectKeys& body_keys()
       "the ends of a long body at the start; both or neither, within the body or on its surface. `history.csv` then "
       "follows them, the angle of the axis below the horizontal (the last axis being vertical), and the peaks of each "
       "material near the nose";
+  static const std::string settled = fmt::format(
+      "soil ({}) that has settled under `gravity` and `centrifuge` and is at rest: a box, not rigid and without "
+      "velocity, whose floor and sides lie on walls and whose top is free, or several such boxes, one on another; the "
+      "axis of a centrifuge is then along x, y or z, and its speed constant",
+      fmt::join(tasks::settling_types(), ", "));
   static const ObjectKeys keys{
       "body",
       {{"material", Name{}, "", compulsory, "a name from `materials`"},
@@ -115,13 +124,13 @@ const ObjectKeys& body_keys()
         "`angular_velocity` unless its rotation is free"},
        {"nose", Numbers{per_axis}, "m", none, ends},
        {"tail", Numbers{per_axis}, "m", none, ends},
-       {"initial_stress",
-        Flag{},
+       {"initial_stress", Flag{}, "", {false}, settled},
+       {"k0",
+        Number{above_zero},
         "",
-        {false},
-        "sand that has settled under `gravity` and `centrifuge` and is at rest: a box, not rigid and without velocity, "
-        "whose floor and sides lie on walls and whose top is free; the axis of a centrifuge is then along x, y or z, "
-        "and its speed constant"},
+        {nullptr, "ν / (1 - ν)"},
+        "with `initial_stress`, the stress across over that along the vertical; by default that of an elastic layer "
+        "that cannot widen"},
        {"pressure", Object{pressure_keys}, "", none,
         "an object: a pressure on the surface of a body that is not rigid, see below"},
        {"problem", Object{problem_keys}, "", none,

@@ -242,7 +242,9 @@ const ObjectKeys& contact_keys()
                        {"normal",
                         std::move(normal),
                         "",
-                        {nullptr, "`\"regression\"`, or `\"flatter\"` between periodic boundaries"},
+                        {nullptr,
+                         "`\"regression\"`, or `\"flatter\"` between periodic boundaries and between two materials "
+                         "with `initial_stress`"},
                         "which normal both share: " + kinds.meanings}}};
   }();
   return keys;
