@@ -44,7 +44,7 @@ class PressureLaw
   PressureLaw(const BoltonSand& sand, const Number& void_ratio)
       : least_(sand.stiffness_floor), root_of_least_(std::sqrt(sand.stiffness_floor))
   {
-    const double nu = sand.poisson_ratio, bulk_by_shear = 2 * (1 + nu) / (3 * (1 - 2 * nu));
+    const double nu = sand.poissons_ratio, bulk_by_shear = 2 * (1 + nu) / (3 * (1 - 2 * nu));
     const Number room = 2.97 - void_ratio;
     k_ = bulk_by_shear * sand.shear_modulus_number * std::sqrt(atmosphere) * room * room / (1.0 + void_ratio);
   }
@@ -70,7 +70,7 @@ class PressureLaw
 
 double shear_by_bulk(const BoltonSand& sand)
 {
-  return 1.5 * (1 - 2 * sand.poisson_ratio) / (1 + sand.poisson_ratio);
+  return 1.5 * (1 - 2 * sand.poissons_ratio) / (1 + sand.poissons_ratio);
 }
 
 /// What the sand answers with, see SoilBatch.
@@ -140,7 +140,7 @@ constexpr std::array<Parameter<BoltonSand>, 11> bolton_parameters{{
     {"poisson_ratio",
      "",
      {.lower = -1, .upper = 0.5, .holds_lower = false, .holds_upper = false},
-     &BoltonSand::poisson_ratio,
+     &BoltonSand::poissons_ratio,
      "gives the bulk modulus from the shear modulus"},
     {"Q", "", above_zero, &BoltonSand::Q, "by which dilation ends at the pressure exp(Q) kPa; 10 for quartz", true},
     {"R", "", zero_or_above, &BoltonSand::R, "1 by Bolton's tests", true},

@@ -42,7 +42,7 @@ struct BoltonSand {
   double e_min, e_max;
   double critical_friction_angle;  ///< degrees
   double shear_modulus_number;     ///< g
-  double poisson_ratio;
+  double poissons_ratio;
   double Q = 10, R = 1;
   /// m, degrees per unit of I_R; without it, that of the scene's kind.
   double strength_per_index = std::numeric_limits<double>::infinity();
@@ -54,6 +54,7 @@ struct BoltonSand {
   bool may_separate() const { return separation; }
   bool keeps_gaps() const { return separation; }
   TangentModuli initial_moduli() const;
+  double poisson_ratio() const { return poissons_ratio; }
   /// Throws BadParameter where the numbers do not go together.
   void check() const;
   /// Takes the void ratio from the bulk density [kg/m3]. Throws BadParameter where no sand of these grains has it.

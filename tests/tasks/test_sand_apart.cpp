@@ -128,7 +128,7 @@ TEST_CASE("soil that is thrown apart and falls together again does so on any thr
                                 .e_max = 0.95,
                                 .critical_friction_angle = 32,
                                 .shear_modulus_number = 125,
-                                .poisson_ratio = 0.05};
+                                .poissons_ratio = 0.05};
   bolton.fill(scene.materials[0].density);
   bolton.choose_strength(true);
   scene.materials[0].model = is_cone ? components::MaterialModel(cone) : components::MaterialModel(bolton);

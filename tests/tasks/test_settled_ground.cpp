@@ -150,16 +150,19 @@ TEST_CASE("settled sand stays at rest in rate form too")
   CHECK(fastest(*simulation) < 1e-12);
 }
 
-TEST_CASE("settled sand carries the weight above it, and an elastic share of that to its sides")
+TEST_CASE("settled sand carries the weight above it, and k0 of that, or an elastic share, to its sides")
 {
-  const auto simulation = Simulation::make(sand_in_centrifuge(), 1);
+  Scene scene = sand_in_centrifuge();
+  scene.bodies[0].k0 = GENERATE(std::optional<double>(), std::optional(0.5));
+  const auto simulation = Simulation::make(scene, 1);
 
   for (const Particle& particle : particles_of(*simulation)) {
     // The lattice fills the surface's cell up to half, 0.1075 m.
     const double z = particle.position[2], top = 0.1075;
     const double weight = density * 36 * (top - z) * (5.45 - 0.5 * (top + z));
     REQUIRE(-particle.stress[2] == Approx(weight).epsilon(1e-2).margin(200));
-    REQUIRE(particle.stress[0] == Approx(0.189 / 0.811 * particle.stress[2]).epsilon(1e-9).margin(1e-9));
+    REQUIRE(particle.stress[0] ==
+            Approx(scene.bodies[0].k0.value_or(0.189 / 0.811) * particle.stress[2]).epsilon(1e-9).margin(1e-9));
     REQUIRE(particle.stress[3] == 0);
     REQUIRE(particle.volume_ratio == 1);
   }
@@ -204,6 +207,17 @@ TEST_CASE("strata carry the weight of those above, whatever their densities and 
     // Splines see the surface half a layer off; within the weight of a quarter of a cell.
     REQUIRE(-particle.stress[static_cast<std::size_t>(dimension - 1)] == Approx(weight).margin(2650 * 9.81 * 2.5));
   }
+  CHECK(part_of_fall(scene) < 1e-11);
+}
+
+TEST_CASE("strata of sand whose contact has friction stay at rest in a centrifuge")
+{
+  Scene scene = sand_in_centrifuge();
+  scene.materials.push_back({"looser", 1500, scene.materials[0].model});
+  scene.bodies[0].solid = components::Solid<3>(components::Box<3>{{0, 0, 0}, {0.03, 0.02, 0.06}});
+  add_box(scene, 1, {0, 0, 0.06}, {0.03, 0.02, height}).initial_stress = true;
+  scene.contacts.push_back({0, 1, 0.5});
+
   CHECK(part_of_fall(scene) < 1e-11);
 }
 

@@ -78,6 +78,26 @@ TEST_CASE("one layer in each cell carries the layers above it and half of itself
   }
 }
 
+TEST_CASE("layers carry those above them, each of its own density, on a floor or under a ceiling")
+{
+  const double g = 10;
+  LayerColumn column = layers_above_wall(2, 1, 3);
+  column.density = {2600, 1600, 2000};
+  LayerColumn hanging = column;
+  hanging.layers = {11, 13, 15};
+  hanging.lower_wall = false;
+  hanging.upper_wall = true;
+
+  const auto stress = settled_stress("gimp", 1, column, {-g, 0});
+  const auto pull = settled_stress("gimp", 1, hanging, {-g, 0});
+
+  const std::vector<double> above{1600 + 2000 + 1300, 2000 + 800, 1000}, below{1300, 2600 + 800, 2600 + 1600 + 1000};
+  for (std::size_t l = 0; l < 3; ++l) {
+    CHECK(stress[l] == Approx(-g * 2 * above[l]).epsilon(1e-14));
+    CHECK(pull[l] == Approx(g * 2 * below[l]).epsilon(1e-14));
+  }
+}
+
 TEST_CASE("settled layers are at rest on every free node, whatever their number in a cell and their height")
 {
   const int n_per_cell = GENERATE(1, 2, 3);

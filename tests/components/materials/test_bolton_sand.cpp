@@ -28,7 +28,7 @@ BoltonSand sand(double relative_density, double stiffness = 1)
                   .e_max = e_max,
                   .critical_friction_angle = critical,
                   .shear_modulus_number = 125 * stiffness,
-                  .poisson_ratio = 0.05};
+                  .poissons_ratio = 0.05};
   made.check();
   made.fill(grains / (1 + e_max - relative_density * (e_max - e_min)));
   made.choose_strength(false);

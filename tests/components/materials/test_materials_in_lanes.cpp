@@ -73,8 +73,8 @@ std::pair<BatchFailure, UpdateCounts> update_together(const Model& model, Partic
   }
   std::vector<double> bulk(order.size()), shear(order.size()), work(order.size());
   UpdateCounts counts;
-  const MaterialBatch<D, typename Model::State> batch{strain, gradient, state, stress,  state,
-                                                      bulk,   shear,    work,  opening, opening};
+  const MaterialBatch<D, typename Model::State> batch{strain, gradient, state, stress,  state,  bulk,
+                                                      shear,  work,     {},    opening, opening};
 
   const BatchFailure failure = update(model, batch, counts);
 

@@ -17,7 +17,7 @@ void check_mirrored_bodies(const tasks::Scene& scene, const JsonReader& root);
 /// contact is between materials; one that shares a node with another rigid body; one whose nodes reach beyond the grid.
 void check_rigid_bodies(const tasks::Scene& scene, const JsonReader& bodies);
 
-/// Adds a problem for each body that is to start settled, and moves, cannot have settled, or cannot bear the stress.
+/// Adds a problem for each body that is to start settled, and cannot have settled or cannot bear the stress.
 void check_settled_bodies(const tasks::Scene& scene, const JsonReader& bodies);
 
 /// Adds a problem where the normal of a contact is to be that of a solid, and the solid is none that matter could

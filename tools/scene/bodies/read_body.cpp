@@ -61,6 +61,18 @@ void check_axis(const tasks::BodyAxis& axis, const components::Solid<D>& solid, 
   check("tail", tail, nose);
 }
 
+/// Whether a body that is to start settled is at rest, and has a stress.
+void check_rests(const tasks::SceneBody& body, const JsonReader& reader)
+{
+  constexpr tasks::Triple zero{0, 0, 0};
+  if (body.velocity != zero || body.angular_velocity != zero) {
+    reader.add_problem("initial_stress", "a body with a velocity", "expected one at rest");
+  }
+  if (body.rigid) {
+    reader.add_problem("initial_stress", "a rigid body, which has no stress", "expected one that is not rigid");
+  }
+}
+
 /// The part of a solid that mirrors which cut it in halves leave.
 double part_within(const tasks::Sides& mirrors)
 {
@@ -210,8 +222,9 @@ std::optional<tasks::SceneBody> read(const std::string& name, JsonReader& reader
   const auto layout = reader.choice<tasks::ParticleLayout>("particles");
   const bool initial_stress = reader.flag("initial_stress");
   const std::optional<double> k0 = reader.optional_number("k0");
-  if (k0 && !initial_stress)
+  if (k0 && !initial_stress) {
     reader.add_problem("k0", "that of a body without \"initial_stress\"", "expected it with that key");
+  }
   auto pressure = read_pressure<D>(reader);
   const std::size_t n_before = reader.document().problems.size();
   const auto problem = read_problem(reader);
@@ -272,6 +285,7 @@ std::optional<tasks::SceneBody> read(const std::string& name, JsonReader& reader
   body.k0 = k0;
   body.pressure = std::move(pressure);
   if (axis) check_axis<D>(*axis, *solid, scene.grid.cell_size / scene.particles_per_axis_of(number), reader);
+  if (initial_stress) check_rests(body, reader);
   if (body.pressure) check_pressed<D>(scene, body, reader);
   if (problem) check_functions<D>(scene, body, reader);
   return body;
