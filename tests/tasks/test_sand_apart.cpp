@@ -138,10 +138,12 @@ TEST_CASE("soil that is thrown apart and falls together again does so on any thr
 
   for (Simulation* one : {simulation.get(), other.get()}) advance_to(*one, 0.05);
 
-  CHECK(static_cast<double>(simulation->updates().separations) > 1000);
+  CHECK(simulation->updates().separations > 50);
   CHECK(simulation->updates().apart > 1000);
-  CHECK(simulation->report().kinetic < given);
-  CHECK(simulation->report().kinetic + worked(simulation->energies()) == Approx(given).epsilon(0.2));
+  // What is missing the transfer has filtered out.
+  const double left = simulation->report().kinetic + worked(simulation->energies());
+  CHECK(left < given);
+  CHECK(left > 0.6 * given);
   CHECK(simulation->updates().failures == 0);
   CHECK(simulation->digest() == other->digest());
 }
@@ -150,6 +152,8 @@ TEST_CASE("a block of dry soil that is dropped keeps its volume where its grains
 {
   Scene scene = empty_scene(2, {16, 12, 1}, 0.025);
   scene.gravity = {0, -9.81, 0};
+  scene.transfer = Transfer("apic");
+  scene.artificial_viscosity = components::ArtificialViscosity{};
   for (std::size_t axis = 0; axis < 2; ++axis) add_walls(scene, axis);
   add_box(scene, 0, {0.1, 0.025, 0}, {0.3, 0.125, 0}, {0, -1, 0});
   const auto mean_volume = [&](bool separation) {
@@ -163,7 +167,7 @@ TEST_CASE("a block of dry soil that is dropped keeps its volume where its grains
   };
 
   CHECK(mean_volume(true) == Approx(1).margin(0.03));
-  CHECK(mean_volume(false) > 1.2);
+  CHECK(mean_volume(false) > 1.1);
 }
 
 }  // namespace test_sand_apart

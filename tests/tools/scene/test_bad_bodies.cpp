@@ -123,7 +123,7 @@ TEST_CASE("sand that cannot have settled is refused with why")
 
   const std::string rubber =
       "/materials/rubber={'type':'neo_hookean','density':1000,'bulk_modulus':1e6,'shear_modulus':1e6} "
-      "/bodies/block/material=rubber ";
+      "/bodies/block/material=rubber";
   check_rows(problems_with,
              {{settled + rubber, stress + ": material \"rubber\" of type neo_hookean; expected one of "
                                           "type hypoelastic, drucker_prager, mohr_coulomb, bolton_sand, tabular_cap"}});
@@ -131,8 +131,7 @@ TEST_CASE("sand that cannot have settled is refused with why")
       problems_with_sand, "/bodies/block/material=sand",
       {{settled, stress + ": a body not between walls along xy; expected sides and floor on walls, and one free "
                           "face"},
-       {settled + "/bodies/block/geometry/upper=[2,1] /gravity=[0,1e7]",
-        stress + ": q = *at most the sand's strength there*"},
+       {settled + "/bodies/block/geometry/upper=[2,1] /gravity=[0,1e7]", stress + ": q = *at most the strength there*"},
        {settled + "/bodies/block/geometry={'type':'difference','of':[{'type':'box','lower':[0,0],'upper':[2,1.5]},"
                   "{'type':'box','lower':[0,0.5],'upper':[2,1]}]} /gravity=[0,-10]",
         stress + ": a region with a gap along y; expected a box along the axes; other ground can settle in the run, "
