@@ -80,13 +80,17 @@ def end_of(plot):
 
 
 def y_limits(plot):
-    """Round numbers that enclose the values. Zero belongs to them unless that would flatten what there is to see."""
     low = min((min(line.y) for line in plot.lines if line.y), default=1)
     high = max((highest(plot, line) for line in plot.lines if line.y), default=2)
     if plot.logarithmic:
         low, high = log_limits([low, high], 0.3)
         ticks = log_ticks(low, high)[0]
         return min([low, *ticks]), max([high, *ticks])
+    return round_limits(low, high)
+
+
+def round_limits(low, high):
+    """Round numbers that enclose the values. Zero belongs to them unless that would flatten what there is to see."""
     low = 0 if 0 < low < 0.7 * high else low
     high = high if high > low else low + (abs(low) or 1)
     ticks = linear_ticks(low, high, 5)
