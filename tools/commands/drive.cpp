@@ -16,6 +16,7 @@
 #include "tools/run/drive/columns.hpp"
 #include "tools/run/drive/drive.hpp"
 #include "tools/run/drive/drive_costs.hpp"
+#include "tools/run/drive/drive_page.hpp"
 #include "tools/run/drive/read_path.hpp"
 #include "tools/scene/files/output_file.hpp"
 #include "tools/scene/json/print_json.hpp"
@@ -36,6 +37,7 @@ struct DriveArguments {
   std::vector<std::string> assignments;
   std::string out;
   double increment = 1e-3;
+  std::string plot;
   std::string summary;
   int repeat = 5;
 };
@@ -79,6 +81,12 @@ Load asked_load(const DriveArguments& options)
   return std::visit([](auto path) -> Load { return path; }, read_path(options.path));
 }
 
+std::string title_of(const DriveArguments& options)
+{
+  const bool is_test = !options.test.name.empty();
+  return options.material + (is_test ? ", test " + options.test.name : " along " + options.path);
+}
+
 void drive_point(const DriveArguments& options)
 {
   const CheckedMaterial checked = read_checked_material(options.material, options.assignments);
@@ -86,11 +94,13 @@ void drive_point(const DriveArguments& options)
   print_warnings(checked.warnings);
   const tasks::SceneMaterial& material = checked.material;
   const Load asked = asked_load(options);
-  expect_outputs({{"--out", options.out}, {"--summary", options.summary}});
+  expect_outputs({{"--out", options.out}, {"--plot", options.plot}, {"--summary", options.summary}});
   std::optional<runtime::WholeFile> file;
   if (!options.out.empty()) file.emplace(options.out);
+  std::string rows;  // for the page
   const auto write_line = [&](const auto& values) {
     const std::string line = fmt::format("{}\n", fmt::join(values, ","));
+    if (!options.plot.empty()) rows += line;
     file ? file->write(line) : print_out("{}", line);
   };
   write_line(drive_columns(material.model));
@@ -103,8 +113,8 @@ void drive_point(const DriveArguments& options)
   };
   std::visit([&](const auto& load) { drive(material, load, options.increment, show); }, asked);
   if (file) file->publish();
-  if (points.empty()) return;
-  write_summary(drive_costs(material.model, points, options.repeat), options.summary);
+  if (!points.empty()) write_summary(drive_costs(material.model, points, options.repeat), options.summary);
+  if (!options.plot.empty()) write_drive_page(rows, title_of(options), options.plot);
 }
 
 /// Options of a laboratory test, which stands in place of a path.
@@ -144,6 +154,9 @@ CLI::App* add_drive_command(CLI::App& app)
   command->add_option("--increment", options->increment, "largest strain of an increment")
       ->check(is_from_to(1e-9, 0.1));
   command->add_option("--out", options->out, "write to this file")->type_name("FILE");
+  command
+      ->add_option("--plot", options->plot, "write a page with the curves of a laboratory test to this file, as HTML")
+      ->type_name("FILE");
   CLI::Option* summary =
       command->add_option("--summary", options->summary, "write what the updates cost to this file, as JSON")
           ->type_name("FILE");
@@ -154,6 +167,8 @@ CLI::App* add_drive_command(CLI::App& app)
       {{"tamp drive inputs/materials/concrete-sand/table.json path.csv --out answer.csv", "stresses along the path"},
        {"tamp drive inputs/materials/concrete-sand/table.json --test triaxial --pressure 200e3 --strain 0.15",
         "a drained triaxial test at 200 kPa"},
+       {"tamp drive inputs/materials/concrete-sand/table.json --test oedometer --out answer.csv --plot answer.html",
+        "its curves, for a browser"},
        {"tamp drive inputs/materials/concrete-sand/mlp.json path.csv --summary cost.json",
         "and what an update costs"}}));
   command->callback([options, command] {

@@ -1,9 +1,6 @@
 #include "tools/system/charts.hpp"
 
-#include <fmt/format.h>
-
 #include <cstdlib>
-#include <vector>
 
 #include "runtime/file_error.hpp"
 #include "tools/system/child_process.hpp"
@@ -30,24 +27,39 @@ std::vector<std::string> interpreters()
   return {usual_interpreter, "python3"};
 }
 
+/// As a shell takes it.
+std::string command_line(const std::string& interpreter, const std::string& tools,
+                         const std::vector<std::string>& words)
+{
+  std::string line = interpreter + " " + shell_word(tools);
+  for (const std::string& word : words) line += " " + shell_word(word);
+  return line;
+}
+
 }  // namespace
+
+void draw(const Drawing& drawing)
+{
+  const std::string tools = shipped_python_tools().string();
+  std::vector<std::string> arguments{tools};
+  arguments.insert(arguments.end(), drawing.words.begin(), drawing.words.end());
+  for (const std::string& interpreter : interpreters()) {
+    const int code = run_child({arguments, "", interpreter}).exit_code;
+    if (code == 0) return;
+    if (code == not_started || code == no_matplotlib) continue;
+    throw runtime::FileError(drawing.place.string(), "its figures are written, but could not be drawn; to try again: " +
+                                                         command_line(interpreter, tools, drawing.later));
+  }
+  throw runtime::FileError(drawing.place.string(),
+                           "its figures are written, but not drawn, for want of Python with matplotlib (Debian: "
+                           "python3-matplotlib; TAMP_PYTHON names another interpreter); to draw them later: " +
+                               command_line(usual_interpreter, tools, drawing.later));
+}
 
 void draw_page(const std::filesystem::path& folder)
 {
-  const std::string tools = shipped_python_tools().string();
-  for (const std::string& interpreter : interpreters()) {
-    const int code = run_child({{tools, "draw", folder.string()}, "", interpreter}).exit_code;
-    if (code == 0) return;
-    if (code == not_started || code == no_matplotlib) continue;
-    throw runtime::FileError(folder.string(), fmt::format("its figures are written, but could not be drawn; to try "
-                                                          "again: {} {} draw {}",
-                                                          interpreter, shell_word(tools), shell_word(folder.string())));
-  }
-  throw runtime::FileError(folder.string(),
-                           fmt::format("its figures are written, but not drawn, for want of Python with matplotlib "
-                                       "(Debian: python3-matplotlib; TAMP_PYTHON names another interpreter); to draw "
-                                       "them later: {} {} draw {}",
-                                       usual_interpreter, shell_word(tools), shell_word(folder.string())));
+  const std::vector<std::string> words{"draw", folder.string()};
+  draw({words, words, folder});
 }
 
 }  // namespace tamp::tools

@@ -1,13 +1,25 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
+#include <vector>
 
 namespace tamp::tools
 {
 
-/// Has the Python tools draw the study, the comparison or the run in a folder. The interpreter is $TAMP_PYTHON where
-/// that is set, or else the first of /usr/bin/python3 and python3 that has matplotlib. Throws FileError, which says
-/// what to install and how to draw later; to be called after all figures are written.
+/// What the Python tools are to draw.
+struct Drawing {
+  std::vector<std::string> words;  ///< of their command line
+  std::vector<std::string> later;  ///< the same for who draws it another time
+  std::filesystem::path place;     ///< what messages name
+};
+
+/// Has the Python tools draw. The interpreter is $TAMP_PYTHON where that is set, or else the first of /usr/bin/python3
+/// and python3 that has matplotlib. Throws FileError, which says what to install and how to draw later; to be called
+/// after all figures are written.
+void draw(const Drawing& drawing);
+
+/// The same for the study, the comparison or the run in a folder.
 void draw_page(const std::filesystem::path& folder);
 
 }  // namespace tamp::tools

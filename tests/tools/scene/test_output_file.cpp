@@ -42,7 +42,7 @@ TEST_CASE("an output that is one of the inputs, under any of its names, is refus
        {Output{modulus + " --out ", own_states.string()}, Output{modulus + " --out ", in("sand/../states.csv")},
         Output{modulus + " --out ", in("hard.csv")}, Output{modulus + " --out ", material},
         Output{modulus + " --summary ", material}, Output{drive + " --out ", in("soft.csv")},
-        Output{drive + " --summary ", own_path.string()}}) {
+        Output{drive + " --plot ", own_path.string()}, Output{drive + " --summary ", own_path.string()}}) {
     INFO(command << file);
     const Outcome outcome = tamp_with(command + file);
     CHECK(outcome.exit_code == 2);

@@ -1,4 +1,4 @@
-"""The page of a run and that of a task graph, opened in a browser: nothing on the console, and all is drawn.
+"""The pages of a run, a task graph and a drive, opened in a browser: nothing on the console, and all is drawn.
 
     cd tools/python; python3 -m tests.test_browser [--tamp build/release/tamp]
 
@@ -52,6 +52,9 @@ class Pages(unittest.TestCase):
         made("profile", cls.folder / "run", "--format", "html")
         made("graph", SCENE, "--run", cls.folder / "run", "--format", "html", "--out", cls.graph)
 
+        cls.drive = cls.folder / "drive.html"
+        made("drive", program.INPUTS / "materials/concrete-sand/table.json", "--test", "triaxial", "--plot", cls.drive)
+
     @classmethod
     def tearDownClass(cls):
         cls.holder.cleanup()
@@ -73,6 +76,11 @@ class Pages(unittest.TestCase):
             self.assertIn("</html>", opened.text)
             for task in tasks:
                 self.assertIn(f"<td>{task['name']}</td>", opened.text)
+
+    def test_the_page_of_a_drive_has_each_curve_twice(self):
+        for opened in self.looks(self.drive):
+            self.assertEqual(opened.count('<svg [^>]*role="img"'), 8)
+            self.assertEqual(opened.count(r'id="[a-z-]+-line"'), 8)
 
     def test_the_report_and_its_tables_are_no_wider_than_a_phone(self):
         outer = self.folder / "phone.html"

@@ -1,3 +1,7 @@
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
 #include <sstream>
@@ -40,6 +44,25 @@ double sum_of(const std::string& table, const std::string& name)
 std::ptrdiff_t n_rows(const std::string& table)
 {
   return std::count(table.begin(), table.end(), '\n') - 1;
+}
+
+/// The columns and rows that a page holds.
+nlohmann::json rows_within(const std::string& page)
+{
+  const std::string start = R"(<script type="application/json" id="rows">)";
+  const std::size_t from = page.find(start);
+  REQUIRE(from != std::string::npos);
+  const std::size_t begin = from + start.size();
+  return nlohmann::json::parse(page.substr(begin, page.find("</script>", begin) - begin));
+}
+
+/// Clay with 2 c of 100 kPa, and a path to a stress of four times that.
+std::string clay_beyond_its_strength(const TemporaryFolder& folder)
+{
+  const auto clay = folder.write("clay.json",
+                                 R"({"type": "drucker_prager", "density": 2000, "bulk_modulus": 2e7,
+                                     "shear_modulus": 1.2e7, "friction_angle": 0, "cohesion": 5e4})");
+  return clay.string() + " " + folder.write("path.csv", "time,S11,S22,S33\n0,0,0,0\n1,-4e5,0,0\n").string();
 }
 
 }  // namespace
@@ -139,17 +162,9 @@ TEST_CASE("drive takes either a path or a test, and of a test only what that has
 TEST_CASE("drive ends with 3 where the material cannot follow a stress, and has written the rows so far")
 {
   const TemporaryFolder folder;
-  const std::string clay =
-      folder
-          .write("clay.json",
-                 R"({"type": "drucker_prager", "density": 2000, "bulk_modulus": 2e7, "shear_modulus": 1.2e7,
-                                  "friction_angle": 0, "cohesion": 5e4})")
-          .string();
-  const std::string path = folder.write("path.csv", "time,S11,S22,S33\n0,0,0,0\n1,-4e5,0,0\n").string();
 
-  const Outcome outcome = tamp_with("drive " + clay + " " + path);
+  const Outcome outcome = tamp_with("drive " + clay_beyond_its_strength(folder));
 
-  // 2 c is 100 kPa, a quarter of what is asked for.
   CHECK(outcome.exit_code == 3);
   CHECK(
       outcome.err ==
@@ -199,6 +214,74 @@ TEST_CASE("drive refuses rounds of a timing that is not asked for, and ends with
   CHECK(tamp_with(line + " --repeat 3").exit_code == 2);
   CHECK(tamp_with(line + " --repeat 0 --summary " + (folder.path() / "s.json").string()).exit_code == 2);
   CHECK(tamp_with(line + " --summary /no/such/folder/summary.json").exit_code == 4);
+}
+
+TEST_CASE("drive draws the curves of a test into a page that holds its rows, and writes the same CSV")
+{
+  const TemporaryFolder folder;
+  const std::string line = "drive " + sand + " --test triaxial --strain 0.01";
+  const std::filesystem::path page = folder.path() / "page.html";
+
+  const Outcome outcome = tamp_with(line + " --plot " + page.string());
+
+  INFO(outcome.err);
+  REQUIRE(outcome.exit_code == 0);
+  CHECK(outcome.out == tamp_with(line).out);
+  const std::string text = read_text(page);
+  CHECK_THAT(text, Catch::Contains("q over axial shortening") && Catch::Contains("table.json, test triaxial"));
+  std::istringstream lines(outcome.out);
+  std::string header;
+  std::getline(lines, header);
+  const nlohmann::json within = rows_within(text);
+  CHECK(fmt::format("{}", fmt::join(within["columns"].get<std::vector<std::string>>(), ",")) == header);
+  for (const auto& row : within["rows"]) {
+    std::string written;
+    std::getline(lines, written);
+    CHECK(fmt::format("{}", fmt::join(row.get<std::vector<double>>(), ",")) == written);
+  }
+  CHECK(lines.peek() == EOF);
+}
+
+TEST_CASE("the page of a drive is a file of its own, and one that can be written")
+{
+  const TemporaryFolder folder;
+  const std::string line = "drive " + sand + " --test triaxial --strain 0.01 --plot ";
+  const std::string out = (folder.path() / "out").string();
+
+  const Outcome shared = tamp_with(line + out + " --out " + out);
+
+  CHECK(shared.exit_code == 2);
+  CHECK_THAT(shared.err, Catch::Contains("the file of --"));
+  CHECK_FALSE(std::filesystem::exists(out));
+  CHECK(tamp_with(line + "/no/such/folder/page.html").exit_code == 4);
+}
+
+TEST_CASE("a drive that fails leaves no page, and an old one as it was")
+{
+  const TemporaryFolder folder;
+  const std::string line = "drive " + clay_beyond_its_strength(folder) + " --plot ";
+  const auto old = folder.write("old.html", "as it was"), page = folder.path() / "page.html";
+
+  CHECK(tamp_with(line + page.string()).exit_code == 3);
+  CHECK(tamp_with(line + old.string()).exit_code == 3);
+
+  CHECK_FALSE(std::filesystem::exists(page));
+  CHECK(read_text(old) == "as it was");
+}
+
+TEST_CASE("without Python a drive ends with 4 and says how to draw its page, and keeps its rows")
+{
+  const TemporaryFolder folder;
+  const std::string page = (folder.path() / "page.html").string(), out = (folder.path() / "out.csv").string();
+
+  const Outcome outcome = outcome_of("TAMP_PYTHON=/nonexistent/python " TAMP_PROGRAM " drive " + sand +
+                                     " --test triaxial --strain 0.01 --plot " + page + " --out " + out);
+
+  CHECK(outcome.exit_code == 4);
+  CHECK_THAT(outcome.err, Catch::Contains("python3-matplotlib") &&
+                              Catch::EndsWith("tools/python/tamp drive-page ROWS.csv " + page + "\n"));
+  CHECK(n_rows(read_text(out)) > 3);
+  CHECK_FALSE(std::filesystem::exists(page));
 }
 
 }  // namespace test_drive_command
