@@ -51,16 +51,18 @@ class PressureLaw
 
   Number bulk_modulus(const Number& pressure) const { return k_ * sqrt(greater_of<Number>(pressure, least_)); }
 
-  /// The pressure after a volumetric compaction without plastic strain: that integral of K.
+  /// The pressure after a volumetric compaction without plastic strain: that integral of K, to the bit the same without
+  /// compaction, lest sand without pressure is torn by round-off.
   Number pressure_after(const Number& pressure, const Number& compaction) const
   {
-    // The strain from the least pressure on, and back.
-    const Number strain = select(pressure > least_, 2.0 * (sqrt(greater_of<Number>(pressure, least_)) - root_of_least_),
-                                 (pressure - least_) / root_of_least_) /
-                              k_ +
-                          compaction;
-    const Number root = root_of_least_ + 0.5 * k_ * strain;
-    return select(strain > 0.0, root * root, least_ + k_ * root_of_least_ * strain);
+    const Number root = sqrt(greater_of<Number>(pressure, least_)), rise = k_ * compaction;
+    const Number above = pressure + rise * (root + 0.25 * rise), below = pressure + rise * root_of_least_;
+    // Through the least pressure: the rest of the way by the other law.
+    const Number risen = rise - (least_ - pressure) / root_of_least_;
+    const Number upwards = least_ + risen * (root_of_least_ + 0.25 * risen);
+    const Number downwards = least_ + (rise + 2.0 * (root - root_of_least_)) * root_of_least_;
+    return select(pressure > least_, select(root + 0.5 * rise >= root_of_least_, above, downwards),
+                  select(below <= least_, below, upwards));
   }
 
  private:

@@ -102,6 +102,18 @@ TEST_CASE("isotropic pressure of sand is the integral of a modulus that grows as
   CHECK(std::abs(sample.pressure()) < 1e-6);
 }
 
+TEST_CASE("sand without pressure that is not strained stays whole")
+{
+  const BoltonSand material = sand(0.5);
+  Sample sample;
+
+  for (int i = 0; i < 10; ++i) sample.strain(material, SymmetricTensor<3>::Zero());
+
+  CHECK(sample.opening == 0);
+  CHECK(sample.counts.separations == 0);
+  CHECK(sample.bulk_modulus == material.initial_moduli().bulk_modulus);
+}
+
 TEST_CASE("strength of sand is Bolton's by density and pressure, and the critical one where it does not dilate")
 {
   const double density = GENERATE(0.2, 0.5, 0.9), pressure = GENERATE(50e3, 400e3, 5e6);
