@@ -243,6 +243,22 @@ void scale_cut(double solid_volume, double share, std::vector<Site<D>>& particle
   }
 }
 
+/// Those that the solid holds a part of. Not within `fill_cut`: its lambdas would have types that other files can name.
+template <int D>
+std::vector<Site<D>> particles_of(const CutLattice<D>& cut, const ParticleLattice<D>& lattice,
+                                  const CellRange<D>& range)
+{
+  const double share = lattice.particle_volume();
+  std::vector<Site<D>> particles;
+  for_each_index(range.lower, range.upper, [&](const Indices<D>& cell) {
+    for_each_index_below<D>(lattice.n_per_axis, [&](const Indices<D>& site) {
+      const Site<D> particle = cut.particle(cell, site);
+      if (particle.volume > 0) particles.push_back({particle.place, particle.volume * share});
+    });
+  });
+  return particles;
+}
+
 }  // namespace
 
 template <int D>
@@ -251,18 +267,11 @@ std::vector<Site<D>> fill_cut(const Solid<D>& solid, const ParticleLattice<D>& l
   lattice.check();
   const Box<D> box = solid.bounding_box();
   const CellRange<D> range = cells_near(box, lattice, cells);
-  const CutLattice<D> cut(solid, lattice, range);
-  const double share = lattice.particle_volume();
-
-  std::vector<Site<D>> particles;
-  for_each_index(range.lower, range.upper, [&](const Indices<D>& cell) {
-    for_each_index_below<D>(lattice.n_per_axis, [&](const Indices<D>& site) {
-      const Site<D> particle = cut.particle(cell, site);
-      if (particle.volume > 0) particles.push_back({particle.place, particle.volume * share});
-    });
-  });
+  std::vector<Site<D>> particles = particles_of(CutLattice<D>(solid, lattice, range), lattice, range);
   const Volume volume = solid.volume();
-  if (volume.is_exact() && hold_all_of(cells, lattice, box)) scale_cut(volume.value, share, particles);
+  if (volume.is_exact() && hold_all_of(cells, lattice, box)) {
+    scale_cut(volume.value, lattice.particle_volume(), particles);
+  }
   return particles;
 }
 

@@ -6,13 +6,14 @@
 #include <random>
 
 #include "components/errors.hpp"
-#include "tests/components/materials/one_particle.hpp"
+#include "tests/components/materials/axial_strain.hpp"
 
 namespace test_drucker_prager
 {
 
 using namespace tamp;
 using namespace tamp::components;
+using test::plane, test::strain_axially, test::triaxial;
 
 namespace
 {
@@ -31,42 +32,10 @@ DruckerPrager soil(double friction, double dilation, double cohesion)
 template <int D>
 using Sample = test::OneParticle<D, DruckerPrager>;
 
-/// At rest under the same pressure all around.
 template <int D>
 Sample<D> confined(double pressure)
 {
-  Sample<D> sample;
-  sample.stress = -isotropic<n_symmetric<D>>(pressure);
-  return sample;
-}
-
-/// Compresses by `axial` along x, with the lateral strain that keeps the stress along y, found by bisection. `across`
-/// makes a strain of the two.
-template <int D, class Across>
-void compress(const DruckerPrager& soil, double axial, const Across& across, Sample<D>& sample)
-{
-  const double held = sample.stress[1];
-  const auto after = [&](double lateral) {
-    Sample<D> trial = sample;
-    trial.strain(soil, across(-axial, lateral));
-    return trial;
-  };
-  double low = -axial, high = 100 * axial;
-  for (int i = 0; i < 200 && high - low > 1e-16 * axial; ++i) {
-    const double middle = 0.5 * (low + high);
-    (after(middle).stress[1] < held ? low : high) = middle;
-  }
-  sample = after(0.5 * (low + high));
-}
-
-SymmetricTensor<3> triaxial(double axial, double lateral)
-{
-  return (SymmetricTensor<3>() << axial, lateral, lateral, 0, 0, 0).finished();
-}
-
-SymmetricTensor<2> plane(double axial, double lateral)
-{
-  return (SymmetricTensor<2>() << axial, lateral, 0, 0).finished();
+  return test::confined_particle<D, DruckerPrager>(pressure);
 }
 
 double slope(double angle)
@@ -83,9 +52,9 @@ TEST_CASE("in triaxial compression soil has the strength of Mohr and Coulomb, an
   const DruckerPrager material = soil(friction, dilation, cohesion);
   Sample<3> sample = confined<3>(pressure);
 
-  for (int i = 0; i < 200; ++i) compress(material, 1e-4, triaxial, sample);
+  for (int i = 0; i < 200; ++i) strain_axially(material, -1e-4, triaxial, sample);
   const double before = sample.state.plastic_volumetric;
-  compress(material, 1e-4, triaxial, sample);
+  strain_axially(material, -1e-4, triaxial, sample);
 
   const double sine = std::sin(friction * degree), cosine = std::cos(friction * degree);
   const double strength = (2 * cohesion * cosine + 2 * pressure * sine) / (1 - sine);
@@ -104,9 +73,9 @@ TEST_CASE(
   const DruckerPrager material = soil(friction, dilation, cohesion);
   Sample<2> sample = confined<2>(pressure);
 
-  for (int i = 0; i < 2000; ++i) compress(material, 2e-4, plane, sample);
+  for (int i = 0; i < 2000; ++i) strain_axially(material, -2e-4, plane, sample);
   const double before = sample.state.plastic_volumetric;
-  compress(material, 2e-4, plane, sample);
+  strain_axially(material, -2e-4, plane, sample);
 
   // Where elastic strain has come to rest the flow has no part along z: s_zz = -2/3 beta sqrt(J2). With r the radius
   // and m the middle of Mohr's circle in the plane, r = sqrt(1 - beta^2/3) (k + alpha m) / (1 - alpha beta / 3).

@@ -7,13 +7,14 @@
 #include <random>
 
 #include "components/errors.hpp"
-#include "tests/components/materials/one_particle.hpp"
+#include "tests/components/materials/axial_strain.hpp"
 
 namespace test_mohr_coulomb
 {
 
 using namespace tamp;
 using namespace tamp::components;
+using test::plane, test::strain_axially, test::triaxial;
 
 namespace
 {
@@ -35,38 +36,7 @@ using Sample = test::OneParticle<D, MohrCoulomb>;
 template <int D>
 Sample<D> confined(double pressure)
 {
-  Sample<D> sample;
-  sample.stress = -isotropic<n_symmetric<D>>(pressure);
-  return sample;
-}
-
-/// Strains by `axial` along x, with the lateral strain that keeps the stress along y, found by bisection. `across`
-/// makes a strain of the two.
-template <int D, class Across>
-void strain_axially(const MohrCoulomb& soil, double axial, const Across& across, Sample<D>& sample)
-{
-  const double held = sample.stress[1];
-  const auto after = [&](double lateral) {
-    Sample<D> trial = sample;
-    trial.strain(soil, across(axial, lateral));
-    return trial;
-  };
-  double low = -100 * std::abs(axial), high = 100 * std::abs(axial);
-  for (int i = 0; i < 200 && high - low > 1e-16 * std::abs(axial); ++i) {
-    const double middle = 0.5 * (low + high);
-    (after(middle).stress[1] < held ? low : high) = middle;
-  }
-  sample = after(0.5 * (low + high));
-}
-
-SymmetricTensor<3> triaxial(double axial, double lateral)
-{
-  return (SymmetricTensor<3>() << axial, lateral, lateral, 0, 0, 0).finished();
-}
-
-SymmetricTensor<2> plane(double axial, double lateral)
-{
-  return (SymmetricTensor<2>() << axial, lateral, 0, 0).finished();
+  return test::confined_particle<D, MohrCoulomb>(pressure);
 }
 
 /// The greater principal stress over a lesser one at failure, both compression positive, without cohesion.
