@@ -90,6 +90,7 @@ std::array<LayerColumn, std::size_t{D}> columns_of(const Scene& scene, const Sce
   std::size_t n_in_box = 1;
   for (std::size_t k = 0; k < D; ++k) {
     std::vector<double> layers;
+    layers.reserve(sites.size());
     for (const Vector<D>& x : sites) layers.push_back(x[static_cast<Eigen::Index>(k)]);
     std::sort(layers.begin(), layers.end());
     layers.erase(std::unique(layers.begin(), layers.end()), layers.end());

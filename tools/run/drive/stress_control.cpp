@@ -128,8 +128,8 @@ Unknowns no_longer_than(double longest, const Unknowns& step)
 /// As much of the step as makes the excess less.
 std::optional<Trial> damped_step(const StressEquations& equations, const Trial& from, const Unknowns& step)
 {
-  constexpr double least_part = 1.0 / 64;
-  for (double part = 1; part >= least_part; part /= 2) {
+  constexpr double shortest = 1.0 / 64;
+  for (double part = 1; part >= shortest; part /= 2) {
     std::optional<Trial> trial = equations.at(from.change + part * step);
     if (trial && trial->excess.norm() < (1 - 1e-3 * part) * from.excess.norm()) return trial;
   }
