@@ -116,7 +116,8 @@ TEST_CASE("a run says which particles set its time step, and how many steps each
   REQUIRE(tamp_with("run " + folder.write("blocks.json", two_blocks).string() + " --quiet --out " + out.string())
               .exit_code == 0);
 
-  const Json summary = summary_of(out), steps = summary["time_step"], set_by = steps["set_by"];
+  const Json summary = summary_of(out);
+  const Json &steps = summary["time_step"], &set_by = steps["set_by"];
   CAPTURE(steps.dump());
   CHECK(steps["first"]["step"] == 2);
   for (const char* which : {"first", "shortest", "last"}) {

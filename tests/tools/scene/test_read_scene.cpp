@@ -111,11 +111,11 @@ TEST_CASE("strata that start settled meet by the normal of the flatter surface, 
   const TemporaryFolder folder;
   const auto file = folder.write("small.json", small_scene);
   const auto normal = [&](const std::string& set) {
-    return read_scene(file, {"/materials/soil={\"type\":\"hypoelastic\",\"density\":2000,\"bulk_modulus\":1e9,"
-                             "\"shear_modulus\":7e8}",
-                             "/bodies/block/initial_stress=true", "/bodies/block/geometry/upper=[2,1]",
-                             "/bodies/top={\"material\":\"soil\",\"initial_stress\":true,\"geometry\":"
-                             "{\"type\":\"box\",\"lower\":[0,1],\"upper\":[2,2]}}",
+    const std::string soil =
+        R"(/materials/soil={"type":"hypoelastic","density":2000,"bulk_modulus":1e9,"shear_modulus":7e8})";
+    const std::string top =
+        R"(/bodies/top={"material":"soil","initial_stress":true,"geometry":{"type":"box","lower":[0,1],"upper":[2,2]}})";
+    return read_scene(file, {soil, "/bodies/block/initial_stress=true", "/bodies/block/geometry/upper=[2,1]", top,
                              "/boundaries/y+=open", "/gravity=[0,-10]", set})
         .scene.contacts.at(0)
         .normal;
