@@ -33,6 +33,7 @@ RESEARCH = {
 CHECKS = {name: name.replace("-", "_") for name in [
     "digests", "failing-calls", "failures", "forecasts", "kill-and-restart", "look-at-page", "many-patches",
     "mutations", "same-bits", "savings", "scaling", "schema"]}
+CHECKS["results"] = "kept_results"
 COMMANDS = {**FOR_USERS, **{name: f"research.{module}" for name, module in RESEARCH.items()},
             **{name: f"checks.{module}" for name, module in CHECKS.items()}}
 
