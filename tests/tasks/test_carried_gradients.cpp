@@ -63,7 +63,7 @@ TEST_CASE("a thin body turns as fast as it spins where velocities come to the gr
   const double tpic = lag(spinning_rod(dimension, Transfer("tpic")));
 
   CAPTURE(dimension, plain, tflip, apic, tpic);
-  CHECK(plain == Approx(0.35).margin(0.02));  // docs/verification.md has these
+  CHECK(plain == Approx(0.35).margin(0.02));  // results/verification/angular_momentum.csv
   CHECK(std::abs(tflip) < 2e-3);
   CHECK(std::abs(apic) < 2e-3);
   CHECK(std::abs(tpic) < 2e-3);
@@ -83,7 +83,7 @@ TEST_CASE("a thin body loses its spin the more, the more of it the nodes filter"
   const double plain = lag_of(Transfer("flip"), 1), blend = lag_of(Transfer("blend"), 1);
 
   CAPTURE(pic, xpic, fmpm, plain, blend);
-  // docs/verification.md has these.
+  // results/verification/angular_momentum.csv has these.
   CHECK(pic == Approx(0.98).margin(0.01));
   CHECK(xpic == Approx(0.94).margin(0.01));
   CHECK(fmpm == Approx(0.86).margin(0.01));

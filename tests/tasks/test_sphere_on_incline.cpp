@@ -85,7 +85,7 @@ TEST_CASE("a rigid sphere with enough friction rolls down an incline")
 {
   const int dimension = GENERATE(2, 3);
   CAPTURE(dimension);
-  // The finer in cells, the closer: see docs/verification.md.
+  // The finer in cells, the closer: see results/verification/tests_of_contact.csv.
   const double radius = dimension == 2 ? 8 : 4, margin = dimension == 2 ? 0.03 : 0.2;
   Scene scene =
       dimension == 2 ? sphere_on_incline(2, {radius, 0.2, 60, 30}) : sphere_on_incline(3, {radius, 0.2, 15, 18});

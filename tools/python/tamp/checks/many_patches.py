@@ -1,7 +1,8 @@
 """Shows what patches cost that nothing happens on: start-up and memory.
 
 N x N patches of 4 x 4 cells, with a block of steel on one of sand in a corner: 4,800 particles, whatever N is. Each is
-run for two steps on one thread; nothing else should run meanwhile. It prints rows for docs/benchmarks.md.
+run for two steps on one thread; nothing else should run meanwhile. It prints the rows of
+results/benchmarks/many_patches.csv.
 """
 
 import json
