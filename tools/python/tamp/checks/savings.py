@@ -1,7 +1,8 @@
 """Shows what a cheaper scene saves, and that it says the same: pairs of scenes, side by side.
 
 Each pair is run on one thread, in turns, and the least of the times counts; nothing else should run meanwhile. A row
-has the steps and the core-seconds of both, how much cheaper the second is, and by how much what is compared differs. It prints the tables of results/savings.
+has the steps and the core-seconds of both, how much cheaper the second is, and by how much what is compared differs. It
+prints the tables of results/savings.
 """
 
 import argparse
