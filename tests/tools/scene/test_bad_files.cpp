@@ -33,6 +33,14 @@ TEST_CASE("text that is not JSON is refused with line and column")
              Catch::StartsWith("scene.json:2:18: ") && Catch::EndsWith("; expected JSON"));
 }
 
+TEST_CASE("lines of a file are counted with those of comments, and so is a comment without an end")
+{
+  CHECK_THAT(problems_of_text("// a scene\n{\n  /* two\n  lines */ \"dimension\": 2,,\n}"),
+             Catch::StartsWith("scene.json:4:27: ") && Catch::EndsWith("; expected JSON"));
+  CHECK_THAT(problems_of_text("{\n  \"dimension\": 2 /* two\n}"),
+             Catch::StartsWith("scene.json:3:") && Catch::Contains("missing closing '*/'"));
+}
+
 TEST_CASE("NaN is no JSON")
 {
   CHECK_THAT(problems_of_text("{\"dimension\": NaN}"), Catch::StartsWith("scene.json:1:15: "));
@@ -47,6 +55,8 @@ TEST_CASE("a key that is given twice is refused with its place")
 {
   CHECK(problems_of_text(R"({"list": [1, {"a": 1, "b": 2, "a": 3}]})") ==
         "scene.json#/list/1/a: the key is given twice; expected it once");
+  CHECK(problems_of_text("{\"a\": 1, // \"a\"\n\"b\": 2, /* , */ \"a\": 3}") ==
+        "scene.json#/a: the key is given twice; expected it once");
 }
 
 TEST_CASE("a scene that is no object is refused")

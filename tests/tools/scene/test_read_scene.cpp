@@ -32,6 +32,22 @@ TEST_CASE("a scene is read into what a run is made from")
   CHECK(scene.bodies[0].n_particles == 4);
 }
 
+TEST_CASE("comments of a scene change nothing of it, and values of --set have none")
+{
+  const TemporaryFolder folder;
+  std::string commented = small_scene;
+  commented.replace(commented.find("\"grid\""), 0, "// two cells, http://localhost\n  /* \"grid\": 1, */ ");
+  commented += " // the end";
+
+  const auto plain = read_scene(folder.write("plain/small.json", small_scene));
+  const auto with_comments = read_scene(folder.write("commented/small.json", commented));
+  const auto titled = read_scene(folder.write("small.json", small_scene), {"/title=\"a\" // b"});
+
+  CHECK(with_comments.resolved["grid"] == plain.resolved["grid"]);
+  CHECK(with_comments.resolved["bodies"] == plain.resolved["bodies"]);
+  CHECK(titled.scene.title == "\"a\" // b");
+}
+
 TEST_CASE("a transfer is read with its own number, and resolves without those of others")
 {
   const TemporaryFolder folder;

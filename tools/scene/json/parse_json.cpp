@@ -92,13 +92,14 @@ struct TooDeep {
 };
 
 /// Throws TooDeep for too many levels, so that none is ever made.
-Json parsed(const std::string& text, KeyWatch& watch)
+Json parsed(const std::string& text, KeyWatch& watch, bool with_comments)
 {
-  return Json::parse(text, [&watch](int depth, Json::parse_event_t event, Json& value) {
+  const auto follow = [&watch](int depth, Json::parse_event_t event, Json& value) {
     if (depth > most_json_levels) throw TooDeep();
     watch(event, value);
     return true;
-  });
+  };
+  return Json::parse(text, follow, true, with_comments);
 }
 
 }  // namespace
@@ -109,7 +110,7 @@ Json parse_json(const std::filesystem::path& file)
   KeyWatch watch;
   Json value;
   try {
-    value = parsed(text, watch);
+    value = parsed(text, watch, true);
   } catch (const TooDeep&) {
     throw InputError(
         {file.string(), fmt::format("more than {} levels of lists and objects", most_json_levels), "expected fewer"});
@@ -137,7 +138,7 @@ std::optional<Json> json_of(const std::string& text)
 {
   KeyWatch watch;
   try {
-    return parsed(text, watch);
+    return parsed(text, watch, false);
   } catch (const TooDeep&) {
     return std::nullopt;
   } catch (const Json::exception&) {
