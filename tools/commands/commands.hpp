@@ -7,6 +7,7 @@
 namespace tamp::tools
 {
 
+CLI::App* add_new_command(CLI::App& app);
 CLI::App* add_run_command(CLI::App& app);
 CLI::App* add_check_command(CLI::App& app);
 CLI::App* add_graph_command(CLI::App& app);

@@ -34,6 +34,7 @@ int run_program(int argc, char** argv, const runtime::Communicator& ranks)
   app.require_subcommand(1);
   app.formatter(std::make_shared<HelpFormatter>());
   app.option_defaults()->always_capture_default();
+  add_new_command(app);
   add_run_command(app);
   add_check_command(app);
   add_schema_command(app);
@@ -50,7 +51,8 @@ int run_program(int argc, char** argv, const runtime::Communicator& ranks)
   add_version_command(app);
   add_completion_command(app);
   add_man_command(app);
-  app.footer(examples({{"tamp run inputs/punch/quick.json", "the punch, into runs/quick"},
+  app.footer(examples({{"tamp new ball ball.json", "a scene to start from"},
+                       {"tamp run inputs/punch/quick.json", "the punch, into runs/quick"},
                        {"tamp help run", "all that a command takes, with examples"}}));
 
   if (is_old_verify(argc, argv)) {
