@@ -19,7 +19,8 @@ from tamp import failure  # noqa: E402
 # Modules by command. What a command does is the first line of its module.
 FOR_USERS = {
     "import": "laboratory.import_tests", "fit": "fit.command", "draw": "charts.draw",
-    "drive-page": "charts.drive_page", "history": "history", "picture": "picture", "projectile-mesh": "projectile_mesh",
+    "drive-page": "charts.drive_page", "plot": "plot.command", "history": "history", "picture": "picture",
+    "projectile-mesh": "projectile_mesh",
 }
 RESEARCH = {
     "cavity": "material.cavity", "companion": "material.companion", "concrete-sand": "concrete_sand",

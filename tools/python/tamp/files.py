@@ -64,7 +64,12 @@ def text(path):
 
 def rows(path):
     """(line, cells) of each line of a CSV with commas or semicolons. Blank lines and remarks have no cells."""
-    lines = list(io.StringIO(text(path), newline=None))
+    return rows_of(path, text(path))
+
+
+def rows_of(path, words):
+    """The same of a text, which may be the beginning of a file."""
+    lines = list(io.StringIO(words, newline=None))
     is_remark = [line.lstrip().startswith("#") for line in lines]
     delimiter = ";" if any(";" in line for line, remark in zip(lines, is_remark) if not remark) else ","
     made = []

@@ -82,7 +82,11 @@ def within_page(picture):
     return theme.for_page(re.sub(r' (width|height)="[^"]*"', "", head) + ">" + rest)
 
 
+def file_text(picture):
+    return '<?xml version="1.0" encoding="utf-8"?>\n' + picture.svg
+
+
 def write_files(picture, folder, name):
     folder.mkdir(parents=True, exist_ok=True)
-    (folder / f"{name}.svg").write_text('<?xml version="1.0" encoding="utf-8"?>\n' + picture.svg, encoding="utf-8")
+    (folder / f"{name}.svg").write_text(file_text(picture), encoding="utf-8")
     (folder / f"{name}.png").write_bytes(picture.png)

@@ -1,0 +1,1 @@
+"""Columns of runs over each other, and of what was measured."""
