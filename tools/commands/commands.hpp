@@ -12,6 +12,7 @@ CLI::App* add_run_command(CLI::App& app);
 CLI::App* add_check_command(CLI::App& app);
 CLI::App* add_graph_command(CLI::App& app);
 CLI::App* add_profile_command(CLI::App& app);
+CLI::App* add_plot_command(CLI::App& app);
 CLI::App* add_schema_command(CLI::App& app);
 CLI::App* add_drive_command(CLI::App& app);
 CLI::App* add_compare_command(CLI::App& app);

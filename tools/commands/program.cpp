@@ -40,6 +40,7 @@ int run_program(int argc, char** argv, const runtime::Communicator& ranks)
   add_schema_command(app);
   add_graph_command(app);
   add_profile_command(app);
+  add_plot_command(app);
   add_drive_command(app);
   add_compare_command(app);
   add_modulus_command(app);

@@ -19,7 +19,12 @@ struct Drawing {
 /// after all figures are written.
 void draw(const Drawing& drawing);
 
-/// The same for the study, the comparison or the run in a folder.
+/// Has the Python tools draw a picture of what they themselves read and judge, by the words of their command line. What
+/// they refuse is an InputError with their message, and a file that is damaged or cannot be read or written, or a want
+/// of Python with matplotlib, a FileError. Their warnings go to stderr.
+void draw_from_inputs(const std::vector<std::string>& words, const std::filesystem::path& picture);
+
+/// The same as `draw` for the study, the comparison or the run in a folder.
 void draw_page(const std::filesystem::path& folder);
 
 }  // namespace tamp::tools

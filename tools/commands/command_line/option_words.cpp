@@ -49,9 +49,15 @@ std::string details_of(const CLI::Option& option)
   return fmt::format("{}", fmt::join(details, "; "));
 }
 
+/// A text of its own where it holds words of several kinds, such as "RUN... X Y".
+std::string name_of_positional(const CLI::Option& option)
+{
+  return option.get_option_text().empty() ? option.get_name(true) : option.get_option_text();
+}
+
 OptionWords words_of(const CLI::Option& option)
 {
-  return {option.get_positional()       ? option.get_name(true)
+  return {option.get_positional()       ? name_of_positional(option)
           : option.get_lnames().empty() ? "-" + option.get_snames().front()
                                         : "--" + option.get_lnames().front(),
           value_of(option),
@@ -72,7 +78,8 @@ bool is_flag(const CLI::Option& option)
 std::string OptionWords::usage() const
 {
   if (is_positional()) {
-    const std::string text = name + (is_repeated ? "..." : "");
+    const bool has_dots = name.find("...") != std::string::npos;
+    const std::string text = name + (is_repeated && !has_dots ? "..." : "");
     return is_required ? text : "[" + text + "]";
   }
   return value.empty() ? name : name + " " + value;

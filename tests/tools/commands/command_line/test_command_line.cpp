@@ -14,9 +14,9 @@ namespace fs = std::filesystem;
 namespace
 {
 
-const std::vector<std::string> all_commands{"new",   "run",     "check",   "schema",     "graph",  "profile",
-                                            "drive", "compare", "modulus", "study",      "verify", "stability",
-                                            "bench", "help",    "version", "completion", "man"};
+const std::vector<std::string> all_commands{"new",       "run",   "check",   "schema",  "graph",      "profile",
+                                            "plot",      "drive", "compare", "modulus", "study",      "verify",
+                                            "stability", "bench", "help",    "version", "completion", "man"};
 
 /// Words that bash offers for a line of which the last word is being typed.
 std::string bash_offers(const std::string& line)
