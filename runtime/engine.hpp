@@ -24,7 +24,8 @@ struct Progress {
   double step_size = 0;  ///< of the last step [s]
 };
 
-/// The runtime's front door: runs the steps of a simulation on threads and ranks. docs/first_task_graph.md is a tour.
+/// The runtime's front door: runs the steps of a simulation on threads and ranks. docs/tutorials/first_task_graph.md is
+/// a tour.
 ///
 /// The first graph is the step, which makes the state that the next one reads; the others read that state too, and make
 /// results. All that changes from step to step is state, in the warehouse: a checkpoint holds it, and it moves along

@@ -1,4 +1,5 @@
-# The runtime as a library of its own (docs/building.md): cmake --install BUILD --component runtime --prefix FOLDER.
+# The runtime as a library of its own (docs/how_to/building.md):
+# cmake --install BUILD --component runtime --prefix FOLDER.
 # Installed is what a program includes, and what these headers include in turn; tests/install compiles them alone.
 set(for_programs
   engine.hpp file_error.hpp step_error.hpp execute/on_workers.hpp graph/dump.hpp graph/page.hpp graph/step_verdict.hpp

@@ -44,7 +44,8 @@ constexpr std::array<components::Parameter<SceneTime>, 6> SceneTime::parameters(
             "",
             {.lower = 0, .upper = 100},
             &SceneTime::redos,
-            "a step that goes wrong is tried again, shorter, at most so many times, see failures.md; 0: the run ends",
+            "a step that goes wrong is tried again, shorter, at most so many times, see when_a_run_warns.md; 0: the "
+            "run ends",
             true},
            {"redo_factor",
             "",

@@ -14,7 +14,8 @@ namespace tamp::components
 /// All the updates there are, with the functions of ExactUpdate; one more is added here.
 using DeformationUpdates = std::variant<ExactUpdate, FirstOrderUpdate, ExponentialUpdate>;
 
-/// How the deformation of a step follows from g, dt times the velocity gradient; docs/method.md compares them.
+/// How the deformation of a step follows from g, dt times the velocity gradient; docs/explanation/method.md compares
+/// them.
 using DeformationUpdate = Choice<DeformationUpdates>;
 
 /// Calls `visit(update)` with what an update is made of.

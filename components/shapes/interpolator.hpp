@@ -9,7 +9,7 @@
 #include "components/shapes/gimp.hpp"
 #include "components/shapes/linear.hpp"
 
-/// Members of every interpolator of D dimensions; docs/method.md says what each is for:
+/// Members of every interpolator of D dimensions; docs/explanation/method.md says what each is for:
 ///
 ///  - `word`, its name in scenes, and `meaning`, its weights, for people;
 ///  - a constructor from the number of particles along each axis of a cell;

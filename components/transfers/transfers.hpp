@@ -19,7 +19,7 @@ namespace tamp::components
 /// All the transfers there are, see transfer.hpp; one more is added here.
 using Transfers = std::variant<Flip, Pic, Blend, Tflip, Apic, Tpic, Xpic, Fmpm>;
 
-/// How velocities go between particles and grid; docs/method.md says what each is for.
+/// How velocities go between particles and grid; docs/explanation/method.md says what each is for.
 using Transfer = Choice<Transfers>;
 
 /// Calls `visit(transfer)` with what `choice` names.

@@ -12,7 +12,7 @@ namespace tamp::runtime
 /// What an instance reads, computes, updates, accumulates and reduces: a list for each of these words.
 nlohmann::json uses_of(const TaskGraph& graph, const Instance& instance);
 
-/// The tasks and edges of a folded graph; see docs/ranks.md for the keys.
+/// The tasks and edges of a folded graph; see docs/how_to/ranks.md for the keys.
 nlohmann::json to_json(const TaskGraph& graph, const FoldedGraph& folded);
 
 /// Every task instance and every edge, and under `folded` the same by task.

@@ -51,7 +51,7 @@ std::vector<double> greatest_volume_ratios(Simulation& trial)
 /// its density falls by J.
 double bound_of_loose(const Scene& scene, const SceneMaterial& material, double volume_ratio)
 {
-  constexpr double stiffness_at_edge = 5;  // see docs/method.md
+  constexpr double stiffness_at_edge = 5;  // see docs/explanation/method.md
   const components::TangentModuli moduli = initial_moduli(material);
   const double density = material.density / volume_ratio, h = scene.grid.cell_size;
   if (scene.time.rule == components::StepRule::published) {

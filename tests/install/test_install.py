@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""The runtime, installed and moved to another folder, builds and runs the program of docs/first_task_graph.md:
+"""The runtime, installed and moved, builds and runs the program of docs/tutorials/first_task_graph.md:
 
     tests/install/test_install.py BUILD [--cmake CMAKE] [--mpiexec MPIEXEC] [--compiler CXX]
 """
@@ -35,7 +35,7 @@ class InstalledRuntime(unittest.TestCase):
         first, cls.prefix = cls.folder / "first", cls.folder / "moved"
         run(options.cmake, "--install", options.build, "--component", "runtime", "--prefix", first)
         first.rename(cls.prefix)
-        heat = shutil.copytree(ROOT / "docs/first_task_graph", cls.folder / "tutorial")
+        heat = shutil.copytree(ROOT / "docs/tutorials/first_task_graph", cls.folder / "tutorial")
         build = cls.folder / "build"
         run(options.cmake, "-S", ROOT / "tests/install", "-B", build, "-G", "Ninja", f"-DHEAT={heat}",
             f"-DINSTALLED={cls.prefix}", f"-DCMAKE_PREFIX_PATH={cls.prefix}",

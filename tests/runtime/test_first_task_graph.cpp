@@ -17,7 +17,7 @@ namespace
 
 std::string text_of(const std::string& path)
 {
-  std::ifstream file(std::string(TAMP_SOURCE_DIR) + "/docs/" + path);
+  std::ifstream file(std::string(TAMP_SOURCE_DIR) + "/docs/tutorials/" + path);
   std::stringstream text;
   text << file.rdbuf();
   return text.str();

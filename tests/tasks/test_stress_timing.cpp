@@ -43,7 +43,7 @@ std::vector<double> strains_after(Scene scene, StressTiming timing, int n_steps)
 
 TEST_CASE("from rest a force deforms particles by what the nodes tell them, by what they bring back of it, or not yet")
 {
-  // Particles bring back the part (5 + 3 cos kh) / 8 of a wave, see docs/method.md.
+  // Particles bring back the part (5 + 3 cos kh) / 8 of a wave, see docs/explanation/method.md.
   const double k = GENERATE(1, 3, 6) * pi / 0.8;
   const Scene scene = pulled_block(GENERATE(2, 3), k);
   const double part = (5 + 3 * std::cos(k * 0.1)) / 8;

@@ -17,7 +17,7 @@ Eigen::Vector3d way_of(const tasks::Scene& scene, const tasks::SceneBody& body);
 /// The speed of compression waves in a body's unstrained material [m/s].
 double waves_in(const tasks::Scene& scene, const tasks::SceneBody& body);
 
-/// With fewer cells to a half width the force on it is a tenth or more too large, see docs/choosing.md.
+/// With fewer cells to a half width the force on it is a tenth or more too large, see docs/how_to/cells_and_method.md.
 inline constexpr double least_cells_per_half_width = 6;
 
 /// Whether no other body is in a body's way.

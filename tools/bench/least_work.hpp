@@ -10,8 +10,8 @@ struct LeastWork {
   /// Each array of particles read once and written once.
   double bytes = 0;
   /// Adds, subtractions, multiplies, divisions and square roots of the method's formulas, each counted as one, as
-  /// written in docs/method.md for one particle: comparisons, places in tables and a second try at anything are left
-  /// out.
+  /// written in docs/explanation/method.md for one particle: comparisons, places in tables and a second try at anything
+  /// are left out.
   double operations = 0;
 };
 

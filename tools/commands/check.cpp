@@ -118,7 +118,7 @@ CLI::App* add_check_command(CLI::App& app)
   command->footer(examples(
       {{"tamp check inputs/punch/quick.json",
         "the scene resolved, its particles, memory and time; in lines of advice what bounds the step and what a "
-        "rigid body would save, cells, the box that waves see, methods off the front (docs/savings.md)"},
+        "rigid body would save, cells, the box that waves see, methods off the front (docs/findings/savings.md)"},
        {"tamp check inputs/punch/quick.json --set /grid/cell_size=0.0125", "the same on finer cells"}}));
   command->callback([options] { check(*options); });
   return command;

@@ -18,7 +18,7 @@ CLI::App* add_schema_command(CLI::App& app)
 {
   CLI::App* command = app.add_subcommand("schema", "Print the JSON schema of scenes, for editors and validators");
   const auto format = std::make_shared<std::string>("json");
-  command->add_option("--format", *format, "json, or markdown: the keys as the tables of docs/scene.md")
+  command->add_option("--format", *format, "json, or markdown: the keys as the tables of docs/reference/scene.md")
       ->check(is_one_of({"json", "markdown"}));
   command->footer(examples({{"tamp schema > scene.schema.json", "for an editor that completes and checks scenes"}}));
   command->callback([format] {

@@ -26,7 +26,8 @@ struct CheckedScene {
 };
 
 /// Reads a scene's file, applies `assignments` (POINTER=VALUE) in order, and checks all of it. The keys are those of
-/// docs/scene.md. Throws FileError if the file cannot be read, and InputError with every problem of the scene.
+/// docs/reference/scene.md. Throws FileError if the file cannot be read, and InputError with every problem of the
+/// scene.
 CheckedScene read_scene(const std::filesystem::path& file, const std::vector<std::string>& assignments = {});
 
 }  // namespace tamp::tools

@@ -5,7 +5,7 @@
 namespace tamp::tools::study
 {
 
-/// The keys of a study file, see docs/study.md.
+/// The keys of a study file, see docs/how_to/study.md.
 const ObjectKeys& study_keys();
 
 }  // namespace tamp::tools::study

@@ -25,7 +25,7 @@ struct StudyResults {
   std::vector<MapOfSheet> map{};
 };
 
-/// `study.json`, which the page is drawn from, see docs/study.md.
+/// `study.json`, which the page is drawn from, see docs/how_to/study.md.
 Json to_json(const StudyResults& results);
 
 /// `points.csv`: a row for each point.

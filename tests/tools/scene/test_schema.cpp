@@ -30,9 +30,9 @@ std::vector<std::string> tables_of(const std::filesystem::path& file)
 }  // namespace
 
 // `tamp schema --format markdown` prints them.
-TEST_CASE("the tables of docs/scene.md are those of the declared keys")
+TEST_CASE("the tables of docs/reference/scene.md are those of the declared keys")
 {
-  const std::vector<std::string> written = tables_of(TAMP_SOURCE_DIR "/docs/scene.md");
+  const std::vector<std::string> written = tables_of(TAMP_SOURCE_DIR "/docs/reference/scene.md");
   const std::vector<std::string> declared = tools::key_tables();
 
   REQUIRE(written.size() == declared.size());
@@ -51,6 +51,17 @@ TEST_CASE("the schema tells an editor unit, default and range of a key")
   CHECK(material.at("/properties/type/enum/0"_json_pointer) == "hypoelastic");
   CHECK(material.at("/allOf/0/then/properties/density/description"_json_pointer) ==
         "of the unstrained material [kg/m³]");
+}
+
+TEST_CASE("the schema names the pages that the text of a key links")
+{
+  const tools::Json schema = tools::scene_schema();
+
+  const tools::Json& scene = schema.at("/definitions/scene/else/properties"_json_pointer);
+  CHECK_THAT(scene.at("/time/properties/rule/description"_json_pointer).get<std::string>(),
+             Catch::EndsWith(", see docs/explanation/method.md"));
+  CHECK_THAT(scene.at("/output/properties/history_interval/description"_json_pointer).get<std::string>(),
+             Catch::Contains(" are listed in docs/reference/output.md [s]"));
 }
 
 }  // namespace test_schema

@@ -13,7 +13,7 @@
 #include "tools/scene/json/document.hpp"
 
 /// Names, values and meanings of the keys of scenes: said here once, for the readers, the JSON schema and the tables of
-/// docs/scene.md.
+/// docs/reference/scene.md.
 namespace tamp::tools
 {
 

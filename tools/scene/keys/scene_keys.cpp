@@ -51,9 +51,9 @@ const ObjectKeys& time_keys()
         {"viscous", tasks::StepRule::viscous,
          "takes account of artificial viscosity, of particles at edges and alone, and of bodies that approach each "
          "other too"}};
-    const Key rule =
-        choice<tasks::StepRule>("rule", tasks::SceneTime{}.rule, rules,
-                                "bound on the time step: " + meanings_of(rules) + ", see [method.md](method.md)");
+    const Key rule = choice<tasks::StepRule>(
+        "rule", tasks::SceneTime{}.rule, rules,
+        "bound on the time step: " + meanings_of(rules) + ", see [method.md](../explanation/method.md)");
     time.keys.insert(time.keys.begin() + 1, rule);
     return time;
   }();
@@ -125,7 +125,7 @@ std::vector<Key> domain_keys()
            {false},
            "with dimension 2: the scene stands for what turning it about the line x = 0 makes of it; x is the distance "
            "from that line, y runs along it, and masses, forces and energies are those of the whole; see "
-           "[method.md](method.md)"},
+           "[method.md](../explanation/method.md)"},
           {"grid", Object{grid_keys}, "", compulsory, ""},
           {"boundaries", Object{boundary_keys}, "", empty, ""},
           {"time", Object{time_keys}, "", compulsory, ""}};
@@ -135,7 +135,7 @@ std::vector<Key> domain_keys()
 std::vector<Key> method_keys()
 {
   static const tasks::Scene scene{};
-  const std::string see = "; see [method.md](method.md)";
+  const std::string see = "; see [method.md](../explanation/method.md)";
   const auto words = [&see](auto value) { return meanings_of(words_of(value)) + see; };
   std::vector<Key> keys{
       choice("interpolator", scene.interpolator, tasks::Interpolator::words(),

@@ -56,11 +56,13 @@ Json or_null(Json schema)
   return schema;
 }
 
-/// The meaning of a key, for an editor to show.
+/// The meaning of a key, for an editor to show. Its links lead from docs/reference/scene.md to pages beside it or, by
+/// `../`, to those of other folders.
 std::string description(const Key& key)
 {
-  static const std::regex link(R"(\[[^\]]*\]\(([^)]*)\))");
-  std::string text = std::regex_replace(key.meaning, link, "docs/$1");
+  static const std::regex to_other_folder(R"(\[[^\]]*\]\(\.\./([^)]*)\))"), link(R"(\[[^\]]*\]\(([^)]*)\))");
+  std::string text = std::regex_replace(key.meaning, to_other_folder, "docs/$1");
+  text = std::regex_replace(text, link, "docs/reference/$1");
   if (!key.unit.empty()) text += (text.empty() ? "[" : " [") + shown_unit(key.unit) + "]";
   const Default& left_out = key.default_value;
   if (left_out.compulsory || !left_out.value.is_null() || left_out.words.empty()) return text;

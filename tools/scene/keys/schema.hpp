@@ -13,7 +13,7 @@ namespace tamp::tools
 /// that names another under "file" is a part of one: no key of it is compulsory, and null removes a key.
 Json scene_schema();
 
-/// The tables of keys of docs/scene.md, in its order: in Markdown, each ending in a line break.
+/// The tables of keys of docs/reference/scene.md, in its order: in Markdown, each ending in a line break.
 std::vector<std::string> key_tables();
 
 /// A unit as it is shown to people.

@@ -123,7 +123,8 @@ TEST_CASE("the first point shown is at rest, and increments are as few as the la
   CHECK(times.back() == 1);
 }
 
-/// The companion of the report read these off its figures, see docs/companion.md: by eye, to about 2 % of 5 GPa.
+/// The companion of the report read these off its figures, see docs/explanation/strength.md: by eye, to about 2 % of 5
+/// GPa.
 TEST_CASE("the report's sand has the stress of its companion's single particle in uniaxial strain to 0.6")
 {
   const auto sand = tools::read_checked_material(TAMP_SOURCE_DIR "/inputs/materials/concrete-sand/table.json").material;

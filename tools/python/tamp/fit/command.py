@@ -1,6 +1,7 @@
 """Fits the models of the sand's elastic moduli to its measured unloading curves.
 
-FOLDER holds unloading.csv, which is the table model itself, and hydrostat.csv; docs/fitting.md says how they are made.
+FOLDER holds unloading.csv, which is the table model itself, and hydrostat.csv; docs/how_to/fit_a_sand.md says how they
+are made.
 Written are support_vectors.json (SVR) and network.h5 (MLP), and if wanted a page of plots. The errors are printed. The
 same input gives the same files, byte for byte. Debian's python3-sklearn, python3-h5py and python3-matplotlib are used.
 """

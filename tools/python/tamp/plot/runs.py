@@ -10,7 +10,7 @@ from tamp import files
 from tamp.failure import Failure, Refusal, say
 
 N_NEAR = 3
-# What half a scene has half of (docs/output.md).
+# What half a scene has half of (docs/reference/output.md).
 OF_THE_PART = {"N", "N m", "N s", "J", "kg", "particles"}
 
 

@@ -30,7 +30,8 @@ def run(tamp, cell_size, folder):
 def add_arguments(parser):
     program.add_option(parser)
     parser.add_argument("--runs", type=pathlib.Path, default=program.ROOT / "runs/localisation")
-    parser.add_argument("--out", type=pathlib.Path, default=program.ROOT / "docs/accuracy-localisation.png")
+    parser.add_argument("--out", type=pathlib.Path,
+                        default=program.ROOT / "docs/findings/pictures/accuracy-localisation.png")
 
 
 def main(options):

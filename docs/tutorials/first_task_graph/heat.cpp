@@ -1,4 +1,4 @@
-// The program of docs/first_task_graph.md: the heat equation on the unit square, on threads and ranks.
+// The program of docs/tutorials/first_task_graph.md: the heat equation on the unit square, on threads and ranks.
 
 #include <fmt/ranges.h>
 
