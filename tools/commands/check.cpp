@@ -1,8 +1,11 @@
-#include <fmt/core.h>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
 
-#include <cmath>
+#include <filesystem>
 #include <memory>
-#include <variant>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "runtime/storage/whole_file.hpp"
 #include "tasks/set_up/body_sites.hpp"
@@ -32,72 +35,152 @@ struct CheckArguments {
   std::string scene;
   std::vector<std::string> assignments;
   std::string study;
+  bool json = false;
 };
 
+/// What a person reads: on stdout, or on stderr where the scene's JSON has stdout to itself.
+struct CheckReport {
+  bool is_on_stderr;
+
+  template <class... Args>
+  void line(fmt::format_string<Args...> format, Args&&... args) const
+  {
+    const std::string text = without_controls(fmt::format(format, std::forward<Args>(args)...)) + "\n";
+    if (is_on_stderr) {
+      write_err(text);
+    } else {
+      write_out(text);
+    }
+  }
+  /// A line each.
+  void warn(const std::vector<std::string>& warnings) const
+  {
+    for (const std::string& warning : warnings) line("tamp: warning: {}", warning);
+  }
+};
+
+/// Such as "48 x 96": of the axes that the scene has.
+std::string along_axes(const tasks::Scene& scene, const runtime::Index& counts)
+{
+  return fmt::format("{}", fmt::join(counts.begin(), counts.begin() + scene.grid.dimension, " x "));
+}
+
+/// Such as "0.12 x 0.24 m".
+std::string size_of(const runtime::Grid& grid)
+{
+  std::vector<double> lengths;
+  lengths.reserve(3);
+  for (int axis = 0; axis < grid.dimension; ++axis) lengths.push_back(grid.length(static_cast<std::size_t>(axis)));
+  return fmt::format("{:.6g} m", fmt::join(lengths, " x "));
+}
+
+/// Such as "100 of steel (hypoelastic), 11520 of sand (tabular_cap)".
+std::string particles_by_material(const CheckedScene& checked)
+{
+  std::vector<std::size_t> counts(checked.scene.materials.size());
+  for (const tasks::SceneBody& body : checked.scene.bodies) {
+    counts[static_cast<std::size_t>(body.material)] += body.n_particles;
+  }
+  std::vector<std::string> parts;
+  parts.reserve(counts.size());
+  for (std::size_t m = 0; m < counts.size(); ++m) {
+    const std::string& name = checked.scene.materials[m].name;
+    const Json& type = checked.resolved.at("materials").at(name).at("type");
+    parts.push_back(fmt::format("{} of {} ({})", counts[m], name, type.get<std::string>()));
+  }
+  return fmt::format("{}", fmt::join(parts, ", "));
+}
+
+/// Title, kind, grid and particles.
+void report_scene(const CheckedScene& checked, const CheckArguments& options, const CheckReport& report)
+{
+  const tasks::Scene& scene = checked.scene;
+  const runtime::Grid& grid = scene.grid;
+  const char* const plane = grid.dimension == 3 ? "" : scene.axisymmetric ? ", axisymmetric" : ", plane strain";
+  report.line("{}: {}", options.scene, scene.title);
+  report.line("  kind  {} dimensions{}, until {} s", grid.dimension, plane, scene.time.end);
+  report.line("  grid  {} cells of {} m, {} in all; {}; {} patches", along_axes(scene, grid.n_cells), grid.cell_size,
+              grid.cells().size(), size_of(grid), along_axes(scene, scene.n_patches));
+  report.line("  particles  {}: {}", scene.n_particles(), particles_by_material(checked));
+}
+
 /// How much the solid and its particles hold, a line each.
-void print_volumes(const tasks::Scene& scene, const tasks::SceneBody& body)
+void report_volumes(const tasks::Scene& scene, const tasks::SceneBody& body, const CheckReport& report)
 {
   const double density = scene.materials[static_cast<std::size_t>(body.material)].density;
   const components::Volume solid = tasks::solid_volume(scene, body);
   const double filled = tasks::particle_volume(scene, body);
   const std::string known =
       solid.is_exact() ? "exact" : fmt::format("within {:.2g} %", 100 * solid.error / solid.value);
-  print_err("        solid      {:.6g} m3, {:.6g} kg ({})\n", solid.value, density * solid.value, known);
-  print_err("        particles  {:.6g} m3, {:.6g} kg ({:+.3g} %)\n", filled, density * filled,
-            100 * (filled / solid.value - 1));
+  report.line("        solid      {:.6g} m3, {:.6g} kg ({})", solid.value, density * solid.value, known);
+  report.line("        particles  {:.6g} m3, {:.6g} kg ({:+.3g} %)", filled, density * filled,
+              100 * (filled / solid.value - 1));
 }
 
 /// On how many cells a body goes into another one, if it does.
-void print_cells(const tasks::Scene& scene, const tasks::SceneBody& body)
+void report_cells(const tasks::Scene& scene, const tasks::SceneBody& body, const CheckReport& report)
 {
   const auto penetration = penetration_of(scene, body);
   if (!penetration) return;
-  print_err("        {:.1f} cells to its half width, on its way into {}\n", penetration->cells(),
-            penetration->into->name);
+  report.line("        {:.1f} cells to its half width, on its way into {}", penetration->cells(),
+              penetration->into->name);
 }
 
-void write_study(const CheckedScene& checked, const CheckArguments& options)
+void report_bodies(const tasks::Scene& scene, const CheckReport& report)
+{
+  for (const tasks::SceneBody& body : scene.bodies) {
+    const std::string& material = scene.materials[static_cast<std::size_t>(body.material)].name;
+    report.line("  body  {}: {} particles of {}{}", body.name, body.n_particles, material, body.rigid ? ", rigid" : "");
+    report_volumes(scene, body, report);
+    report_cells(scene, body, report);
+  }
+}
+
+/// Throws InputError where the machine has no room for the run.
+Forecast expected_forecast(const CheckedScene& checked)
+{
+  Forecast forecast = tools::forecast(checked.scene);
+  expect_room(checked, forecast);
+  add_copies(forecast);
+  add_pace(checked.scene, {}, forecast);
+  return forecast;
+}
+
+void report_advice(const CheckedScene& checked, const Forecast& forecast, const CheckReport& report)
+{
+  for (const std::string& line : advice(checked, forecast.pace)) report.line("  advice  {}", line);
+  if (const auto to_turn = advice_to_turn(checked.scene)) report.line("  advice  {}", *to_turn);
+  if (const auto to_halve = advice_to_halve(checked.scene)) report.line("  advice  {}", *to_halve);
+}
+
+void write_study(const CheckedScene& checked, const CheckArguments& options, const CheckReport& report)
 {
   const std::filesystem::path file = options.study;
   const Json study =
       study::telling_study(checked, options.scene, options.assignments, std::filesystem::absolute(file).parent_path());
   runtime::write_whole_file(file, json_text(study, 2) + "\n");
-  print_err("  study  written to {}; tamp study {} runs it\n", file.string(), file.string());
+  report.line("  study  written to {}; tamp study {} runs it", file.string(), file.string());
 }
 
 void check(const CheckArguments& options)
 {
   const CheckedScene checked = read_scene(options.scene, options.assignments);
-  const tasks::Scene& scene = checked.scene;
   expect_outputs({{"--study", options.study}});
-  print_out("{}\n", printed(checked.resolved));
-
-  const runtime::Index& n = scene.grid.n_cells;
-  const runtime::Index& patches = scene.n_patches;
-  print_err("{}: {} cells, {} patches\n", options.scene, scene.grid.cells().size(),
-            patches[0] * patches[1] * patches[2]);
-  print_err("  grid  {} x {} x {} cells of {} m\n", n[0], n[1], n[2], scene.grid.cell_size);
-  for (const tasks::SceneBody& body : scene.bodies) {
-    const std::string& material = scene.materials[static_cast<std::size_t>(body.material)].name;
-    print_err("  body  {}: {} particles of {}\n", body.name, body.n_particles, material);
-    print_volumes(scene, body);
-    print_cells(scene, body);
-  }
-  for (const std::string& line : compiled_moduli(checked)) print_err("  {}\n", line);
-  for (const std::string& line : checked.remarks) print_err("  {}\n", line);
+  const CheckReport report{options.json};
+  if (options.json) print_out("{}\n", printed(checked.resolved));
   print_notes(checked.notes);
-  print_warnings(plausibility_warnings(checked));
-  print_warnings(material_warnings(checked));
-  print_warnings(contact_warnings(checked));
-  Forecast forecast = tools::forecast(scene);
-  expect_room(checked, forecast);
-  add_copies(forecast);
-  add_pace(scene, {}, forecast);
-  print_err("  {}\n", description(forecast));
-  for (const std::string& line : advice(checked, forecast.pace)) print_err("  advice  {}\n", line);
-  if (!options.study.empty()) write_study(checked, options);
-  if (const auto to_turn = advice_to_turn(scene)) print_err("  advice  {}\n", *to_turn);
-  if (const auto to_halve = advice_to_halve(scene)) print_err("  advice  {}\n", *to_halve);
+
+  report_scene(checked, options, report);
+  report_bodies(checked.scene, report);
+  for (const std::string& line : compiled_moduli(checked)) report.line("  {}", line);
+  for (const std::string& line : checked.remarks) report.line("  {}", line);
+  report.warn(plausibility_warnings(checked));
+  report.warn(material_warnings(checked));
+  report.warn(contact_warnings(checked));
+  const Forecast forecast = expected_forecast(checked);
+  report.line("  {}", description(forecast));
+  report_advice(checked, forecast, report);
+  if (!options.study.empty()) write_study(checked, options, report);
 }
 
 }  // namespace
@@ -105,10 +188,12 @@ void check(const CheckArguments& options)
 CLI::App* add_check_command(CLI::App& app)
 {
   CLI::App* command =
-      app.add_subcommand("check", "Check a scene, print it with every default filled in, forecast and advise");
+      app.add_subcommand("check", "Check a scene, sum it up, forecast what it takes and advise; print it resolved");
   const auto options = std::make_shared<CheckArguments>();
   command->add_option("SCENE", options->scene, "the scene's JSON file")->type_name("FILE")->required();
   add_assignments(*command, options->assignments, "scene");
+  command->add_flag("--json", options->json,
+                    "print the scene as JSON with every default filled in; what else is said goes to stderr");
   command
       ->add_option(
           "--study", options->study,
@@ -117,9 +202,11 @@ CLI::App* add_check_command(CLI::App& app)
       ->type_name("OUT.json");
   command->footer(examples(
       {{"tamp check inputs/punch/quick.json",
-        "the scene resolved, its particles, memory and time; in lines of advice what bounds the step and what a "
+        "its particles, masses, memory and time; in lines of advice what bounds the step and what a "
         "rigid body would save, cells, the box that waves see, methods off the front (docs/findings/savings.md)"},
-       {"tamp check inputs/punch/quick.json --set /grid/cell_size=0.0125", "the same on finer cells"}}));
+       {"tamp check inputs/punch/quick.json --set /grid/cell_size=0.0125", "the same on finer cells"},
+       {"tamp check inputs/punch/quick.json --json > plain.json",
+        "the scene with its materials in it and no key left out"}}));
   command->callback([options] { check(*options); });
   return command;
 }

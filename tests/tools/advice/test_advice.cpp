@@ -18,7 +18,7 @@ std::string check_of(const std::string& scene, const std::string& more = "")
 {
   const Outcome outcome = tamp_with("check " TAMP_SOURCE_DIR "/inputs/" + scene + " " + more);
   REQUIRE(outcome.exit_code == 0);
-  return outcome.err;
+  return outcome.out;
 }
 
 }  // namespace
@@ -148,7 +148,7 @@ TEST_CASE("the check writes the study that tells how far a scene is off, and it 
   const Outcome checked = tamp_with(scene + set + "--study " + study);
   const Outcome ran = tamp_with("study " + study + " --quiet --out " + out);
 
-  INFO(checked.err << ran.err);
+  INFO(checked.out << checked.err << ran.err);
   REQUIRE(checked.exit_code == 0);
   REQUIRE(ran.exit_code == 0);
   const auto results = nlohmann::json::parse(read_text(folder.path() / "out" / "study.json"));

@@ -68,7 +68,7 @@ TEST_CASE("every new scene is sound, needs no other file, and passes the check w
     CHECK(checked.scene.grid.dimension == (choice[1] == "space" ? 3 : 2));
     CHECK(checked.scene.axisymmetric == (choice[1] == "axisymmetric"));
     CHECK(outcome.exit_code == 0);
-    if (choice[1] != "space") CHECK_THAT(outcome.err, !Catch::Contains("warning"));
+    if (choice[1] != "space") CHECK_THAT(outcome.out, !Catch::Contains("warning"));
   }
 }
 

@@ -1,7 +1,9 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <catch2/catch.hpp>
+#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
@@ -12,6 +14,21 @@ namespace test_program
 {
 
 using namespace tamp::test;
+
+namespace
+{
+
+const std::string ball = TAMP_SOURCE_DIR "/inputs/ball/quick.json";
+
+/// Without the files that it was read from, which are others once it has been printed.
+nlohmann::json scene_of(const std::string& text)
+{
+  nlohmann::json scene = nlohmann::json::parse(text);
+  scene.erase("inputs");
+  return scene;
+}
+
+}  // namespace
 
 TEST_CASE("the version names the build, the compiler and every library")
 {
@@ -120,7 +137,8 @@ TEST_CASE("a command that no ranks share is the first rank's alone", "[mpiexec]"
   const Outcome bad = tamp_on_ranks(3, "check " + file.string() + " --set /time/end=0");
 
   CHECK(sound.exit_code == 0);
-  CHECK(sound.err.find("block: 4 particles") == sound.err.rfind("block: 4 particles"));
+  CHECK_THAT(sound.out, Catch::Contains("block: 4 particles"));
+  CHECK(sound.out.find("block: 4 particles") == sound.out.rfind("block: 4 particles"));
   CHECK(bad.exit_code == 2);
   CHECK_THAT(bad.err, Catch::Contains("tamp: --set#/time/end: 0; expected a number above 0 [s]"));
   CHECK(tamp_on_ranks(2, "--version").exit_code == 0);
@@ -152,11 +170,11 @@ TEST_CASE("volume and mass of a solid are printed beside those of its particles"
   const Outcome disk = tamp_with("check " + file.string() +
                                  " --set '/bodies/block/geometry={\"type\":\"ball\",\"centre\":[1,1],\"radius\":1}'");
 
-  CHECK_THAT(disk.err, Catch::Contains("solid      3.14159 m3, 25132.7 kg (exact)"));
-  CHECK_THAT(disk.err, Catch::Contains("particles  3 m3, 24000 kg (-4.51 %)"));
+  CHECK_THAT(disk.out, Catch::Contains("solid      3.14159 m3, 25132.7 kg (exact)"));
+  CHECK_THAT(disk.out, Catch::Contains("particles  3 m3, 24000 kg (-4.51 %)"));
 }
 
-TEST_CASE("a sound scene passes the check, is printed resolved, and its particles are counted")
+TEST_CASE("a sound scene passes the check, and what is said of it is no JSON")
 {
   const TemporaryFolder folder;
   const auto file = folder.write("small.json", small_scene);
@@ -164,8 +182,54 @@ TEST_CASE("a sound scene passes the check, is printed resolved, and its particle
   const Outcome outcome = tamp_with("check " + file.string());
 
   CHECK(outcome.exit_code == 0);
-  CHECK_THAT(outcome.out, Catch::Contains("\"rule\": \"viscous\""));
-  CHECK_THAT(outcome.err, Catch::Contains("block: 4 particles of steel") && Catch::Contains("MiB"));
+  CHECK(outcome.err.empty());
+  CHECK_THAT(outcome.out,
+             Catch::StartsWith(file.string() + ": small\n"
+                                               "  kind  2 dimensions, plane strain, until 1 s\n"
+                                               "  grid  2 x 2 cells of 1 m, 4 in all; 2 x 2 m; 1 x 1 patches\n"
+                                               "  particles  4: 4 of steel (hypoelastic)\n"
+                                               "  body  block: 4 particles of steel\n"));
+  CHECK_THAT(outcome.out, Catch::Contains("\n  forecast: 4 particles, ") && Catch::Contains("MiB"));
+  CHECK_THAT(outcome.out, !Catch::Contains("\"rule\"") && !Catch::Contains("{"));
+}
+
+TEST_CASE("what the check says of the ball fits on a screen: its scene, bodies, forecast, warnings and advice")
+{
+  const Outcome outcome = tamp_with("check " + ball);
+
+  CHECK(outcome.exit_code == 0);
+  CHECK(outcome.err.empty());
+  CHECK(std::ranges::count(outcome.out, '\n') <= 40);
+  for (const char* line :
+       {"quick.json: A steel ball of 20 mm dropped into dry sand", "  kind  2 dimensions, axisymmetric, until 0.03 s\n",
+        "  grid  48 x 96 cells of 0.0025 m, 4608 in all; 0.12 x 0.24 m; 1 x 2 patches\n",
+        "  particles  11620: 100 of steel (hypoelastic), 11520 of sand (tabular_cap)\n",
+        "  body  ball: 100 particles of steel, rigid\n", "  body  sand: 11520 particles of sand\n",
+        "tamp: warning: /bodies/ball/geometry: ", "  forecast: 11620 particles, ", " on the disk, about ",
+        " core-seconds", "  advice  cells: ball has 4.0 to its half width"}) {
+    CHECK_THAT(outcome.out, Catch::Contains(line));
+  }
+  CHECK_THAT(outcome.out, !Catch::Contains("\"materials\""));
+}
+
+TEST_CASE("the check prints a scene as JSON alone, which runs and is resolved to itself, and warns on stderr")
+{
+  const TemporaryFolder folder;
+
+  const Outcome checked = tamp_with("check " + ball + " --json");
+  const std::string plain = folder.write("plain.json", checked.out).string();
+  const Outcome again = tamp_with("check " + plain + " --json");
+  const Outcome ran = tamp_with("run " + plain + " --steps 1 --quiet --out " + (folder.path() / "run").string());
+
+  INFO(checked.err << again.err << ran.err);
+  REQUIRE(checked.exit_code == 0);
+  REQUIRE(again.exit_code == 0);
+  REQUIRE(ran.exit_code == 0);
+  CHECK(scene_of(checked.out)["time"]["minimum_step"] == 1e-12);
+  CHECK(scene_of(again.out) == scene_of(checked.out));
+  CHECK(scene_of(read_text(folder.path() / "run/scene.json")) == scene_of(checked.out));
+  CHECK_THAT(checked.err, Catch::Contains("tamp: warning: /bodies/ball/geometry: ") &&
+                              Catch::Contains("  advice  cells: ball has 4.0 to its half width"));
 }
 
 TEST_CASE("each problem of a bad scene is a line of its own on stderr, and the exit code is 2")

@@ -19,9 +19,9 @@ const std::string quiet_punch = punch + " --quiet ";
 bool warns(const std::string& assignment, const std::string& words)
 {
   const Outcome outcome = tamp_with("check " + punch + " --set " + assignment);
-  INFO(outcome.err);
+  INFO(outcome.out << outcome.err);
   CHECK(outcome.exit_code == 0);
-  return outcome.err.find("tamp: warning: ") != std::string::npos && outcome.err.find(words) != std::string::npos;
+  return outcome.out.find("tamp: warning: ") != std::string::npos && outcome.out.find(words) != std::string::npos;
 }
 
 }  // namespace
@@ -121,7 +121,7 @@ TEST_CASE("the check says on how many cells a body goes into another one, and th
   const Outcome as_shipped = tamp_with("check " + punch);
   const Run coarse = run_with(quiet_punch + "--steps 1 --set /grid/cell_size=0.05");
 
-  CHECK_THAT(as_shipped.err, Catch::Contains("6.0 cells to its half width, on its way into sand"));
+  CHECK_THAT(as_shipped.out, Catch::Contains("6.0 cells to its half width, on its way into sand"));
   CHECK_FALSE(warns("/grid/cell_size=0.025", "half its width"));
   REQUIRE(coarse.summary["warnings"].size() == 1);
   CHECK_THAT(coarse.summary["warnings"][0].get<std::string>(), Catch::Contains("into sand is 3 cells"));
@@ -151,7 +151,7 @@ TEST_CASE("soil in kPa, radians and t/m3 is warned of, number by number")
     "bodies": { "soil": { "material": "soil", "geometry": { "type": "box", "lower": [0, 0], "upper": [1, 0.5] } } }
   })");
   const auto checked = [&](const std::string& assignments) {
-    return tamp_with("check " + scene.string() + assignments).err;
+    return tamp_with("check " + scene.string() + assignments).out;
   };
   const std::string right = checked("");
   const std::string wrong = checked(
@@ -172,7 +172,7 @@ TEST_CASE("soil in kPa, radians and t/m3 is warned of, number by number")
 TEST_CASE("the check warns of contact ahead of touch, and of tips that hold no particle")
 {
   const auto checked = [](const std::string& assignments) {
-    return tamp_with("check " TAMP_SOURCE_DIR "/inputs/cone/quick.json" + assignments).err;
+    return tamp_with("check " TAMP_SOURCE_DIR "/inputs/cone/quick.json" + assignments).out;
   };
   const std::string own = checked(" --set /contact/0/normal=steel"), as_shipped = checked(""),
                     blunt = checked(
@@ -195,7 +195,7 @@ TEST_CASE("the check warns of bodies that come to a wall which is touched at its
     "bodies": { "ball": { "material": "gel", "geometry": { "type": "ball", "centre": [0.5, 0.5], "radius": 0.21 } } }
   })");
   const auto checked = [&](const std::string& assignments) {
-    return tamp_with("check " + scene.string() + assignments).err;
+    return tamp_with("check " + scene.string() + assignments).out;
   };
   const std::string comes = "/boundaries/y-: ball comes to this wall, and is stopped as soon as its particles reach";
 
@@ -209,8 +209,8 @@ TEST_CASE("the check warns of bodies that come to a wall which is touched at its
 TEST_CASE("the check says how a ball gets the mass that it should have")
 {
   const std::string ball = "check " TAMP_SOURCE_DIR "/inputs/savings/ball.json";
-  const std::string in_lattice = tamp_with(ball).err,
-                    on_rings = tamp_with(ball + " --set /bodies/ball/particles=rings").err;
+  const std::string in_lattice = tamp_with(ball).out,
+                    on_rings = tamp_with(ball + " --set /bodies/ball/particles=rings").out;
 
   CHECK_THAT(in_lattice,
              Catch::Contains("of its mass") && Catch::Contains("with \"particles\": \"rings\" it is exact"));
@@ -221,9 +221,9 @@ TEST_CASE("the check says how a cone gets the mass that it should have")
 {
   const std::string rod = "check " TAMP_SOURCE_DIR "/inputs/savings/rod.json --set /grid/cell_size=0.004";
 
-  CHECK_THAT(tamp_with(rod).err,
+  CHECK_THAT(tamp_with(rod).out,
              Catch::Contains("of its mass") && Catch::Contains("with \"particles\": \"cut\" it is right"));
-  CHECK_THAT(tamp_with(rod + " --set /bodies/rod/particles=cut").err, !Catch::Contains("of its mass"));
+  CHECK_THAT(tamp_with(rod + " --set /bodies/rod/particles=cut").out, !Catch::Contains("of its mass"));
 }
 
 TEST_CASE("a sand that is taken for another one than was tested is warned of by the check, and not by the run")

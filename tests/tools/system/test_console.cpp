@@ -36,8 +36,8 @@ TEST_CASE("a command that prints ends quietly when its reader has gone, and with
 {
   const TemporaryFolder folder;
   const std::string scene = folder.write("small.json", small_scene).string(), code = folder.path().string() + "/code";
-  const std::string words =
-      GENERATE(as<std::string>(), "check SCENE", "graph SCENE --format json", "--version", "run --help");
+  const std::string words = GENERATE(as<std::string>(), "check SCENE", "check SCENE --json",
+                                     "graph SCENE --format json", "--version", "run --help");
   const std::string command = std::regex_replace(words, std::regex("SCENE"), scene);
 
   const Outcome gone =

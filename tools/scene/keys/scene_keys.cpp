@@ -86,8 +86,8 @@ const ObjectKeys& output_keys()
         {nullptr, "all"},
         "a list of the fields that `fields.h5` has beside the ids and positions of particles: `\"velocity\"`, "
         "`\"stress\"`, `\"p\"`, `\"q\"`, `\"density\"`, `\"J\"`, what a material has of its own, such as "
-        "`\"equivalent_plastic\"`, and of the grid's nodes `\"nodes/density\"` and `\"nodes/velocity\"`; `tamp check` "
-        "lists all"},
+        "`\"equivalent_plastic\"`, and of the grid's nodes `\"nodes/density\"` and `\"nodes/velocity\"`; `tamp check "
+        "--json` lists all"},
        {"near_nose",
         Number{above_zero},
         "m",

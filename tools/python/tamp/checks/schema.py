@@ -198,7 +198,7 @@ class Both:
 
     def expect_sound(self, name, file):
         self.expect_accepted(name, files.document(file))
-        checked = program.answer(self.tamp, "check", file)
+        checked = program.answer(self.tamp, "check", file, "--json")
         if checked.returncode != 0:
             self.report(f"{name}: `tamp check` ends with {checked.returncode}: {checked.stderr}")
             return
