@@ -106,7 +106,7 @@ function(tamp_compile_fast target)
 endfunction()
 
 # Kernels are made of many small functions on registers. gcc's own limits leave some of them calls, which keep no
-# register: a step then takes a sixth longer (docs/findings/benchmarks.md).
+# register: a step then takes a sixth longer (docs/findings/what_made_it_faster.md).
 function(tamp_inline_kernels target)
   set(limits inline-unit-growth=300 large-unit-insns=100000 large-function-growth=1000 large-function-insns=20000
              large-stack-frame-growth=4000 max-inline-insns-single=1000 max-inline-insns-auto=100)

@@ -39,7 +39,7 @@ struct CapState {
 };
 
 struct TabularCapParameters {
-  /// Keeps depths, peaks and energies of a punch within 0.03 %, see docs/findings/accuracy.md.
+  /// Keeps depths, peaks and energies of a punch within 0.03 %, see docs/findings/how_tight_a_stress_tolerance.md.
   static constexpr double usual_tolerance = 1e-4;
   static constexpr int usual_max_substeps = 100;
   static constexpr double usual_separation_density = 0.8;

@@ -205,7 +205,7 @@ bool is_slab(const tasks::Scene& scene)
          (is_one_cell_thick(scene, 0) || is_one_cell_thick(scene, 1) || is_one_cell_thick(scene, 2));
 }
 
-/// The front that is meant is that of cost against error in cells_and_method.md and verification.md.
+/// The front that is meant is that of cost against error in cells_and_method.md and which_method_for_least_cost.md.
 void advise_on_method(const tasks::Scene& scene, const tasks::SceneBody& body, Lines& lines)
 {
   const auto& model = material_of(scene, body).model;

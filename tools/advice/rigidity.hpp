@@ -6,7 +6,7 @@ namespace tamp::tools
 {
 
 /// By how much the depth of a body that goes into softer ground changes where it is made rigid. Read from runs of the
-/// punch whose modulus, mass, length, speed, cells and sand were varied, see docs/findings/savings.md.
+/// punch whose modulus, mass, length, speed, cells and sand were varied, see docs/findings/rigid_or_deformable.md.
 struct Rigidity {
   /// Of the body, where the ground's waves press on it: rho c v of the ground over the body's modulus.
   double strain;

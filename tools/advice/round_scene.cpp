@@ -61,7 +61,7 @@ double spread(int i, int dimension)
   return place - std::floor(place);
 }
 
-/// Of a particle in the plane, over that of one in space (docs/findings/savings.md).
+/// Of a particle in the plane, over that of one in space (docs/reference/advice.md).
 constexpr double plane_particle_cost = 0.5;
 
 constexpr int n_samples = 16'000;

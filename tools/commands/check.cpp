@@ -203,7 +203,7 @@ CLI::App* add_check_command(CLI::App& app)
   command->footer(examples(
       {{"tamp check inputs/punch/quick.json",
         "its particles, masses, memory and time; in lines of advice what bounds the step and what a "
-        "rigid body would save, cells, the box that waves see, methods off the front (docs/findings/savings.md)"},
+        "rigid body would save, cells, the box that waves see, methods off the front (docs/reference/advice.md)"},
        {"tamp check inputs/punch/quick.json --set /grid/cell_size=0.0125", "the same on finer cells"},
        {"tamp check inputs/punch/quick.json --json > plain.json",
         "the scene with its materials in it and no key left out"}}));

@@ -12,7 +12,7 @@ namespace tamp::runtime
 ///
 /// To claim an entry is an atomic exchange, which has to wait until the other cores know all that this one has written.
 /// So the owner reserves short instances, several with one exchange, and gives up what is left when it finds nothing to
-/// run; docs/findings/benchmarks.md says what that brings. Another worker claims first and then looks at the
+/// run; docs/findings/what_a_task_costs.md says what that brings. Another worker claims first and then looks at the
 /// reservation, the owner the other way around: one of the two sees the other.
 class OwnWalk
 {
