@@ -238,6 +238,24 @@ TEST_CASE("a file whose texts of variable length would be looked through for eve
   CHECK(problems_with(size, std::string(2, '\xff')) == damaged_texts);
 }
 
+TEST_CASE("a text that is longer than what its heap holds for it is refused before memory is taken for it")
+{
+  const TemporaryFolder folder;
+  KerasFile content = small_network;
+  content.variable_strings = true;
+  write_keras(folder.path() / "n.h5", content);
+  std::string damaged = read_text(folder.path() / "n.h5");
+  // A text is its length, the place of its heap and its number there.
+  const std::uint64_t heap = damaged.find("GCOL");
+  const std::string place(reinterpret_cast<const char*>(&heap), sizeof heap);
+  const std::size_t length = damaged.find(place) - sizeof(std::uint32_t);
+  REQUIRE(length < damaged.size());
+  const auto file = folder.write("d.h5", damaged.replace(length, 4, "\xff\xff\xff\x7f"));
+
+  CHECK(problems_of_reading(folder, [&] { read_network_file(file); }) ==
+        "d.h5: an HDF5 file whose texts are damaged; expected an HDF5 file");
+}
+
 TEST_CASE("a configuration that is none is reported with its place")
 {
   CHECK(problems_of_network(small_network, "{") ==

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <cstring>
+#include <map>
 #include <string>
 #include <string_view>
 
@@ -36,27 +37,48 @@ std::uint64_t room_of_object(std::string_view heap, std::size_t at)
   return header_bytes + ((size + 7) & ~std::uint64_t{7});
 }
 
-bool ends(std::string_view heap)
+/// By number; empty if the objects do not lie one behind another until the heap's end.
+std::map<std::uint32_t, std::uint64_t> sizes_of_objects(std::string_view heap)
 {
+  std::map<std::uint32_t, std::uint64_t> sizes;
   std::size_t at = header_bytes;
   while (at + header_bytes <= heap.size()) {
     const std::uint64_t room = room_of_object(heap, at);
-    if (room == 0 || room > heap.size() - at) return false;
+    if (room == 0 || room > heap.size() - at) return {};
+    sizes[number_at<std::uint16_t>(heap, at)] = number_at<std::uint64_t>(heap, at + size_at);
     at += room;
   }
-  return true;
+  return sizes;
+}
+
+/// A text of an attribute is its length, the place of its heap in the file and its number there. HDF5 takes as much
+/// memory as the length says before it looks into the heap.
+bool has_texts_beyond_their_objects(std::string_view bytes, std::uint64_t heap,
+                                    const std::map<std::uint32_t, std::uint64_t>& sizes)
+{
+  constexpr std::size_t length_bytes = sizeof(std::uint32_t), place_bytes = sizeof heap;
+  std::string place(place_bytes, '\0');
+  std::memcpy(place.data(), &heap, place_bytes);
+  for (std::size_t at = bytes.find(place, length_bytes); at != bytes.npos; at = bytes.find(place, at + 1)) {
+    if (at + place_bytes + sizeof(std::uint32_t) > bytes.size()) return false;
+    const auto object = sizes.find(number_at<std::uint32_t>(bytes, at + place_bytes));
+    if (object == sizes.end() || object->first == 0) continue;
+    if (number_at<std::uint32_t>(bytes, at - length_bytes) > object->second) return true;
+  }
+  return false;
 }
 
 }  // namespace
 
-void expect_heaps_that_end(const std::filesystem::path& file)
+void expect_sound_heaps(const std::filesystem::path& file)
 {
   const std::string content = read_input_file(file);
   const std::string_view bytes = content;
   for (std::size_t at = bytes.find(signature); at != bytes.npos; at = bytes.find(signature, at + 1)) {
     if (at + header_bytes > bytes.size()) return;
     const auto size = number_at<std::uint64_t>(bytes, at + size_at);
-    if (ends(bytes.substr(at, size))) continue;
+    const auto sizes = sizes_of_objects(bytes.substr(at, size));
+    if (!sizes.empty() && !has_texts_beyond_their_objects(bytes, at, sizes)) continue;
     throw InputError({file.string(), "an HDF5 file whose texts are damaged", "expected an HDF5 file"});
   }
 }

@@ -98,7 +98,7 @@ hid_t opened(const std::filesystem::path& file)
 {
   expect_input_file(file);
   const bool is_hdf5 = H5Fis_hdf5(file.c_str()) > 0;
-  if (is_hdf5) expect_heaps_that_end(file);
+  if (is_hdf5) expect_sound_heaps(file);
   return sound(H5Fopen(file.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), file.string(),
                is_hdf5 ? "a damaged or truncated HDF5 file" : "no HDF5 file", "expected an HDF5 file");
 }
