@@ -9,7 +9,7 @@
 #include "tools/scene/read_scene.hpp"
 
 /// Results of the shipped quick scenes, held to 2 % in depth and 10 % in peaks: a change that moves an answer fails
-/// here, and says so in docs/findings/how_deep_is_the_punch.md and how_deep_does_the_projectile_go.md.
+/// here, and says so in docs/findings/how_well_is_the_punch_known.md and how_deep_does_the_projectile_go.md.
 namespace tamp::tools::test_answers
 {
 
