@@ -43,8 +43,10 @@ inline void check_tension(double pressure, double tension)
 inline void check_is_borne(const Invariants& stress, double limit)
 {
   if (stress.sqrt_j2() <= limit) return;
-  throw BadValue(fmt::format("q = {:.4g} Pa at p = {:.4g} Pa", stress.q(), stress.pressure),
-                 fmt::format("at most the strength there, q = {:.4g} Pa", std::sqrt(3.0) * limit));
+  throw BadValue(
+      fmt::format("q = {:.4g} Pa at p = {:.4g} Pa", stress.q(), stress.pressure),
+      fmt::format("at most the strength there, q = {:.4g} Pa; \"k0\", such as 0.5, gives another stress across",
+                  std::sqrt(3.0) * limit));
 }
 
 /// Throws BadValue where stresses along the axes differ by more than Mohr and Coulomb's strength, see MohrCoulomb;
@@ -54,8 +56,9 @@ inline void check_is_borne(const SettledStress& settled, double sin_friction, do
   const double least = -settled.stress.head<3>().maxCoeff(), greatest = -settled.stress.head<3>().minCoeff();
   const double most = (least * (1 + sin_friction) + cohesion) / (1 - sin_friction);
   if (greatest <= most * (1 + 1e-12)) return;
-  throw BadValue(fmt::format("{:.4g} Pa beside {:.4g} Pa across it", greatest, least),
-                 fmt::format("at most the strength there, {:.4g} Pa", most));
+  throw BadValue(
+      fmt::format("{:.4g} Pa beside {:.4g} Pa across it", greatest, least),
+      fmt::format("at most the strength there, {:.4g} Pa; \"k0\", such as 0.5, gives another stress across", most));
 }
 
 }  // namespace tamp::components
