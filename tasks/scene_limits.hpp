@@ -8,7 +8,7 @@ namespace tamp::tasks
 {
 
 /// Beyond these a run has gone wrong or is not to be trusted: beyond the first it ends, beyond the second a step is
-/// tried again, beyond the others the run ends with a warning. docs/how_to/when_a_run_warns.md has where they come
+/// tried again, beyond the others the run ends with a warning. docs/reference/monitors.md has where they come
 /// from.
 struct SceneLimits {
   double energy_error = 0.2;

@@ -152,7 +152,7 @@ constexpr std::array<Parameter<BoltonSand>, 11> bolton_parameters{{
      "pressure below which the moduli fall no further", true},
     {"separation", "", any_number, &BoltonSand::separation,
      "whether grains part where there is no pressure, and bear and resist nothing until the gaps have closed, see "
-     "[method.md](../explanation/method.md)",
+     "[sand.md](../explanation/sand.md#sand-that-separates)",
      true},
 }};
 

@@ -20,7 +20,7 @@ namespace tamp::components
 /// p in kPa, compression positive, and not below 150. Strength is Mohr and Coulomb's, phi = phi_cs + m I_R, with I_R
 /// between 0 and 4; flow is by D = -d(eps_v) / d(eps_1) = 0.3 I_R up to 4, sin(psi) = D / (2 + D). Below I_R = 0 shear
 /// compacts by the same rule, down to what I_D = 0 has: an extrapolation of ours. The void ratio e follows the plastic
-/// volume, so that loose and dense sand meet where I_R is 0. There is no crushing: see docs/explanation/sands.md for
+/// volume, so that loose and dense sand meet where I_R is 0. There is no crushing: see docs/how_to/which_sand.md for
 /// the pressures.
 ///
 /// Moduli are isotropic, of constant Poisson's ratio,

@@ -68,7 +68,7 @@ inline constexpr std::array<Parameter<Soil>, 8> constant_soil_parameters{{
     {"separation", "", any_number, &Soil::separation,
      "whether grains part at the tension that it bears at most, and bear and resist nothing until the gaps have "
      "closed, "
-     "see [method.md](../explanation/method.md)",
+     "see [sand.md](../explanation/sand.md#sand-that-separates)",
      true},
 }};
 

@@ -104,7 +104,7 @@ Pace extrapolated(const Trial& fine, const Trial* coarse, int dimension)
   const double more = until_end(fine);
   double own_steps = reached.own_steps * more, more_steps = more, more_seconds = more, power = 0;
   if (coarse != nullptr) {
-    constexpr double greatest_power = 0.35;  // chosen by the runs in docs/how_to/when_a_run_warns.md
+    constexpr double greatest_power = 0.35;  // chosen by the runs in results/failures/forecasts.csv
     const Progress &there = coarse->at(reached.part), &end = coarse->end();
     // What is to come, and no more times what was: bodies touch a little sooner or later on other cells.
     own_steps = reached.own_steps + end.own_steps - there.own_steps;

@@ -85,7 +85,7 @@ const ObjectKeys& yield_keys()
       "",
       {{"file", File{}, "", compulsory,
         "table `pressure[Pa]` and either `q[Pa]` = sqrt(3 J2) or `sqrt_J2[Pa]`; its first row is the tension "
-        "vertex. The surface is the upper concave hull of the rows, see [method.md](../explanation/method.md#sand)"},
+        "vertex. The surface is the upper concave hull of the rows, see [sand.md](../explanation/sand.md#sand)"},
        std::move(measure),
        {"cap_ellipticity", Number{within_one}, "", compulsory,
         "where the cap starts, between the tension vertex (0) and the crush pressure (1)"}}};
@@ -152,7 +152,7 @@ std::vector<Key> keys_of<components::TabularCap>()
        "",
        {false},
        "whether sand that is torn bears and resists nothing until its volume is again what it was then, see "
-       "[method.md](../explanation/method.md)",
+       "[sand.md](../explanation/sand.md#sand-that-separates)",
        0,
        "comes_apart"},
       {"separation_density",

@@ -2,7 +2,7 @@
 
 SCENE is a scene file, or `million`: a punch into a block of a million particles of sand in space. Unless said otherwise
 those are the quick punch, the quick projectile and `million` (about ten minutes on one core). Each runs on one thread
-to its end; nothing else should run meanwhile. It prints a row for docs/how_to/when_a_run_warns.md.
+to its end; nothing else should run meanwhile. It prints a row for results/failures/forecasts.csv.
 """
 
 import json
