@@ -50,6 +50,15 @@ class Links(unittest.TestCase):
 
         self.assertEqual(broken, [])
 
+    def test_the_map_has_every_page(self):
+        map_of_pages = program.ROOT / "docs/README.md"
+        text = map_of_pages.read_text(encoding="utf-8")
+        linked = {(map_of_pages.parent / link.partition("#")[0]).resolve() for link in LINK.findall(text)}
+
+        missing = [page.name for page in program.ROOT.glob("docs/*/*.md") if page.resolve() not in linked]
+
+        self.assertEqual(missing, [])
+
     def test_one_that_leads_nowhere_is_found(self):
         with tempfile.TemporaryDirectory() as folder:
             page = pathlib.Path(folder, "page.md")
