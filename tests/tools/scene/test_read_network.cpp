@@ -1,6 +1,7 @@
 #include <catch2/catch.hpp>
 
 #include <cmath>
+#include <cstring>
 
 #include "runtime/file_error.hpp"
 #include "tests/tools/problems.hpp"
@@ -247,8 +248,11 @@ TEST_CASE("a text that is longer than what its heap holds for it is refused befo
   std::string damaged = read_text(folder.path() / "n.h5");
   // A text is its length, the place of its heap and its number there.
   const std::uint64_t heap = damaged.find("GCOL");
-  const std::string place(reinterpret_cast<const char*>(&heap), sizeof heap);
-  const std::size_t length = damaged.find(place) - sizeof(std::uint32_t);
+  const std::uint32_t first = 1;
+  std::string object(sizeof heap + sizeof first, '\0');
+  std::memcpy(object.data(), &heap, sizeof heap);
+  std::memcpy(object.data() + sizeof heap, &first, sizeof first);
+  const std::size_t length = damaged.find(object) - sizeof(std::uint32_t);
   REQUIRE(length < damaged.size());
   const auto file = folder.write("d.h5", damaged.replace(length, 4, "\xff\xff\xff\x7f"));
 
