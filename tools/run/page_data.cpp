@@ -1,5 +1,6 @@
 #include "tools/run/page_data.hpp"
 
+#include "runtime/file_error.hpp"
 #include "runtime/storage/whole_file.hpp"
 #include "tools/run/run_document.hpp"
 #include "tools/run/run_folder.hpp"
@@ -10,6 +11,22 @@
 
 namespace tamp::tools
 {
+
+namespace
+{
+
+/// Without them a page has all else, so that a damaged file of fields is no more than the reason why.
+void add_pictures(const std::filesystem::path& run, const Json& scene, Json& data)
+{
+  data["pictures"] = Json::array();
+  try {
+    data["pictures"] = scene_pictures(run, scene);
+  } catch (const runtime::FileError& error) {
+    data["no_pictures"] = error.what();
+  }
+}
+
+}  // namespace
 
 void expect_page(const std::filesystem::path& run)
 {
@@ -23,7 +40,7 @@ void write_page_data(const std::filesystem::path& run)
   with_run_document(run / "scene.json", [&](const Json& scene) {
     data["materials"] = Json::array();
     for (const auto& [name, material] : scene.at("materials").items()) data["materials"].push_back(name);
-    data["pictures"] = scene_pictures(run, scene);
+    add_pictures(run, scene, data);
     data["words"] = chosen_words(scene);
   });
   runtime::write_whole_file(run / "page.json", json_text(data) + "\n");

@@ -224,7 +224,6 @@ TEST_CASE("a page is not drawn of damaged files of a run, which are named")
   for (const char* content : {"", "{", "[]", R"({"traceEvents": [{"ph": "X", "args": {"step": 1}}]})"}) {
     drawn_with("trace.json", content);
   }
-  drawn_with("fields.h5", "no fields");
   const auto json_of = [&](const char* file) { return nlohmann::json::parse(read_text(out + "/" + file)); };
   auto trace = json_of("trace.json"), scene = json_of("scene.json"), summary = json_of("summary.json");
   for (auto& event : trace["traceEvents"]) {
@@ -239,6 +238,21 @@ TEST_CASE("a page is not drawn of damaged files of a run, which are named")
   drawn_with("summary.json", "{");
   drawn_with("history.csv", "step,time[s]\n0,x\n");
   CHECK(tamp_with("profile " + out + " --format html").exit_code == 0);
+}
+
+TEST_CASE("the page of a run with damaged fields has no pictures, but all else and the reason")
+{
+  const TemporaryFolder folder;
+  const std::string out = (folder.path() / "run").string();
+  REQUIRE(tamp_with("run " TAMP_SOURCE_DIR "/inputs/punch/quick.json --steps 3 --quiet --out " + out).exit_code == 0);
+  folder.write("run/fields.h5", "no fields");
+
+  const Outcome drawn = tamp_with("profile " + out + " --format html");
+
+  CHECK(drawn.exit_code == 0);
+  const std::string page = read_text(out + "/report.html");
+  CHECK_THAT(page, Catch::Contains("There are no pictures of the run") && Catch::Contains("fields.h5: cannot"));
+  CHECK_THAT(page, Catch::Contains("Step size"));
 }
 
 TEST_CASE("the page of a run says what it cannot draw: a step where none was traced, particles without fields")
