@@ -6,7 +6,7 @@ import html.parser
 class Tags(html.parser.HTMLParser):
     """All start tags of a page, and whether every element is closed in order."""
 
-    EMPTY = {"meta", "link", "br", "input"}
+    EMPTY = {"meta", "link", "br", "img", "input"}
 
     def __init__(self, text):
         super().__init__()

@@ -5,6 +5,7 @@
 Ends with exit code 77, as skipped, where there is no Chromium."""
 
 import argparse
+import importlib.util
 import json
 import pathlib
 import re
@@ -68,7 +69,7 @@ class Pages(unittest.TestCase):
     def test_the_report_has_each_chart_twice_and_its_pictures_and_tasks(self):
         tasks = json.loads((self.folder / "run/profile.json").read_text())["tasks"]
         for opened in self.looks(self.report):
-            n_charts = opened.count("<figure")
+            n_charts = opened.count('<figure class="chart"') + opened.count('class="quantity"')
             self.assertGreaterEqual(n_charts, 11)
             self.assertEqual(opened.count('<svg [^>]*role="img"'), 2 * n_charts)
             self.assertGreaterEqual(opened.count(r'id="particles-\d-kind-\d"'), 5)
@@ -76,6 +77,16 @@ class Pages(unittest.TestCase):
             self.assertIn("</html>", opened.text)
             for task in tasks:
                 self.assertIn(f"<td>{task['name']}</td>", opened.text)
+
+    @unittest.skipUnless(importlib.util.find_spec("h5py"), "h5py is not here")
+    def test_the_slider_of_the_report_shows_the_last_output_in_the_quantity_that_is_chosen(self):
+        for opened in self.looks(self.report):
+            self.assertEqual(opened.count('class="quantity" data-quantity="p">'), 1)
+            self.assertEqual(opened.count('class="quantity" data-quantity="[a-z_]+" hidden'), 2)
+            shown = re.findall('<img alt="" style="[^"]*" src="data:image/png;base64,[^"]+"', opened.text)
+            self.assertEqual(len(shown), 2)
+            self.assertEqual(opened.count("<output>[^<]*contact force on punch"), 1)
+            self.assertEqual(opened.count('<div class="controls">'), 1)
 
     def test_the_page_of_a_drive_has_each_curve_twice(self):
         for opened in self.looks(self.drive):

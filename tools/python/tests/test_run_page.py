@@ -211,7 +211,7 @@ class OverTime(unittest.TestCase):
             path = pathlib.Path(folder, "history.csv")
             path.write_text(self.HISTORY)
             run = {"history": run_page.History(path), "scene": {"axisymmetric": False, **scene} if scene else None}
-        return {plot.title: plot for plot in run_page.plots(run)}
+        return {plot.title: plot for plot in run_page.penetration(run) + run_page.plots(run)}
 
     def test_forces_and_energies_of_plane_scenes_are_per_metre(self):
         plane = self.plots(dimension=2)

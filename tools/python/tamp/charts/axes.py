@@ -67,9 +67,10 @@ class Entry(NamedTuple):
 
 class Sheet:
     """A figure with a title, what is on the y axis in words, one pair of axes, and a legend below them. Above the axes
-    is a strip of `n_failed_rows` rows, for failed runs, which have no place within them."""
+    is a strip of `n_failed_rows` rows, for failed runs, which have no place within them; `foot` is left free below."""
 
-    def __init__(self, layout, title, y_label, x_label, legend=(), labels=(), n_failed_rows=0, height=None, left=14):
+    def __init__(self, layout, title, y_label, x_label, legend=(), labels=(), n_failed_rows=0, height=None, left=14,
+                 foot=0):
         self.layout, font = layout, layout.font
         self.tips = {}  # what shows under the mouse, by the gid of what is drawn
         self.labels = list(labels) if has_labels_beside(layout, labels) else []
@@ -80,7 +81,7 @@ class Sheet:
         rows = legend_rows(legend, layout.width - 12, font)
         x_labels = wrapped(x_label, layout.width - left - RIGHT, font)
         top = 8 + 16 * len(titles) + 15 * len(y_labels) + 10
-        bottom = 20 + 15 * len(x_labels) + 8 + ROW * len(rows) + (6 if rows else 0)
+        bottom = 20 + 15 * len(x_labels) + 8 + ROW * len(rows) + (6 if rows else 0) + foot
         self.failed_height = ROW * n_failed_rows + (8 if n_failed_rows else 0)
         inner = height or layout.height
         self.height = top + self.failed_height + inner + bottom

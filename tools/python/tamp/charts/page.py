@@ -64,12 +64,20 @@ def wide(table, name):
 def figure(chart, labels=None):
     """`labels`: what each point is called, of those that can be chosen."""
     drawings = drawing(chart.wide, "broad", labels or {}) + drawing(chart.narrow, "narrow", labels or {})
-    caption = f"<figcaption>{escaped(chart.caption)}</figcaption>\n" if chart.caption else ""
+    return figure_of(chart.name, drawings, chart.caption, chart.table)
+
+
+def figure_of(name, drawings, caption, table):
+    caption = f"<figcaption>{escaped(caption)}</figcaption>\n" if caption else ""
     details = ""
-    if chart.table.rows:
-        details = f"<details><summary>The figures of this chart</summary>\n{as_html(chart.table)}</details>\n"
-    return (f'<figure class="chart" id="chart-{chart.name}">\n{drawings}{caption}'
-            f"{details}</figure>\n")
+    if table.rows:
+        details = f"<details><summary>The figures of this chart</summary>\n{as_html(table)}</details>\n"
+    return f'<figure class="chart" id="chart-{name}">\n{drawings}{caption}{details}</figure>\n'
+
+
+def beside(figures):
+    """In as many columns as there is room for."""
+    return '<div class="charts">\n' + "".join(figures) + "</div>\n"
 
 
 def drawing(one, kind, labels):

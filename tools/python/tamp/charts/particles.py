@@ -85,21 +85,27 @@ def chart(view, name):
                       (HALF, NARROW))
 
 
-def draw(view, layout):
-    across, up = ((axis["lower"], axis["upper"]) for axis in view.axes)
-    shown = sorted(set(view.kinds.ravel().tolist()) - {NOBODY})
-    legend = [Entry(view.names[k], Style(view.colours[k]), filled=True) for k in shown]
+def plane_sheet(layout, title, axes, legend, foot=0):
+    """A plane as large as there is room for, both ways alike."""
+    across, up = ((axis["lower"], axis["upper"]) for axis in axes)
     left = room_for_ticks(up, lambda tick: si_text(tick, "m"), False)
     scale = (layout.width - left - RIGHT) / (across[1] - across[0])
     height = min(max(scale * (up[1] - up[0]), 40), MOST_HEIGHT)
-    sheet = Sheet(layout, view.title, view.axes[1]["name"], view.axes[0]["name"], legend, height=height, left=left)
+    sheet = Sheet(layout, title, axes[1]["name"], axes[0]["name"], legend, height=height, left=left, foot=foot)
     few = linear_ticks(*up, min(height / 30, 7))
     for which, limits, ticks in [("x", across, None), ("y", up, few)]:
         set_ticks(sheet.axis, which, limits, lambda tick: si_text(tick, "m"), logarithmic=False, ticks=ticks)
         sheet.axis.grid(False, axis=which)
     if height == MOST_HEIGHT:
         sheet.axis.set_aspect("equal", anchor="W")
-    lower = np.array([across[0], up[0]])
+    return sheet
+
+
+def draw(view, layout):
+    shown = sorted(set(view.kinds.ravel().tolist()) - {NOBODY})
+    legend = [Entry(view.names[k], Style(view.colours[k]), filled=True) for k in shown]
+    sheet = plane_sheet(layout, view.title, view.axes, legend)
+    lower = np.array([axis["lower"] for axis in view.axes])
     for k in shown:
         path = outline(view.kinds, k, lower, view.size)
         # A thin line closes the gaps that browsers leave between neighbours.

@@ -1,36 +1,17 @@
-"""The page of a run: how it ended and how far to trust it, what it did over time, and where its time went."""
+"""The page of a run: how it ended, how far to trust it, its sand, what it did over time, and where its time went."""
 
 import math
 import os
-import re
 
 from tamp import files
-from tamp.charts import choices, over_time, page, particles, timeline
+from tamp.charts import choices, movie, over_time, page, particles, sand, sand_charts, timeline
 from tamp.charts.chart import Table
 from tamp.charts.formatting import NO_NUMBER, counted, escaped, is_number, number_text, percent_text, plain, si_text
 from tamp.charts.over_time import Line, Plot
+from tamp.charts.run_history import History, force, is_plane
 
 ENERGIES = ["kinetic", "elastic", "plastic", "viscous", "contact", "filter", "external", "total"]
-COLUMN = re.compile(r"(?P<name>[^\[]*)\[(?P<unit>[^\]]*)\]")
-
-
-class History:
-    """Columns of a history, by names without units."""
-
-    def __init__(self, path):
-        names, rows = files.written_table(path)
-        found = [COLUMN.fullmatch(name) for name in names]
-        self.units = {m["name"] if m else name: m["unit"] if m else "" for m, name in zip(found, names)}
-        self.columns = dict(zip(self.units, map(list, zip(*rows)))) if rows else {name: [] for name in self.units}
-
-    def ending(self, ending):
-        """What stands before an ending, of the columns that have it: `depth` of `punch.depth`."""
-        return [name[: -len(ending) - 1] for name in self.columns if name.endswith("." + ending)]
-
-    def line(self, label, y, x="time"):
-        """Without what is no number, such as the depth of a body that has left the domain."""
-        known = [(a, b) for a, b in zip(self.columns[x], self.columns[y]) if is_number(a) and is_number(b)]
-        return Line(label, [a for a, _ in known], [b for _, b in known])
+MOST_BYTES = 4_900_000  # of a page
 
 
 def read_run(folder):
@@ -44,6 +25,7 @@ def read_run(folder):
     run["step"] = read(folder / "trace.json", lambda path: timeline.read_step(files.document(path)))
     run["views"] = read(folder / "page.json", lambda path: particles.views(run["page"])) or []
     run["folder"] = folder
+    run["sand"] = sand.read(read(folder / "scene.json", lambda path: sand.wanted(run)))
     return run
 
 
@@ -62,17 +44,30 @@ def write(run, folder):
 
 
 def whole_page(run):
+    before, after = above_sand(run), below_sand(run)
+    moving = movie.section(run["sand"], MOST_BYTES - len((before + after).encode()))
+    script = (page.HERE / "movie.js").read_text(encoding="utf-8") if moving else ""
+    return page.whole_page(f"{run['summary']['scene']}: a run", f"<main>\n{before}{moving}{after}</main>\n",
+                           kind="compare", script=script)
+
+
+def above_sand(run):
+    summary = run["summary"]
+    content = of(run, "summary.json", lambda: head(summary)) + of(run, "history.csv", lambda: way_in(run))
+    return content + of(run, "summary.json", lambda: trust(summary)) + sand_charts.section(run["sand"])
+
+
+def below_sand(run):
     summary, profile = run["summary"], run["profile"]
-    content = of(run, "summary.json", lambda: head(summary)) + the_scene(run)
-    content += "<h2>Over time</h2>\n" + of(run, "history.csv", lambda: charts(plots(run), "plot"))
+    content = the_scene(run) + "<h2>Over time</h2>\n"
+    content += of(run, "history.csv", lambda: charts(plots(run), "plot"))
     content += "<h2>Where the time went</h2>\n" + of(run, "profile.json", lambda: time_of_steps(profile))
     content += of(run, "trace.json", lambda: one_step(run["step"]))
     content += of(run, "profile.json", lambda: tasks_and_waits(profile))
     levels = of(run, "summary.json", lambda: memory_levels(summary))
     content += "<h2>What the memory is for</h2>\n"
     content += of(run, "machine.csv", lambda: charts(memory_plots(run["machine"], levels), "memory"))
-    content += of(run, "profile.json", lambda: page.as_html(memory(profile)))
-    return page.whole_page(f"{summary['scene']}: a run", f"<main>\n{content}</main>\n", kind="compare")
+    return content + of(run, "profile.json", lambda: page.as_html(memory(profile)))
 
 
 def of(run, name, make):
@@ -83,15 +78,23 @@ def of(run, name, make):
 
 def head(summary):
     text = f"<h1>{escaped(summary['scene'])}</h1>\n<p class=\"faint\">{lead(summary)}</p>\n"
-    return text + warnings(summary) + page.as_html(monitors(summary))
+    return text + warnings(summary)
+
+
+def trust(summary):
+    return "<h2>How far to trust it</h2>\n" + page.as_html(monitors(summary))
 
 
 def charts(plots, name):
-    return in_columns(over_time.chart(plot, f"{name}-{k + 1}") for k, plot in enumerate(plots))
+    return page.beside(page.figure(over_time.chart(plot, f"{name}-{k + 1}")) for k, plot in enumerate(plots))
 
 
-def in_columns(charts):
-    return '<div class="charts">\n' + "".join(map(page.figure, charts)) + "</div>\n"
+# --- the way in ---
+
+
+def way_in(run):
+    found = penetration(run)
+    return "<h2>Force against depth</h2>\n" + charts(found, "penetration") if found else ""
 
 
 # --- what was run ---
@@ -102,7 +105,7 @@ def the_scene(run):
     if scene is None or prepared is None:
         return ""
     text = "<h2>The scene</h2>\n" + of(run, "scene.json", lambda: title_and_bodies(scene))
-    text += of(run, "page.json", lambda: pictures(run["views"]))
+    text += of(run, "page.json", lambda: pictures(run["views"], prepared.get("no_pictures")))
     left_out = run["summary"].get("left_out")  # older runs do not say
     chosen = choices.table(
         of(run, "page.json", lambda: choices.word_rows(prepared["words"], left_out)),
@@ -115,10 +118,12 @@ def title_and_bodies(scene):
     return f"<p>{escaped(scene['title'])}. {escaped(bodies(scene))}</p>\n"
 
 
-def pictures(views):
+def pictures(views, why=None):
+    if why:
+        return f"<p>There are no pictures of the run: {escaped(why)}.</p>\n"
     if not views:
         return "<p>The run wrote no fields, from which its particles could be drawn.</p>\n"
-    return in_columns(particles.chart(view, f"particles-{k + 1}") for k, view in enumerate(views))
+    return page.beside(page.figure(particles.chart(view, f"particles-{k + 1}")) for k, view in enumerate(views))
 
 
 def bodies(scene):
@@ -156,7 +161,7 @@ def monitors(summary):
     watched = {name: m for name, m in summary["monitors"].items() if isinstance(m, dict) and m.get("limit")}
     rows = [[name.replace("_", " "), percent_text(m["share"]), percent_text(m["limit"]), first_seen(m["first"])]
             for name, m in sorted(watched.items(), key=lambda item: -item[1]["share"] / item[1]["limit"])]
-    return Table(["how far to trust it", "share", "limit", "first seen"], rows)
+    return Table(["monitor", "share", "limit", "first seen"], rows)
 
 
 def first_seen(first):
@@ -171,19 +176,27 @@ def plots(run):
     if history is None:
         return []
     made = [plot_of(history, "Energies", "energy", "J", [name for name in ENERGIES if name in history.columns])]
-    if history.ending("depth"):
+    if history.ending("depth") and not penetration(run):
         made.append(of_each(history, "Depth", "depth", "m"))
     made += [of_each(history, f"Velocity along {axis}", f"velocity_{axis}", "m/s") for axis in moving_axes(history)]
-    made += [force_against_depth(history, body) for body in history.ending("depth") if force(history, body)]
     for ending, title in [("p_max", "Largest mean stress"), ("q_max", "Largest deviatoric stress")]:
         if history.ending(ending):
             made.append(of_each(history, title, ending, "Pa"))
     made.append(plot_of(history, "Step size", "step size", "s", ["dt"]))
+    return in_units(run, made)
+
+
+def penetration(run):
+    """The force on each body over its depth, and their depths over time; nothing where there is no such body."""
+    history = run["history"]
+    if history is None:
+        return []
+    made = [force_against_depth(history, body) for body in history.ending("depth") if force(history, body)]
+    return in_units(run, [*made, of_each(history, "Depth", "depth", "m")]) if made else []
+
+
+def in_units(run, made):
     return [per_metre(plot) for plot in made] if is_plane(run["scene"]) else made
-
-
-def is_plane(scene):
-    return scene is not None and scene["dimension"] == 2 and not scene.get("axisymmetric")
 
 
 def per_metre(plot):
@@ -210,13 +223,6 @@ def plot_of(history, title, name, unit, columns):
 def of_each(history, title, ending, unit):
     return Plot(title, ending.replace("_", " "), unit,
                 [history.line(owner, f"{owner}.{ending}") for owner in history.ending(ending)])
-
-
-def force(history, body):
-    """The size of the force that others put on a body, by rows."""
-    parts = [history.columns[f"{body}.contact_force_{axis}"] for axis in "xyz"
-             if f"{body}.contact_force_{axis}" in history.columns]
-    return [math.hypot(*row) for row in zip(*parts)]
 
 
 def force_against_depth(history, body):
