@@ -15,13 +15,16 @@ namespace tamp::tools
 namespace
 {
 
-/// Without them a page has all else, so that a damaged file of fields is no more than the reason why.
+/// Without them a page has all else, so that a damaged file of fields is no more than the reason why. What is no file
+/// at all, such as a pipe, is an error all the same: whoever reads it would wait for ever.
 void add_pictures(const std::filesystem::path& run, const Json& scene, Json& data)
 {
   data["pictures"] = Json::array();
   try {
     data["pictures"] = scene_pictures(run, scene);
   } catch (const runtime::FileError& error) {
+    const std::filesystem::path fields = run / "fields.h5";
+    if (std::filesystem::exists(fields) && !std::filesystem::is_regular_file(fields)) throw;
     data["no_pictures"] = error.what();
   }
 }
