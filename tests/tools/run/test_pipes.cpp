@@ -85,11 +85,14 @@ TEST_CASE("a pipe that comes to stand for a file of a run while it goes on ends 
   const TemporaryFolder folder;
   const std::string run = (folder.path() / "run").string(), file = run + "/" + name;
 
-  const Outcome outcome = outcome_of(
-      "sh -c 'timeout --signal=KILL 60 " TAMP_PROGRAM " run " + scene +
-      "--quiet --steps 200 --set /output/fields_interval=1e-5 --set /output/history_interval=1e-5 --out " + run +
-      " & while [ $(cat " + run + "/history.csv 2>/dev/null | wc -l) -lt 3 ]; do sleep 0.01; done; mkfifo " + run +
-      "/pipe; mv " + run + "/pipe " + file + "; wait $!'");
+  const Outcome outcome =
+      outcome_of("sh -c 'timeout --signal=KILL 60 " TAMP_PROGRAM " run " + scene +
+                 "--quiet --steps 3000 --set /output/fields_interval=1e-5 --set /output/history_interval=1e-5 --out " +
+                 run + " & run=$!; while [ $(cat " + run +
+                 "/history.csv 2>/dev/null | wc -l) -lt 3 ]; do sleep 0.01; done; "
+                 // One that comes between the look at a file and its replacement is replaced.
+                 "for i in 1 2 3 4 5 6 7 8 9; do kill -0 $run 2>/dev/null || break; mkfifo " +
+                 run + "/pipe; mv -f " + run + "/pipe " + file + "; sleep 0.2; done; wait $run'");
 
   INFO(name);
   CHECK(outcome.exit_code == 4);
