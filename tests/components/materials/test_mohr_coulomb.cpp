@@ -263,7 +263,7 @@ TEST_CASE("soil of Mohr and Coulomb may start settled as far as its strength goe
   CHECK_NOTHROW(material.settled_state(settled(300e3)));
   CHECK_THROWS_WITH(material.settled_state(settled(30e3)),
                     "1e+05 Pa beside 3e+04 Pa across it; expected at most the "
-                    "strength there, 9e+04 Pa");
+                    "strength there, 9e+04 Pa; \"k0\", such as 0.5, gives another stress across");
   CHECK_THROWS_AS(material.settled_state(settled(310e3)), BadValue);
 }
 
