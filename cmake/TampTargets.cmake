@@ -32,8 +32,9 @@ endif()
 if(TAMP_SANITIZE)
   # Lines in a report, but not variables, which would double the compile time. So would looking at every pointer for
   # null and alignment: the address sanitizer stops at what is read and written through null, and at its own sizes.
+  # Optimised, as accessors that are not inlined are what takes the time.
   target_compile_options(tamp_options INTERFACE -fsanitize=${TAMP_SANITIZE} -fno-sanitize=null,alignment,object-size
-                                                -fno-omit-frame-pointer -g1)
+                                                -fno-omit-frame-pointer -g1 -O2)
   target_link_options(tamp_options INTERFACE -fsanitize=${TAMP_SANITIZE})
 endif()
 if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)
