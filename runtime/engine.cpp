@@ -40,7 +40,7 @@ bool may_refuse(const TaskList& step)
                      [](const TaskDeclaration& task) { return task.uses(Mode::compute, step_verdict); });
 }
 
-/// With what the engine itself has in a step.
+/// The graphs, with the tasks that the engine itself adds to a step.
 std::vector<GraphTasks> with_own(std::vector<GraphTasks> graphs)
 {
   auto& [tasks, host] = graphs.front();
@@ -71,7 +71,7 @@ Engine::Engine(const PatchLayout& layout, std::vector<std::string> group_names, 
   look_for_idle_ranks();
 }
 
-/// What the heap has grown by since the start beyond what the ledger knows of: the graphs and what goes with them,
+/// Growth of the heap since the start beyond what the ledger knows of [bytes]: the graphs and what goes with them,
 /// which are too many small pieces to be counted one by one.
 std::ptrdiff_t Engine::beyond_ledger() const
 {

@@ -38,12 +38,12 @@ class Engine
   Engine(const PatchLayout& layout, std::vector<std::string> group_names, std::vector<GraphTasks> graphs,
          Executor& executor, const Communicator& communicator = {});
 
-  /// One step of `size` [s], or as much less as it takes to end at `end`. False if its tasks refuse it (step_verdict):
-  /// the state is then that of before, on all ranks, and another step may be tried.
+  /// Runs one step of `size` [s], or as much less as it takes to end at `end`. False if its tasks refuse it
+  /// (step_verdict): the state is then that of before, on all ranks, and another step may be tried.
   ///
   /// A StepError that a task throws is thrown on all ranks, and the state is then still that of before, unless
-  /// particles migrate without waiting for a check. What else goes wrong comes as TaskError, or as std::runtime_error
-  /// on several ranks, which cannot go on then.
+  /// particles migrate without waiting for a check. Any other failure is thrown as TaskError, or on several ranks,
+  /// which cannot go on then, as std::runtime_error.
   bool advance(double size, double end = std::numeric_limits<double>::infinity());
   /// Runs another graph, for its results. Its tasks see a step of `size` [s]: that of the next, if they look ahead.
   void run(std::size_t graph, double size = 0);
@@ -56,9 +56,9 @@ class Engine
   /// Requests of any rank with the last step; not collective.
   unsigned asked() const { return asked_; }
 
-  /// How many steps there are between two looks at the load of the ranks, the second of which in a row that finds too
-  /// much of it on one rank deals the patches anew; 0: patches stay where they are. References to the layout and the
-  /// graphs do not outlive a deal.
+  /// Looks at the load of the ranks every `n_steps` steps; two looks in a row that find too much of it on one rank deal
+  /// the patches anew. With 0 patches stay where they are. References to the layout and the graphs do not outlive a
+  /// deal.
   void balance_every(long n_steps);
   const std::vector<Rebalance>& rebalances() const { return balance_.rebalances(); }
   /// Gives each patch, between steps, to the rank that stands at its place in `ranks`; see PatchLayout::give_to_ranks.
@@ -113,13 +113,13 @@ class Engine
   void hear_idle_ranks();
   CheckpointHeader header(const std::string& fingerprint) const;
 
-  /// What the program had before.
+  /// Heap of the program before the engine was made [bytes].
   std::size_t heap_at_start_ = heap_bytes();
   std::vector<std::string> group_names_;
   std::vector<GraphTasks> tasks_;
   Executor& executor_;
   Communicator communicator_;
-  /// Ranks that failed at different places meet here, where no other messages are.
+  /// Communicator on which ranks that failed at different places meet; it has no other messages.
   Communicator after_failure_;
   RankClocks clocks_;
   std::unique_ptr<CompiledGraphs> compiled_;

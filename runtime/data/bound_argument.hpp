@@ -11,7 +11,7 @@
 namespace tamp::runtime
 {
 
-/// One declared label of one task instance, tied to its storage.
+/// A declared label of one task instance, tied to its storage.
 struct BoundArgument {
   /// Its field, or one for each group.
   Field* const* fields = nullptr;
@@ -22,7 +22,7 @@ struct BoundArgument {
   IndexBox box;
 };
 
-/// One declared label of a task, as its type: what a body asks for, and how the view that it gets is made.
+/// A declared label of a task, as its type: what a body asks for, and how the view that it gets is made.
 template <class L, bool Previous, bool EveryGroup, bool ReadOnly>
 struct Argument {
   /// The key by which a body asks for this.

@@ -25,20 +25,20 @@ struct Field {
   IndexBox box;
   /// Particles of this patch and group; null for other centrings.
   const std::size_t* n_particles = nullptr;
-  /// Not computed by the step: what it was stays what it is, in one buffer.
+  /// Not computed by the step: it keeps its values, in one buffer.
   bool carried = false;
   /// Read from the step before, so kept from step to step.
   bool state = false;
-  /// Made anew by a step; and of parts that are added up.
+  /// Made anew by a step; and made of parts that are added up.
   bool computed = false;
   bool accumulated = false;
 
   /// Whether it is known to be zero where nothing is written to it: a node or cell field that is no state, or a patch's
   /// part of a reduction.
   bool tracks_zero = false;
-  /// Of these, stored from when it is first written to.
+  /// For fields with `tracks_zero`: whether it is stored only from when it is first written to.
   bool on_demand = false;
-  /// What a node or cell field is read from until then.
+  /// The zeros that a node or cell field is read from until then.
   const Buffer* zeros = nullptr;
 
   Buffer previous_buffer;
@@ -141,7 +141,7 @@ struct Field {
 
   std::array<bool, 3> written_{};
   bool idle_ = false;
-  /// Of current values and of parts; empty where any row may have been written.
+  /// The written rows of current values and of parts; empty where any row may have been written.
   std::unique_ptr<std::array<std::vector<bool>, 2>> written_rows_;
 };
 

@@ -46,7 +46,7 @@ class LedgerEntry
   std::size_t at_high_water_ = 0;
 };
 
-/// Whatever takes much memory says so here, so that it is known by label and in all.
+/// Counts the bytes of everything that takes much memory, by label and in all.
 class MemoryLedger
 {
  public:
@@ -71,7 +71,8 @@ class MemoryLedger
  private:
   friend class LedgerEntry;
 
-  /// What all entries hold is kept when their sum is a little above what it was when it was last kept.
+  /// Adds bytes to the total, and has every entry keep what it holds when the total is a little above that when they
+  /// last did so.
   void add(std::ptrdiff_t bytes)
   {
     const std::size_t now = total_.raise(bytes);
@@ -89,8 +90,8 @@ class MemoryLedger
   std::atomic<std::size_t> mark_{0};
 
  public:
-  /// Of what is in no field: tasks with all that is known of them, messages between ranks, copies of state and fields
-  /// while they are written, steps that are traced.
+  /// Entries of memory that is in no field: the task graph with its records, messages between ranks, copies of state
+  /// and fields while they are written, and traced steps.
   LedgerEntry& graph = entry("graph and profile");
   LedgerEntry& messages = entry("messages");
   LedgerEntry& copies = entry("copies for output");
@@ -118,7 +119,7 @@ class LedgerHold
   ~LedgerHold() { hold(0); }
 
   std::size_t bytes() const { return bytes_; }
-  /// So many in place of those before; without an entry nothing.
+  /// Holds so many bytes in place of those before; does nothing without an entry.
   void hold(std::size_t bytes)
   {
     if (entry_ == nullptr || bytes == bytes_) return;

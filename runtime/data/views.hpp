@@ -62,7 +62,7 @@ class GridView
   std::array<std::ptrdiff_t, 3> strides_{};
 };
 
-/// One view for each group, for a task that handles all groups of a patch together.
+/// The views of all groups, for a task that handles all groups of a patch together.
 template <class View>
 class PerGroup
 {

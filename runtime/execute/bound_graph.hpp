@@ -35,7 +35,7 @@ class BoundGraph final : public Work
   {
     return exchange_ == nullptr ? std::vector<std::uint64_t>{} : exchange_->message_ticks();
   }
-  /// Of a message that this rank received in the last step, as one of several.
+  /// Times of a message that this rank received in the last step; for several ranks only.
   const MessageTimes& message_times(int message) const { return exchange_->times(message); }
 
   int n_instances() const override { return static_cast<int>(bound_.size()); }
@@ -63,7 +63,7 @@ class BoundGraph final : public Work
   struct Bound {
     std::vector<Field*> fields;
     std::vector<BoundArgument> arguments;
-    /// One for each label.
+    /// The halo of each label.
     std::vector<BoundHalo> halos;
     bool uses_particles = false;
     /// For each argument: whether this task is the first that adds to the patch's part.

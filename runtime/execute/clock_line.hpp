@@ -15,8 +15,8 @@ struct RoundTrip {
   std::uint64_t heard = 0;
 };
 
-/// One moment on two clocks, in the ticks of each. Whatever the way there and the way back took, the first rank's is no
-/// further off than `uncertainty`, half of the round trip.
+/// The same moment on two clocks, in the ticks of each. However long the way there and the way back took, the first
+/// rank's ticks are off by no more than `uncertainty`, half of the round trip.
 struct ClockPair {
   std::uint64_t own = 0;
   std::uint64_t first_rank = 0;

@@ -69,7 +69,7 @@ class Exchange
   const Traffic& traffic() const { return traffic_; }
   /// Ticks from being sent to being seen, summed, for each message of the graph; 0 for those to other ranks.
   const std::vector<std::uint64_t>& message_ticks() const { return message_ticks_; }
-  /// Of the last step in which this rank received it.
+  /// Times of a message in the last step in which this rank received it.
   const MessageTimes& times(int message) const { return lines_[static_cast<std::size_t>(message)].unpacked; }
 
  private:
@@ -86,7 +86,8 @@ class Exchange
     std::size_t incoming_request = 0;
     /// Particles only: whether the next is looked for.
     bool open = false;
-    /// What came in, which may be the next step's already, and what was unpacked in this step.
+    /// Times of the message that came in last, which may be of the next step already, and of the one that was unpacked
+    /// in this step.
     MessageTimes arrived;
     MessageTimes unpacked;
   };
@@ -104,7 +105,7 @@ class Exchange
   Migration* migration_;
   Communicator communicator_;
   const RankClocks* clocks_;
-  /// What lengths are counted in.
+  /// The MPI datatype in which lengths are counted.
   MPI_Datatype unit_;
   std::mutex mutex_;
   /// By message; those of other ranks are empty.

@@ -16,7 +16,7 @@
 namespace tamp::runtime
 {
 
-/// When and where an instance ran in the last step, in ticks; of another rank's, when its message came.
+/// When and where an instance ran in the last step [ticks]; for an instance of another rank, when its message came.
 struct InstanceRecord {
   std::uint64_t start = 0;
   std::uint64_t end = 0;
@@ -71,15 +71,15 @@ struct ExecutorOptions {
 /// Runs schedules on oneTBB threads, which stay with it from step to step in an arena of their own. The program's other
 /// uses of oneTBB, further executors among them, keep the threads that they would have without it.
 ///
-/// Of graphs over several ranks one runs at a time, as MPI is called by one thread at a time (MPI_THREAD_SERIALIZED).
+/// Graphs over several ranks run one at a time, as MPI is called by one thread at a time (MPI_THREAD_SERIALIZED).
 class Executor
 {
  public:
   /// `n_threads` counts the caller, who works too. With one thread instances run in program order, but for those that
   /// wait for messages.
   explicit Executor(int n_threads, ExecutorOptions options = {});
-  /// One thread, which takes any of the instances that are ready, drawn anew in each step: an order that the graph
-  /// allows by mistake shows as another result.
+  /// An executor of one thread, which takes any of the instances that are ready, drawn anew in each step: an order that
+  /// the graph allows by mistake shows as another result.
   static std::unique_ptr<Executor> shuffled(std::uint64_t seed, ExecutorOptions options = {});
   ~Executor();
   Executor(const Executor&) = delete;

@@ -158,7 +158,7 @@ void Migration::send(int patch, int group)
       laps_ == nullptr ? nullptr : reinterpret_cast<Index*>(value(warehouse_.field(*laps_, patch, group), 0));
   const std::vector<Field*>& fields = fields_[place(patch, group)];
   const IndexBox& cells = warehouse_.layout()[patch].cells;
-  // Of the particles before `first`, behind the last that left, `n_kept` stay.
+  // `n_kept` of the particles before `first` stay; `first` is the one behind the last that left.
   std::size_t n_kept = 0, first = 0;
   for (std::size_t p = 0; p < n; ++p) {
     if (stays(cells, value(positions, p))) continue;

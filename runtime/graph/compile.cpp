@@ -161,7 +161,7 @@ class Compiler
     }
   }
 
-  /// A part that begins anew: it is summed no more for what it was before, here and on its neighbour.
+  /// A part that begins anew waits until its earlier sum is complete, here and on the neighbour.
   void connect_after_sum_before(int d, const Transfer& part)
   {
     const Label* label = part.part.label;
@@ -176,7 +176,7 @@ class Compiler
     step_.edge(former_sum, step_.receiver(part), label, 0, 0);
   }
 
-  /// A sum that begins anew takes the place of the one before, which is read and changed no more.
+  /// A sum that begins anew overwrites the earlier one, so it waits for the tasks that read or change that one.
   void connect_after_readers_before(int d, int sum, int patch, int group, const Label* label)
   {
     const LabelStream* before = stream_before(streams_, label, group, d);
@@ -330,7 +330,7 @@ class Compiler
     if (version != nullptr) step_.edge(instance_of(*version, patch, group), filler, label, 0, 0);
   }
 
-  /// Of all tasks that touch the particles of a group on a patch.
+  /// The bodies of all tasks that touch the particles of a group on a patch.
   std::vector<int> bodies_with_particles(int patch, int group) const
   {
     std::vector<int> bodies;

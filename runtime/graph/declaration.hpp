@@ -15,7 +15,7 @@
 namespace tamp::runtime
 {
 
-/// How a task uses a label. See design: these five are all there are.
+/// How a task uses a label; there are no others than these five.
 enum class Mode { read, compute, update, accumulate, reduce };
 
 const char* to_string(Mode mode);
@@ -27,7 +27,7 @@ struct Access {
   bool of_previous_step = false;
   int halo = 0;
   bool every_group = false;
-  /// For what is accumulated: it starts at zero again, see Reference::anew.
+  /// For accumulated labels: whether the sum starts at zero again, see Reference::anew.
   bool anew = false;
 };
 
@@ -56,11 +56,11 @@ struct TaskContext {
   const Step& step;
 };
 
-/// On what a task runs.
+/// The set that a task runs over, once for each item of it.
 enum class Domain { patches_and_groups, patches, ranks, migration };
 
-/// Where a body makes nothing but zeros and neutral parts, and so need not run: nowhere, as far as is known; or where,
-/// of the node and cell fields of this step that it reads or updates,
+/// The patches on which a body makes nothing but zeros and neutral parts, and so need not run: none, as far as is
+/// known; or those where, of the node and cell fields of this step that it reads or updates,
 ///  - all are zero, and there are no particles either;
 ///  - all are zero, whatever particles there are;
 ///  - those of all groups but one are zero.
@@ -69,7 +69,7 @@ enum class Sparsity { none, no_particles, no_fields, no_pair };
 /// A task as declared: its name, its data, its body. The graph infers everything else from this.
 struct TaskDeclaration {
   std::string name;
-  /// The part of the step that it belongs to, for who reads a trace; may be empty.
+  /// The part of the step that it belongs to, for readers of a trace; may be empty.
   std::string phase;
   Domain domain = Domain::patches_and_groups;
   /// Groups it runs for; empty means all.
@@ -207,7 +207,7 @@ class TaskBuilder
                                                                                             places);
   }
 
-  /// Its place among the accesses; none if it is not declared.
+  /// Its index among the accesses, or `no_argument` if it is not declared.
   int add(const Access& access, bool is_declared)
   {
     if (!is_declared && has_one_value(access.label->centring()) && access.mode != Mode::read) {

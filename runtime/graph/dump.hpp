@@ -9,7 +9,7 @@
 namespace tamp::runtime
 {
 
-/// What an instance reads, computes, updates, accumulates and reduces: a list for each of these words.
+/// The labels that an instance reads, computes, updates, accumulates and reduces: a list for each of these words.
 nlohmann::json uses_of(const TaskGraph& graph, const Instance& instance);
 
 /// The tasks and edges of a folded graph; see docs/how_to/ranks.md for the keys.
@@ -24,7 +24,7 @@ std::string to_dot(const TaskGraph& graph, const FoldedGraph& folded);
 /// The instances of one patch and what they touch, for graphviz, a cluster for each patch.
 std::string to_dot(const TaskGraph& graph, int patch);
 
-/// In words: "task", "halo sum", "message sent" and so on.
+/// The kind in words: "task", "halo sum", "message sent" and so on.
 const char* to_string(InstanceKind kind);
 
 }  // namespace tamp::runtime

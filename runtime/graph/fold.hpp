@@ -13,7 +13,7 @@ namespace tamp::runtime
 struct FoldedTask {
   std::string name;
   InstanceKind kind = InstanceKind::body;
-  /// Ascending numbers in the graph.
+  /// Numbers of the instances in the graph, ascending.
   std::vector<int> instances;
   /// Ascending; empty where each instance is for all groups.
   std::vector<int> groups;
@@ -22,12 +22,12 @@ struct FoldedTask {
 /// All edges between the instances of two tasks for one label.
 struct FoldedLabel {
   const Label* label = nullptr;
-  /// The widest.
+  /// The widest halo of all the edges.
   int halo = 0;
-  /// Of all the edges together.
+  /// Bytes that pass along all the edges together.
   std::size_t bytes = 0;
   std::size_t n_edges = 0;
-  /// How many lead from rank to rank.
+  /// Number of edges that lead from one rank to another.
   std::size_t n_crossing = 0;
 };
 

@@ -18,7 +18,7 @@ struct Use {
 /// The life of one label for one group (-1: common) within a step: who makes it, who changes it, who reads it. Where it
 /// begins anew (Reference::anew), that is the life of another stream.
 struct LabelStream {
-  /// The declaration it begins with; 0 for the first of its label.
+  /// Number of the declaration that it begins with; 0 for the first stream of its label.
   int begin = 0;
   /// Tasks that compute, accumulate or reduce it, in the order of declaration. In a sound graph one computes it, or
   /// several accumulate it, all with the widest halo of theirs.
@@ -34,12 +34,12 @@ struct LabelStream {
 };
 
 using StreamKey = std::pair<const Label*, int>;
-/// One after the other, and at least one.
+/// The streams of each label and group, in their order in the step; at least one for each.
 using LabelStreams = std::map<StreamKey, std::vector<LabelStream>>;
 
 /// The stream of a label for a group that a declaration uses.
 const LabelStream& stream_at(const LabelStreams& streams, const Label* label, int group, int declaration);
-/// The one before it; null for the first.
+/// The stream before that one; null for the first.
 const LabelStream* stream_before(const LabelStreams& streams, const Label* label, int group, int declaration);
 
 /// Groups that a declaration runs for: -1 alone when it runs once a patch or a rank.

@@ -25,7 +25,7 @@ using Route = std::vector<Point>;
 
 struct LayeredLayout {
   std::vector<LaidBox> boxes;
-  /// Of each edge, from the lower number to the higher.
+  /// The route of each edge, from the box of the lower number to that of the higher.
   std::vector<Route> routes;
   double width = 0;
   double height = 0;

@@ -65,7 +65,7 @@ int StepBuilder::receiver(const Transfer& t)
   return crosses(t) ? step_.messages[static_cast<std::size_t>(message_for(t))].receive : t.consumer;
 }
 
-/// The one message from rank to rank for the purpose of a transfer.
+/// The message between two ranks that carries all transfers of this one's purpose.
 int StepBuilder::message_for(const Transfer& t)
 {
   const int from = layout_[t.part.from_patch].rank;

@@ -5,7 +5,7 @@
 namespace tamp::runtime
 {
 
-/// What a step says of itself once it has been worked out.
+/// The verdict of a step on itself, once it has been computed: whether it refuses to take place.
 struct StepVerdict {
   bool refused = false;
 };

@@ -17,7 +17,7 @@ namespace
 {
 
 constexpr double box_height = 38;
-/// Of a letter in the two sizes of text, wider than most fonts have them.
+/// Widths of a letter in the two sizes of text, wider than most fonts have them; and the margins beside the text.
 constexpr double letter = 7.4, small_letter = 6.3, beside_text = 26;
 
 constexpr const char* drawing_style = R"(<style>
@@ -81,7 +81,7 @@ std::string byte_text(std::size_t bytes)
   return fmt::format("{:.3g} {}", n, units[unit]);
 }
 
-/// What an edge is for, a line for each label.
+/// The tooltip of an edge: what it is for, a line for each label.
 std::string title_of(const FoldedGraph& folded, const FoldedEdge& edge)
 {
   const auto name = [&](int task) { return folded.tasks[static_cast<std::size_t>(task)].name; };

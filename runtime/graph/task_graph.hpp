@@ -58,7 +58,7 @@ struct Edge {
   int message = -1;
 };
 
-/// One label's data of one patch and group, as they go in a message.
+/// The part of a message that holds one label's data of one patch and group.
 struct MessagePart {
   const Label* label = nullptr;
   int from_patch = 0;
@@ -68,11 +68,11 @@ struct MessagePart {
   FieldBuffer buffer = FieldBuffer::current;
   /// The part of a node or cell field that is sent.
   IndexBox box;
-  /// Where `to_patch` sees an image of `from_patch`: by how much it is shifted.
+  /// The shift between `from_patch` and its image that `to_patch` sees, where it sees one.
   Index shift{0, 0, 0};
 };
 
-/// All that one rank sends to another in a step for one purpose, together.
+/// The data that one rank sends to another in a step for one purpose, all together.
 struct Message {
   /// sum_halo, fill_halo, combine, or receive_particles: the kind of the instances that wait for it.
   InstanceKind purpose;
@@ -101,7 +101,7 @@ struct LabelUse {
   bool filled = false;
 };
 
-/// Data that the host, outside of the graph, gives and takes.
+/// Data that the host sets and reads outside of the graph.
 struct HostData {
   /// State that the host sets before the first step; reductions here are accumulated.
   std::vector<const Label*> state;
@@ -123,7 +123,7 @@ class TaskGraph
   int n_groups() const { return static_cast<int>(group_names_.size()); }
   const std::vector<TaskDeclaration>& declarations() const { return declarations_; }
   const std::vector<Instance>& instances() const { return instances_; }
-  /// Why instances wait for their predecessors: to be looked at; a run does without.
+  /// Why instances wait for their predecessors, for those who look at the graph; a run does not need them.
   const std::vector<Edge>& edges() const { return edges_; }
   void drop_edges() { std::vector<Edge>().swap(edges_); }
   const std::vector<Message>& messages() const { return messages_; }
@@ -151,9 +151,9 @@ class TaskGraph
   int storage_halo_ = 0;
 };
 
-/// One use of each label and group over all graphs: with whatever any graph says of it.
+/// The uses of all labels and groups, one for each, with the properties that any of the graphs gives it.
 std::vector<LabelUse> label_uses(std::span<const TaskGraph* const> graphs);
-/// The widest halo of all graphs.
+/// The widest halo that any of the graphs stores.
 int storage_halo(std::span<const TaskGraph* const> graphs);
 
 }  // namespace tamp::runtime

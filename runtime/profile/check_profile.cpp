@@ -11,7 +11,8 @@ namespace tamp::runtime
 namespace
 {
 
-/// Of times no more than thirty thousand years, of others what ten million steps may count.
+/// Upper bounds of the numbers in a profile: thirty thousand years for times [s], and for counts what ten million steps
+/// may come to.
 constexpr double most_seconds = 1e12, most_counted = 1e24;
 
 void check(double number, double least, double most, const std::string& key)
@@ -32,7 +33,7 @@ void check_numbers(const nlohmann::json& value, const std::string& key)
   }
 }
 
-/// One more than the numbers that patches or ranks have; any where the profile has no list of them.
+/// The number of patches or ranks, one more than their largest index; infinite where the profile has no list of them.
 double end_of(const nlohmann::json& profile, const char* key)
 {
   const auto list = profile.find(key);

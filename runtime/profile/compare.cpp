@@ -18,10 +18,10 @@ namespace
 
 constexpr std::size_t least_parts = 8;
 
-/// What a step takes in each part of a run, the parts as long as asked for [s].
+/// Mean time in a step [s] for each part of a run; all parts have the same number of steps.
 using OverTime = std::vector<double>;
 
-/// Joins so many parts to one each; a rest that makes no whole part is left out.
+/// Joins each `n_joined` parts to one, as their mean; what is left over and fills no whole part is left out.
 OverTime joined(const OverTime& parts, std::size_t n_joined)
 {
   OverTime result;
@@ -41,7 +41,7 @@ class Run
   explicit Run(const nlohmann::json& profile) : profile_(profile)
   {
     steps_each_ = profile.at("over_time").at("steps_each").get<double>();
-    // What no run has written would never end, or join no parts.
+    // Other values, which no run writes, would join no parts or loop without end.
     if (!(steps_each_ >= 1 && steps_each_ <= 1e15)) throw std::out_of_range("steps_each");
   }
 
@@ -74,7 +74,7 @@ double quantile(const std::vector<double>& sorted, double q)
   return sorted[k] + (at - static_cast<double>(k)) * (next - sorted[k]);
 }
 
-/// Of the first `n`: the median, or the mean where that is 0.
+/// The typical time of the first `n` parts: their median, or their mean where that is 0.
 std::optional<double> typical(const OverTime* all, std::size_t n)
 {
   if (all == nullptr) return {};
@@ -85,7 +85,7 @@ std::optional<double> typical(const OverTime* all, std::size_t n)
   return median > 0 ? median : std::accumulate(parts.begin(), parts.end(), 0.0) / static_cast<double>(parts.size());
 }
 
-/// By medians, as a part in which something else had the processor tells nothing. The standard error is that of a
+/// Compares medians, as a part in which another program had the processor says nothing. The standard error is that of a
 /// normal distribution with the same quartiles. Null where a run has no such task.
 TaskComparison comparison(const std::string& name, const OverTime* here, const OverTime* there, std::size_t n_parts)
 {
@@ -104,7 +104,7 @@ TaskComparison comparison(const std::string& name, const OverTime* here, const O
   return result;
 }
 
-/// Of two runs that have no part in common.
+/// The comparison of two runs that have no part in common, which has no ratio.
 TaskComparison without_ratio(TaskComparison comparison)
 {
   comparison.ratio = comparison.error = 0;

@@ -11,12 +11,12 @@ namespace tamp::runtime
 /// A task, or the step as a whole, in two runs.
 struct TaskComparison {
   std::string name;
-  /// Of a step [s], on all ranks and patches together: the median over the parts that both runs have, or the mean where
-  /// most of them do without the task; nothing where a run has no such task.
+  /// Time in a step [s], on all ranks and patches together: the median over the parts that both runs have, or the mean
+  /// where most of them do without the task; empty where a run has no such task.
   std::optional<double> here_s{};
   std::optional<double> there_s{};
-  /// How much longer it takes there: the median over those parts, and its standard error; both 0 where there are fewer
-  /// than eight.
+  /// Time there over time here: the median over those parts, and its standard error; both 0 where there are fewer than
+  /// eight.
   double ratio = 0;
   double error = 0;
 
@@ -24,9 +24,10 @@ struct TaskComparison {
   bool differs() const;
 };
 
-/// Two runs, given as their `profile.json`, as far as both go. Each part of one is compared with that of the same steps
-/// of the other, so that costs that change as a run goes on are no noise. Of runs that have no whole part in common
-/// each has its own numbers, and no ratio. The step comes first, then the tasks with the largest differences.
+/// Compares two runs, given as their `profile.json`, over the steps that both have. Each part of one is compared with
+/// the same steps of the other, so that costs that change as a run goes on are no noise. Two runs that have no whole
+/// part in common are listed with their own numbers and no ratio. The step comes first, then the tasks with the largest
+/// differences.
 std::vector<TaskComparison> compare_profiles(const nlohmann::json& here, const nlohmann::json& there);
 
 /// A line on runs of unlike ranks or threads, or on unlike machines; empty for others. Throws nlohmann's exceptions for

@@ -8,22 +8,23 @@
 namespace tamp::runtime
 {
 
-/// What one thread of a rank has as its own; an idle one takes from others.
+/// The share of a step that one thread of a rank owns; an idle thread takes from others.
 struct ThreadShare {
   int rank = 0;
   int thread = 0;
   int n_patches = 0;
   int n_instances = 0;
-  /// Of its instances [s]; 0 where that is not known.
+  /// Time of its instances [s]; 0 where that is not known.
   double work_s = 0;
 };
 
-/// A step as so many threads of each rank have it.
+/// A step dealt to `n_threads` threads of each rank.
 struct DealtStep {
   int n_threads = 1;
   /// Rank by rank.
   std::vector<ThreadShare> shares;
-  /// How many instances are so many edges from the start of the step: those of a level can run at once.
+  /// Number of instances in each level, counted in edges from the start of the step: those of one level can run at
+  /// once.
   std::vector<int> levels;
 };
 

@@ -15,7 +15,8 @@ namespace tamp::runtime
 namespace
 {
 
-/// Task, patch, group, and the rank of what belongs to a rank as a whole: patches may have moved since.
+/// Task, patch, group, and rank; the rank only for instances that belong to a rank as a whole, as patches may have
+/// moved since.
 using InstanceKey = std::tuple<std::string, int, int, int>;
 
 struct Times {
@@ -48,7 +49,7 @@ std::map<InstanceKey, std::deque<Times>> times_in(const nlohmann::json& profile)
   return times;
 }
 
-/// What the engine adds to a step; a graph that is not run has none of it.
+/// Whether a task is one that the engine adds to a step; a graph that is not run has none of them.
 bool is_of_engine(const std::string& task)
 {
   return task.ends_with("gather requests") || task.ends_with("combine: requests");

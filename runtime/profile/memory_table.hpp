@@ -6,8 +6,8 @@
 namespace tamp::runtime
 {
 
-/// What a run's memory was for when it was at its most, by label and by the task that makes the labels, largest first.
-/// Of a `profile.json`; throws nlohmann's exceptions for what no run has written.
+/// A table of a run's memory when it was largest, by label and by the task that makes the labels, largest first. Made
+/// from a `profile.json`; throws nlohmann's exceptions for one that no run has written.
 std::string memory_text(const nlohmann::json& profile);
 
 }  // namespace tamp::runtime

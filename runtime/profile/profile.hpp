@@ -23,30 +23,31 @@ struct TaskStatistics {
   double p95_s = 0;
   /// Part of the time of all tasks; the shares of all rows add up to 1.
   double share = 0;
-  /// Of `total_s`, in which other programs may have had the core: what the processor worked, by samples; NaN where none
-  /// was taken.
+  /// Processor time of the task [s], extrapolated from sampled steps; below `total_s` where other programs had the
+  /// core. NaN where no step was sampled.
   double processor_s = std::numeric_limits<double>::quiet_NaN();
   double bytes = 0;
   double particles = 0;
   /// Time of the busiest patch over the mean of all patches.
   double imbalance = 1;
-  /// Between the end of the last predecessor and the start, summed: ready, but others had their turn.
+  /// Time from the end of the last predecessor to the start, summed over its instances [s]: the task was ready, but the
+  /// workers were busy with others.
   double ready_delay_s = 0;
-  /// In the mean step, what of the longest chain is this task; and in which part of the steps that were looked at the
-  /// longest chain of a rank goes through it.
+  /// Time that the task takes on the longest chain of the mean step [s]; and the share of the steps that were looked at
+  /// in which the longest chain of a rank goes through it.
   double chain_s = 0;
   double on_chain = 0;
-  /// Of the busiest rank over the mean of all ranks.
+  /// Time of the busiest rank over the mean of all ranks.
   double rank_imbalance = 1;
-  /// In each part of the run, of a step in the mean; all ranks and patches together.
+  /// Mean time that it takes in a step [s], for each part of the run; summed over all ranks and patches.
   std::vector<double> over_time_s{};
-  /// What part of the mean step is saved if every instance takes a tenth less, and if none takes any time; NaN where
-  /// that was not found out.
+  /// Share of the mean step that is saved, by replay, if every instance takes a tenth less, and if none takes any time;
+  /// NaN where the task was not replayed.
   double gain_of_tenth = std::numeric_limits<double>::quiet_NaN();
   double gain_of_all = std::numeric_limits<double>::quiet_NaN();
 };
 
-/// What one rank did.
+/// The profile of one rank: its tasks, the mean time of a step and between two steps [s], and its scheduler overhead.
 struct RankStatistics {
   std::vector<TaskStatistics> tasks{};
   double step_s = 0;
@@ -55,7 +56,7 @@ struct RankStatistics {
 };
 
 struct PatchStatistics {
-  /// That it belongs to at the end.
+  /// The rank that the patch belongs to at the end of the run.
   int rank = 0;
   double total_s = 0;
   /// The task that took most.
@@ -69,11 +70,12 @@ struct ChainLink {
   int patch = -1;
   int rank = 0;
   double task_s = 0;
-  /// Before it, from being sent to being seen: of a message that it receives.
+  /// Time that the message it receives was on its way before it, from being sent to being seen [s]; 0 if it receives
+  /// none.
   double message_s = 0;
 };
 
-/// What an instance of a task takes in the mean step [s], and how long the message that it receives is on its way.
+/// Time of one task instance in the mean step [s], and time that the message it receives was on its way [s].
 struct InstanceTime {
   std::string task;
   /// -1 for what belongs to a rank as a whole, and for all groups.
@@ -91,7 +93,7 @@ struct Wait {
   double total_s = 0;
 };
 
-/// Whether other programs had the cores for so long that what was measured says little of this one.
+/// Whether other programs had the cores for so long that the measured times cannot be trusted.
 inline bool is_too_busy(double core_share)
 {
   constexpr double least_share = 0.9;
@@ -103,13 +105,14 @@ struct Profile {
   std::vector<TaskStatistics> tasks;
   std::vector<RankStatistics> ranks;
   std::vector<PatchStatistics> patches;
-  /// A run in parts of so many steps, the last of which may have fewer: what a step takes in each in the mean.
+  /// The run is divided into parts of `steps_each_part` steps, of which the last may have fewer; for each part, the
+  /// mean time of a step [s].
   long steps_each_part = 0;
   std::vector<double> step_over_time_s;
   long n_steps = 0;
   long n_traced_steps = 0;
-  /// Mean time of a step, on the rank where steps take longest, of its longest chain of tasks on one rank, and the
-  /// share of the workers' time outside of task bodies.
+  /// Mean time of a step [s] on the rank where steps take longest; mean time of the longest chain of tasks within one
+  /// rank [s]; and the share of the workers' time outside of task bodies.
   double step_s = 0;
   double critical_path_s = 0;
   double overhead = 0;
@@ -119,22 +122,23 @@ struct Profile {
   double replayed_s = 0;
   /// The mean step, in the order of its graph; empty where that is large.
   std::vector<InstanceTime> mean_step;
-  /// That chain, first to last.
+  /// The tasks of the longest chain, first to last.
   std::vector<ChainLink> chain;
-  /// What the record itself takes, and all that the host does between steps, for each step, on that rank, too.
+  /// Mean time for each step [s] that recording takes, and that passes between two steps (output and the like), on the
+  /// rank of `step_s`.
   double recording_s = 0;
   double between_s = 0;
   /// The part of tasks' time in which workers had their cores, by samples; NaN where these are too few to tell.
   double core_share = std::numeric_limits<double>::quiet_NaN();
   /// The longest first; the time is that of all workers of all ranks.
   std::vector<Wait> waits;
-  /// Messages between ranks: how many, how long, how long on their way in sum, and the part of that in which the worker
-  /// that took them in had nothing else to run.
+  /// Messages between ranks: their number, their size, the time that they were on their way in sum [s], and the part of
+  /// that time in which the worker that received them had nothing else to run.
   std::uint64_t n_messages = 0;
   std::uint64_t message_bytes = 0;
   double message_s = 0;
   double message_wait_s = 0;
-  /// By the names of labels, the task of the step that makes them, or several with commas between them.
+  /// For each label, by name, the task of the step that makes it, or several with commas between them.
   std::map<std::string, std::string> makers;
 };
 

@@ -11,7 +11,7 @@ namespace tamp::runtime
 namespace
 {
 
-/// For each label the tasks that make it, of which each may do so for other groups.
+/// For each label the tasks that make it; each of several may make it for other groups.
 std::map<std::string, std::string> makers_of(const TaskGraph& graph)
 {
   std::map<std::string, std::string> makers;
@@ -25,7 +25,8 @@ std::map<std::string, std::string> makers_of(const TaskGraph& graph)
   return makers;
 }
 
-/// Of a task its phase, as far as it says one; of the runtime's own work what that is.
+/// Category of an instance in a trace: the phase of a task ("task" if it names none), or the kind of the runtime's own
+/// work.
 std::string category(const TaskGraph& graph, const Instance& instance)
 {
   switch (instance.kind) {
@@ -188,7 +189,7 @@ void Profiler::add_processor_times()
   for (std::size_t i = 0; i < records.size(); ++i) {
     if (!graph_->is_local(static_cast<int>(i))) continue;
     rows_[row_of_instance_[i]].totals.processor_ns += records[i].processor_ns;
-    // To ask for it takes processor time, too, which may be more than there is of a short task.
+    // Asking for it takes processor time, too, which may be more than a short task has.
     const double ns = static_cast<double>(records[i].end - records[i].start) * rate_.seconds_per_tick() * 1e9;
     steps_.sampled_ns += ns;
     steps_.processor_ns += std::min(ns, static_cast<double>(records[i].processor_ns));
@@ -216,7 +217,7 @@ void Profiler::follow_chain(std::size_t last)
   }
 }
 
-/// What each task took on each patch, of the steps since the graph is followed.
+/// Adds the ticks that each task took on each patch since the graph is followed.
 void Profiler::add_patch_ticks(std::vector<TaskRow>& rows) const
 {
   const auto& instances = graph_->graph().instances();
@@ -290,7 +291,7 @@ void Profiler::add_tasks(Profile& profile, const Communicator& communicator, dou
   }
 }
 
-/// What a step takes in each part of the run [s].
+/// Mean time per step [s] in each part of the run.
 std::vector<double> Profiler::per_step(const TicksOverTime& ticks, double second) const
 {
   std::vector<double> seconds;
@@ -369,7 +370,7 @@ double Profiler::time_for_each_looked_at() const
   return steps_.looked_at > 0 ? static_cast<double>(steps_.ticks) / static_cast<double>(steps_.looked_at) : 0;
 }
 
-/// Of all ranks, over the steps since patches were dealt last.
+/// The mean step of all ranks, over the steps since patches were dealt last.
 TimedStep Profiler::mean_step(const Communicator& communicator, double second) const
 {
   const double to_mean = second / static_cast<double>(n_followed_);

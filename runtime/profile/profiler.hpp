@@ -18,8 +18,8 @@
 namespace tamp::runtime
 {
 
-/// Gathers what the workers of a rank recorded, after each step and outside of it. How long everything took is taken in
-/// of every step; what needs more looking (waits, chains, bytes, particles) of every eighth; processor time of fewer.
+/// Gathers the records of a rank's workers after each step, outside of its time. Durations are taken from every step;
+/// waits, chains, bytes and particles, which need more looking, from every eighth; processor time from fewer.
 class Profiler
 {
  public:
@@ -28,13 +28,13 @@ class Profiler
   /// Keeps the chosen steps instance by instance, as many as TraceRecorder has room for, and compares the clocks of the
   /// ranks. To be called before the first step. Collective.
   void trace_steps(const TraceChoice& choice, LedgerEntry& memory, const Communicator& communicator = {});
-  /// Goes on with the same tasks on patches dealt anew.
+  /// Goes on with the same tasks after the patches have been dealt to the ranks anew.
   void follow(const Schedule& schedule, BoundGraph& graph);
-  /// How many steps there are from one of which processor time is taken to the next; by default 32, as asking the
-  /// system for it takes about a microsecond a task.
+  /// Takes processor time in every `n_steps`-th step; by default 32, as asking the system for it takes about a
+  /// microsecond a task.
   void take_processor_time_every(long n_steps) { processor_time_every_ = n_steps; }
-  /// Whether the schedule is to take that of the next step. Not of the very first, in which memory is touched for the
-  /// first time.
+  /// Whether the schedule is to take processor time in the next step. Never in the very first, in which memory is
+  /// touched for the first time.
   bool takes_processor_time() const
   {
     return n_steps_ > 0 && n_steps_ % processor_time_every_ == 1 % processor_time_every_;
@@ -43,8 +43,8 @@ class Profiler
   void add_step(const StepFacts& facts = {});
   /// See TraceRecorder.
   float wall_to_tell() const { return trace_.wall_to_tell(); }
-  /// Processor time of task bodies on each of this rank's patches since this was last asked, in the steps in which it
-  /// is taken [s]; 0 on others.
+  /// Processor time of task bodies on each of this rank's patches since the last call, summed over the steps in which
+  /// it is taken [s]; 0 for patches of other ranks.
   std::vector<double> take_patch_costs();
   /// The profile of all ranks together. Collective.
   Profile profile(const Communicator& communicator = {}) const;
@@ -56,22 +56,24 @@ class Profiler
 
  private:
   static constexpr long look_every = 8;
-  /// Of processor time: of fewer one that was cut off would tell too much.
+  /// Fewest steps with processor time that `core_share` is computed from: among fewer, a single one in which another
+  /// program had the core would weigh too much.
   static constexpr long least_samples = 8;
 
   struct Steps {
     std::uint64_t first_tick = 0;
     std::uint64_t ticks = 0;
     TicksOverTime over_time;
-    /// Of all workers, in bodies of tasks; filled in for the profile.
+    /// Ticks of all workers in bodies of tasks; filled in only when the profile is made.
     std::uint64_t in_tasks = 0;
     std::uint64_t recording = 0;
     /// From the end of one step to the start of the next.
     std::uint64_t between = 0;
-    // Of the steps that are looked at: how long they took, and their longest chains on this rank.
+    // The steps that are looked at: ticks of all of them, and ticks of their longest chains on this rank.
     std::uint64_t looked_at = 0;
     std::uint64_t path_ticks = 0;
-    // Of the steps in which processor time is taken: that of tasks by the clock, and what of it their workers had.
+    // The steps in which processor time is taken: time of their tasks by the clock [ns], and the processor time that
+    // the workers had in it [ns].
     double sampled_ns = 0;
     double processor_ns = 0;
     Traffic traffic;
@@ -103,7 +105,8 @@ class Profiler
   std::vector<TaskRow> rows_;
   RunParts parts_;
   std::vector<std::size_t> row_of_instance_;
-  /// By instance: the longest chain up to its end in a step, and what it took in all since this graph is followed.
+  /// By instance: the longest chain up to its end in a step [ticks]; and `instance_ticks_`, the ticks that it took
+  /// since this graph is followed.
   std::vector<std::uint64_t> path_;
   /// By row: the last of the steps looked at, counted from 1, in which it was on the longest chain.
   std::vector<long> on_chain_at_;
@@ -119,7 +122,7 @@ class Profiler
   ClockPair clock_at_begin_;
   long n_steps_ = 0;
   std::uint64_t last_end_ = 0;
-  /// With the traffic of the graphs before the one that is followed now.
+  /// Its traffic is that of earlier graphs, before the one that is followed now.
   Steps steps_;
 };
 

@@ -94,7 +94,7 @@ class Replay
       const int next = successors_[k];
       ready_at_[place(next)] = std::max(ready_at_[place(next)], now_ + way(step_, instance, next));
       if (--n_awaited_[place(next)] > 0) continue;
-      // Of its own rank it is started below; elsewhere, and later, by an event.
+      // One that is ready now on the same rank is started below; any other is started by an event.
       const bool is_here = instances_[place(next)].rank == instances_[place(instance)].rank;
       if (is_here && ready_at_[place(next)] <= now_) {
         ready_[place(homes_[place(next)])].insert(next);
@@ -118,7 +118,7 @@ class Replay
     }
   }
 
-  /// The first that is ready of a worker's own, or the last of another's; -1 if there is none.
+  /// The first instance that is ready of a worker's own, or the last of another worker's; -1 if there is none.
   int take(int rank, int worker)
   {
     for (int k = 0; k < n_workers_; ++k) {
@@ -136,14 +136,15 @@ class Replay
   int n_workers_;
   const std::vector<Instance>& instances_;
   int n_ranks_;
-  /// By instance: rank times workers plus worker; how many it waits for still; from when on it is ready at best.
+  /// By instance: its home (rank times workers plus worker), the number of predecessors that it still waits for, and
+  /// the earliest time at which it may be ready [s].
   std::vector<int> homes_;
   std::vector<std::size_t> n_awaited_;
   std::vector<double> ready_at_;
-  /// Those of instance i stand from first_[i] to first_[i + 1].
+  /// Successors of all instances: those of instance i stand from first_[i] to first_[i + 1].
   std::vector<std::size_t> first_;
   std::vector<int> successors_;
-  /// By home; and the idle workers by rank.
+  /// Instances that are ready, by home; and the idle workers, by rank.
   std::vector<std::set<int>> ready_;
   std::vector<std::set<int>> idle_;
   std::priority_queue<Event, std::vector<Event>, std::greater<>> events_;

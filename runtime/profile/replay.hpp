@@ -7,7 +7,7 @@
 namespace tamp::runtime
 {
 
-/// A step with how long everything in it takes [s]: the mean of many, for instance.
+/// A step with the time that each instance and message takes [s]: the mean of many steps, for instance.
 struct TimedStep {
   const TaskGraph* graph = nullptr;
   /// By instance.
@@ -16,8 +16,9 @@ struct TimedStep {
   std::vector<double> message_s;
 };
 
-/// Whose each instance is where each rank has `n_workers`: rank times these plus worker. Patches in a row are one
-/// worker's, and what belongs to a rank as a whole is its first one's, as BoundGraph::home has it.
+/// The worker that owns each instance where each rank has `n_workers` of them, as rank times `n_workers` plus worker.
+/// Consecutive patches belong to one worker, and instances of a rank as a whole to its first worker, as in
+/// BoundGraph::home.
 std::vector<int> homes_of(const TaskGraph& graph, int n_workers);
 
 /// How long a step takes [s] on `n_workers` threads a rank: what the executor would do, without doing it. Every patch

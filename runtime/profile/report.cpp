@@ -12,7 +12,7 @@ namespace tamp::runtime
 namespace
 {
 
-/// What a task has in the run as a whole, and on each rank.
+/// The keys that a task has both in the run as a whole and on each rank.
 nlohmann::json to_json(const TaskStatistics& t)
 {
   nlohmann::json json = {{"name", t.name},           {"count", t.count},
@@ -33,7 +33,7 @@ nlohmann::json to_json(const std::vector<TaskStatistics>& tasks)
   return list;
 }
 
-/// With what only the run as a whole can tell of them.
+/// The tasks, with the keys that only the run as a whole has.
 nlohmann::json tasks_of_run(const std::vector<TaskStatistics>& tasks)
 {
   nlohmann::json list = to_json(tasks);
@@ -84,7 +84,8 @@ nlohmann::json to_json(const std::vector<PatchStatistics>& patches)
   return list;
 }
 
-/// The most of each label, what each had when all together had the most, and that by the tasks that make the labels.
+/// The most that each label held; what each held when all together held the most; and the same by the tasks that make
+/// the labels.
 nlohmann::json to_json(const MemoryLedger& ledger, const std::map<std::string, std::string>& makers,
                        const Communicator& communicator)
 {

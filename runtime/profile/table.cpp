@@ -8,39 +8,39 @@
 namespace tamp::runtime
 {
 
-// Counts are read as what a damaged file may have there, which need not fit into a whole number.
+// Counts are read as floating-point numbers, as those of a damaged file need not fit into an integer.
 
 namespace
 {
 
-/// A list of a profile; nlohmann would go through no list as through an empty one.
+/// A list of a profile; throws where it is none, which nlohmann would iterate over like an empty one.
 const nlohmann::json::array_t& list_of(const nlohmann::json& profile, const char* key)
 {
   return profile.at(key).get_ref<const nlohmann::json::array_t&>();
 }
 
-/// A share as percent; of profiles that do not say, nothing.
+/// A share as percent; empty for profiles that do not have it.
 std::string percent(const nlohmann::json& task, const char* key)
 {
   const auto share = task.find(key);
   return share == task.end() ? "" : fmt::format("{:.1f}%", share->get<double>() * 100);
 }
 
-/// How many in a second, in units of `unit`; nothing for none.
+/// Rate per second, in units of `unit`; empty for a count of 0.
 std::string rate(const nlohmann::json& task, const char* key, double unit)
 {
   const double n = task.value(key, 0.0), seconds = task.at("total_s").get<double>();
   return n > 0 && seconds > 0 ? fmt::format("{:.3g}", n / seconds / unit) : "";
 }
 
-/// What a task's bytes a second are of those that memory gives a worker; nothing where either is not known.
+/// A task's bytes a second, in percent of those that memory gives a worker; empty where either is not known.
 std::string of_memory(const nlohmann::json& task, double memory_rate)
 {
   const double n = task.value("bytes", 0.0), seconds = task.at("total_s").get<double>();
   return n > 0 && seconds > 0 && memory_rate > 0 ? fmt::format("{:.0f}%", 100 * n / seconds / memory_rate) : "";
 }
 
-/// The column of it, which is left out where nothing is known.
+/// The column "of mem", which is left out where the rate of memory is not known.
 std::string memory_column(const std::string& text, const TableChoice& choice)
 {
   return choice.memory_rate > 0 ? fmt::format(" {:>7}", text) : "";
@@ -63,7 +63,7 @@ std::string row(const nlohmann::json& t, const TableChoice& choice)
                      percent(t, "step_gain_if_a_tenth_faster"), percent(t, "step_gain_if_free"));
 }
 
-/// The chosen ones of a list of tasks.
+/// The rows of the chosen tasks.
 std::string tasks_text(const nlohmann::json& profile, const TableChoice& choice)
 {
   std::string text = header(choice);
@@ -105,7 +105,7 @@ std::string waits_text(const nlohmann::json& profile)
   return text.empty() ? "" : "\nworkers stood still longest before\n" + text;
 }
 
-/// Over the mean of the ranks, the busiest one: of all that they ran.
+/// Least, mean and largest time that all tasks of a rank take; empty for a single rank.
 std::string ranks_text(const nlohmann::json& profile)
 {
   const nlohmann::json ranks = profile.value("ranks", nlohmann::json::array());

@@ -8,13 +8,14 @@
 namespace tamp::runtime
 {
 
-/// What of a profile is shown.
+/// Selects which part of a profile is shown.
 struct TableChoice {
   /// Only tasks of this phase, which is what stands before the colon in their names; empty: all.
   std::string phase{};
-  /// At most so many rows; 0: all, and what workers waited for.
+  /// Largest number of rows; 0: all rows, and below them what workers waited for.
   int n_rows = 0;
-  /// Bytes that memory gives a worker in a second while all ask it; 0: not known, and tasks are not compared with it.
+  /// Bytes a second that memory gives one worker while all of them ask it; 0: not known, and tasks are not compared
+  /// with it.
   double memory_rate = 0;
 };
 
@@ -24,7 +25,7 @@ std::string to_text(const nlohmann::json& profile, const TableChoice& choice = {
 /// A line on a machine that was too busy for its times to be trusted; empty for others.
 std::string busy_text(const nlohmann::json& profile);
 
-/// What one of the ranks did.
+/// The profile of one rank.
 std::string rank_text(const nlohmann::json& profile, std::size_t rank, const TableChoice& choice = {});
 
 /// The dearest patches, and how the others compare.
@@ -33,7 +34,7 @@ std::string patches_text(const nlohmann::json& profile, std::size_t n_rows = 20)
 /// The longest chain of the mean step, task by task and message by message.
 std::string chain_text(const nlohmann::json& profile);
 
-/// In the order of their dearest tasks.
+/// The phases of all tasks, in the order of their most expensive tasks.
 std::vector<std::string> phases_of(const nlohmann::json& profile);
 std::string phase_of(const std::string& task);
 

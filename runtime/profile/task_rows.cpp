@@ -63,7 +63,7 @@ std::uint64_t ticks_of(const std::vector<TaskRow>& rows)
 namespace
 {
 
-/// Of the busiest patch over the mean of all; of one rank, all that it worked on or has at the end.
+/// Time of the busiest patch over the mean of all patches; for one rank, of those that it worked on or has at the end.
 double imbalance(const TaskRow& row, int rank, const std::vector<int>& rank_of_patch)
 {
   std::uint64_t sum = 0, most = 0, n = 0;

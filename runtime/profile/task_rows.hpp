@@ -18,11 +18,11 @@ struct TaskTotals {
   DurationHistogram durations;
   TicksOverTime over_time;
   std::uint64_t skipped = 0;
-  // Of the steps in which it is taken.
+  // Summed over the steps in which processor time is taken.
   std::uint64_t processor_ns = 0;
-  // Of the steps that are looked at, like all below.
+  // Summed over the steps that are looked at, like all members below.
   std::uint64_t ready_delay = 0;
-  /// In how many of them the rank's longest chain goes through the task.
+  /// Number of these steps in which the rank's longest chain goes through the task.
   std::uint64_t on_chain = 0;
   double bytes = 0;
   double particles = 0;
@@ -30,10 +30,10 @@ struct TaskTotals {
   void add(const TaskTotals& other);
 };
 
-/// A task with what it took on each patch; one number where it does not work on patches.
+/// A task's totals and its ticks on each patch; one entry where it does not work on patches.
 struct TaskRow {
   std::string name;
-  /// What its tasks are for, in a trace.
+  /// Category of its instances in a trace: the phase of the step, or the kind of the runtime's own work.
   std::string category{};
   bool over_patches = false;
   TaskTotals totals;
@@ -42,19 +42,19 @@ struct TaskRow {
   void add(const TaskRow& other);
 };
 
-/// What turns the numbers of rows into those of a profile.
+/// Factors that turn the ticks and sums of rows into the numbers of a profile.
 struct RowScales {
-  /// Of all tasks together.
+  /// Time of all tasks together.
   std::uint64_t all_ticks = 0;
   double second_per_tick = 0;
-  /// The number of all steps over those that are looked at, and over those with processor time; and the time of all
-  /// over that of those which are looked at.
+  /// Number of all steps over that of the steps looked at, and over that of the steps with processor time; and the time
+  /// of all steps over the time of those looked at.
   double steps = 0;
   double processor_steps = 0;
   double time = 0;
-  /// Steps that were looked at, by all ranks in sum.
+  /// Steps that were looked at, summed over the ranks that the rows are of.
   double looked_at = 0;
-  /// The rank whose rows they are, of which only the patches count; -1 for all ranks.
+  /// The rank that the rows are of, and whose patches alone count for the imbalance; -1 for all ranks.
   int rank = -1;
 };
 
@@ -65,11 +65,12 @@ void for_each_rank(const std::vector<TaskRow>& own, const Communicator& communic
 
 std::uint64_t ticks_of(const std::vector<TaskRow>& rows);
 
-/// Of all tasks that had something to do, most expensive first. `rank_of_patch` is that of the end.
+/// Statistics of all tasks that ran or were skipped, most expensive first. `rank_of_patch` is that at the end of the
+/// run.
 std::vector<TaskStatistics> statistics(const std::vector<TaskRow>& rows, const RowScales& scales,
                                        const std::vector<int>& rank_of_patch);
 
-/// What all tasks took on each patch [s], and which took most.
+/// Time of all tasks on each patch [s], and the task that took most of it.
 std::vector<PatchStatistics> patch_statistics(const std::vector<TaskRow>& rows, const std::vector<int>& ranks,
                                               double second_per_tick);
 

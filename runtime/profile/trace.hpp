@@ -12,16 +12,16 @@ namespace tamp::runtime
 
 /// A step as one rank ran it. Times here and below are ticks of the rank's own clock, unless they say otherwise.
 struct TracedStep {
-  /// From 1, over the whole simulation.
+  /// Number of the step, from 1 over the whole simulation.
   std::int64_t number = 0;
-  /// Simulated time [s].
+  /// Simulated time that the step covers [s].
   double size = 0;
   std::uint64_t start = 0;
   std::uint64_t end = 0;
-  /// How many of the tape's tasks and messages are the step's: they stand together, in the order of the steps.
+  /// Number of the tape's tasks and messages that belong to the step: they stand together, in the order of the steps.
   std::uint64_t n_tasks = 0;
   std::uint64_t n_messages = 0;
-  /// Messages of the graph, of all ranks: what numbers them over all steps.
+  /// Number of messages in the graph, of all ranks; messages are numbered with it over all steps.
   std::uint64_t n_messages_of_all = 0;
 };
 
@@ -29,7 +29,7 @@ struct TracedStep {
 struct TracedTask {
   std::uint64_t start = 0;
   std::uint64_t end = 0;
-  /// When its last predecessor was done or, of a receiver, its message was there; 0 if it waits for none.
+  /// When its last predecessor was done or, for a receiver, when its message was there; 0 if it waits for none.
   std::uint64_t ready = 0;
   std::uint64_t bytes = 0;
   std::uint64_t particles = 0;
@@ -38,9 +38,9 @@ struct TracedTask {
   std::uint32_t worker = 0;
   std::int32_t patch = -1;
   std::int32_t group = -1;
-  /// That last predecessor, as its place in the step; -1 if it waits for none here.
+  /// Index in the step of that last predecessor; -1 if it waits for none here.
   std::int32_t cause = -1;
-  /// Of the graph's messages, what it sends or receives; -1 otherwise.
+  /// Index in the graph of the message that it sends or receives; -1 if none.
   std::int32_t message = -1;
   bool receives = false;
   /// It found nothing to work on.
@@ -56,11 +56,11 @@ struct TracedMessage {
   std::uint64_t bytes = 0;
   std::int32_t from_rank = 0;
   std::int32_t message = 0;
-  /// The name of what receives it.
+  /// Index of the receiving task's name among those of the trace.
   std::uint32_t row = 0;
 };
 
-/// What one rank recorded.
+/// The records of one rank.
 struct TraceTape {
   std::vector<TracedStep> steps;
   std::vector<TracedTask> tasks;

@@ -10,8 +10,8 @@ struct TraceChoice {
   enum class Kind { none, first, range, slowest };
 
   Kind kind = Kind::none;
-  /// Of a range: its first and last step, both in it. Step 1 is the first of a simulation. Of the first steps of this
-  /// run, `last` is how many.
+  /// First and last step of a range, both included; step 1 is the first of a simulation. For `Kind::first`, `last` is
+  /// the number of steps.
   std::int64_t first = 0;
   std::int64_t last = 0;
 

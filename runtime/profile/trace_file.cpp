@@ -22,16 +22,16 @@ std::string quoted(const std::string& text)
   return nlohmann::json(text).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
 }
 
-/// A time of the trace, in whole nanoseconds: what follows on something else in ticks does so in the file.
+/// A time of the trace in whole nanoseconds, so that times in the file keep the order of the ticks.
 using Nanoseconds = std::int64_t;
 
-/// As the format counts.
+/// Microseconds, the unit of the trace-event format.
 double microseconds(Nanoseconds time)
 {
   return static_cast<double>(time) / 1000;
 }
 
-/// From when to when, at least as long as nothing.
+/// Start and end of an event, whose length is never negative.
 struct Span {
   Nanoseconds from = 0;
   Nanoseconds until = 0;
@@ -81,7 +81,7 @@ class TraceWriter
   const nlohmann::ordered_json& about_;
   std::string text_;
   const char* before_ = "\n";
-  /// By task and by group, as JSON.
+  /// Names and categories by task, and names by group, as JSON strings.
   std::vector<std::string> names_, categories_, groups_;
   /// Arrows of messages have numbers that sender and receiver know alike; those between tasks follow.
   std::uint64_t next_arrow_ = 0;

@@ -45,7 +45,7 @@ void TraceRecorder::add_step(const StepFacts& facts, const std::vector<InstanceR
     settle(facts.previous_wall);
     // In the very first step memory is touched for the first time: any other is slower than it.
     wall_ = n_run_ == 1 ? 0 : wall;
-    // One rank alone knows at once how long a step took.
+    // A single rank knows at once how long a step took; several know it one step later.
     const bool may_be_slowest = graph_->has_messages() || wall_ > slowest_;
     if (may_be_slowest && records.size() <= most_tasks) record(last_, step, records);
   } else if (is_wanted(facts)) {
@@ -149,7 +149,7 @@ std::size_t TraceRecorder::n_steps() const
 namespace
 {
 
-/// What a rank sends of its tape.
+/// Receives `n` values of another rank's tape.
 template <class T>
 std::vector<T> received(int from, std::size_t n, const Communicator& communicator)
 {

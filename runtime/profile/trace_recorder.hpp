@@ -12,9 +12,9 @@
 namespace tamp::runtime
 {
 
-/// What the host knows of a step that has been run.
+/// Facts about a step that has been run, as the host knows them.
 struct StepFacts {
-  /// From 1, over the whole simulation; and its simulated time [s].
+  /// Number of the step, from 1 over the whole simulation; and the simulated time that it covers [s].
   std::int64_t number = 0;
   double size = 0;
   /// How long the step before took by the clock on the rank where it took longest [s]; for the slowest step alone.
@@ -37,11 +37,11 @@ class TraceRecorder
   /// Takes in the records of a step that ran from `start` to `end` [ticks], in `wall` seconds.
   void add_step(const StepFacts& facts, const std::vector<InstanceRecord>& records, std::uint64_t start,
                 std::uint64_t end, float wall);
-  /// How long the last step took this rank [s], which all ranks are to be told; 0 where no slowest step is wanted.
+  /// Wall time of the last step on this rank [s], which all ranks are to be told; 0 where no slowest step is wanted.
   float wall_to_tell() const { return wall_; }
-  /// What is kept, the same steps on all ranks. Collective.
+  /// The steps that are kept, which are the same on all ranks. Collective.
   const TraceTape& tape(const Communicator& communicator) const;
-  /// How many steps that are.
+  /// Number of steps that are kept.
   std::size_t n_steps() const;
   std::size_t n_bytes() const { return kept_.n_bytes() + last_.n_bytes(); }
 
@@ -60,7 +60,7 @@ class TraceRecorder
   std::vector<std::int32_t> place_;
   TraceTape kept_;
   std::int64_t n_run_ = 0;
-  /// Of all ranks, in the steps kept.
+  /// Number of tasks of all ranks in the steps kept.
   std::size_t n_tasks_ = 0;
   // For the slowest step: the last one, how long it took here, and how long the one kept took [s].
   TraceTape last_;

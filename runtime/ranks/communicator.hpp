@@ -25,8 +25,8 @@ class MpiSession
   MpiSession& operator=(const MpiSession&) = delete;
 };
 
-/// Until a request is done. MPI's own waiting spins or yields; on cores that ranks share with each other or with other
-/// programs, who waits long is to sleep.
+/// Waits until a request is done. MPI's own waiting spins or yields; on cores that ranks share with each other or with
+/// other programs, a rank that waits long is to sleep.
 void wait_for(MPI_Request& request);
 
 /// The ranks that work on one thing together. Without MPI, or by default, this process alone: rank 0 of 1.
@@ -49,10 +49,10 @@ class Communicator
   MPI_Comm handle() const { return handle_ == nullptr ? MPI_COMM_NULL : *handle_; }
 
   void barrier() const;
-  /// The bytes of each rank, by rank.
+  /// Gathers the bytes of each rank, by rank.
   std::vector<std::vector<std::byte>> gather(std::span<const std::byte> own) const;
   std::vector<std::string> gather(const std::string& own) const;
-  /// One value from each rank, by rank.
+  /// Gathers one value from each rank, by rank.
   template <class T>
   std::vector<T> gather_value(const T& own) const
   {
@@ -74,7 +74,7 @@ class Communicator
   std::uint64_t min(std::uint64_t own) const;
   std::uint64_t max(std::uint64_t own) const;
   double max(double own) const;
-  /// Whether it is so on all ranks.
+  /// Whether `own` is true on all ranks.
   bool all(bool own) const { return min(std::uint64_t{own}) == 1; }
 
   /// Bytes from this rank to another one, which takes as many with `receive`: not collective. Sends of one rank are

@@ -48,7 +48,7 @@ class LoadBalance
  private:
   long interval_ = 0;
   long looked_before_ = -1;
-  /// Of all patches in the interval before; empty after a deal.
+  /// Costs of all patches in the interval before [s]; empty after a deal.
   std::vector<double> costs_before_;
   std::vector<Rebalance> rebalances_;
 };

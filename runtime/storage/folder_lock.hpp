@@ -20,9 +20,9 @@ struct LockHolder {
   /// Seconds since it last touched its lock; below 0 for a lock that is dated ahead of the folder's clock.
   double untouched = 0;
 
-  /// Whether that is a minute at least, either way: who is alive touches it every ten seconds.
+  /// Whether `untouched` is a minute at least, either way: a program that is alive touches its lock every ten seconds.
   bool is_silent() const;
-  /// Such as "process 12 on HOST since TIME, last heard of 3 s ago".
+  /// The holder in words, such as "process 12 on HOST since TIME, last heard of 3 s ago".
   std::string description() const;
 };
 

@@ -137,7 +137,7 @@ class Location
 
   /// Makes a group, and those on the way to it, which know in which order their members were made.
   Location make_group(const std::string& path) const;
-  /// One value becomes a scalar.
+  /// Writes an attribute; a single value becomes a scalar.
   void write_attribute(const std::string& name, std::span<const double> values) const
   {
     write_attribute(name, element_type<double>(), values.size(), values.data());

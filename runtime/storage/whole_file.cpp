@@ -28,7 +28,7 @@ void settle(const std::filesystem::path& file)
   if (!settled) throw FileError(file.string(), std::strerror(cause));
 }
 
-/// One of /proc/self/fd: a link whose text is no name of a file.
+/// Whether a file is one of /proc/self/fd: a link whose text is no name of a file.
 bool is_of_process(const fs::path& file)
 {
   return file.string().starts_with("/proc/");

@@ -39,7 +39,7 @@ class WrittenBuffers
     const auto found = of_label_.find(&label);
     if (found != of_label_.end()) found->second[place(patch, group)].set(static_cast<std::size_t>(buffer));
   }
-  /// Of a patch and group, and in all: current values and parts alike.
+  /// Number of buffers written to on a patch for a group, and (below) in all; current values and parts both count.
   std::size_t n_buffers(const Label& label, int patch, int group) const
   {
     return of_label_.at(&label)[place(patch, group)].count();
@@ -148,7 +148,7 @@ class DryStep
     });
   }
 
-  /// What neighbours have goes to this patch.
+  /// Marks the buffers of this patch as written to where a neighbour's are.
   void pass(const Instance& instance, FieldBuffer from)
   {
     for (const Label* label : instance.labels) {
@@ -171,7 +171,8 @@ double n_values(const LabelUse& use, const Patch& patch, int halo, int dimension
   return static_cast<double>(grown(own, halo, dimension).size());
 }
 
-/// Of all patches together; of what has one value, and of the parts that it is made of, on each rank.
+/// Bytes of a label for one group on all patches together; of a reduction or a global, its value and the parts that it
+/// is made of, on one rank.
 double bytes_of(const LabelUse& use, const PatchLayout& layout, int n_groups, int halo,
                 std::span<const std::size_t> n_particles, const WrittenBuffers& written)
 {
@@ -197,7 +198,7 @@ double bytes_of(const LabelUse& use, const PatchLayout& layout, int n_groups, in
   return sum * value_bytes;
 }
 
-/// What messages bring of node and cell fields is kept as on the rank that it comes from.
+/// Bytes of the node and cell fields that messages bring: they are stored in full, as on the rank that they come from.
 double bytes_of_copies(const TaskGraph& graph, int halo, const WrittenBuffers& written)
 {
   const PatchLayout& layout = graph.layout();

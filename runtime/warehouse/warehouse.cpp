@@ -37,7 +37,8 @@ Warehouse::Warehouse(std::span<const TaskGraph* const> graphs, int rank)
   for (const TaskGraph* graph : graphs) reserve_copies(*graph);
 }
 
-/// Where messages put what they bring of other ranks' patches: tasks find it there as they find their own.
+/// Reserves the fields in which messages store the data of other ranks' patches; tasks read them there like those of
+/// their own.
 void Warehouse::reserve_copies(const TaskGraph& graph)
 {
   for (const Message& message : graph.messages()) {
@@ -111,7 +112,7 @@ void Warehouse::reserve(Field& f) const
   if (f.accumulated && local) f.part_buffer.reserve(f.n_bytes());
 }
 
-/// A patch of which nothing is kept but the parts of reductions, which come from every rank.
+/// Frees the fields of a patch, but for the parts of reductions, which come from every rank.
 void Warehouse::release(int patch)
 {
   for (int g = 0; g < n_groups_; ++g) counts_[static_cast<std::size_t>(patch * n_groups_ + g)] = 0;
@@ -120,7 +121,7 @@ void Warehouse::release(int patch)
   }
 }
 
-/// What a patch holds between steps: its particles and the state on it.
+/// Sends what a patch holds between steps: its particles and its state.
 void Warehouse::send(int patch, int rank, const Communicator& communicator)
 {
   for (int g = 0; g < n_groups_; ++g) {

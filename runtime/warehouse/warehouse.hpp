@@ -15,8 +15,8 @@
 namespace tamp::runtime
 {
 
-/// All field data of one rank's patches, and of other ranks' what messages bring: the state at the end of the last step
-/// and what the current step makes.
+/// All field data of one rank's patches, and what messages bring of other ranks' patches: the state at the end of the
+/// last step and what the current step makes.
 ///
 /// Between steps the host reads and sets the state; during a step only tasks see data, through their arguments.
 class Warehouse
@@ -129,10 +129,10 @@ class Warehouse
   int n_groups_;
   MemoryLedger ledger_;
   std::deque<Field> fields_;
-  /// Those that a step makes anew from the last, and those that are stored on demand.
+  /// State that a step makes anew from that of the last step; and fields that are stored on demand.
   std::vector<Field*> changing_;
   std::vector<Field*> on_demand_;
-  /// As many as the largest of these has.
+  /// Zero bytes, as many as the largest of the fields on demand has.
   Buffer zeros_;
   long n_advances_ = 0;
   /// By label, then patch and group, each from -1.

@@ -31,10 +31,10 @@ class ScheduleState
     /// Whether it took so little time in the last step that to share it would cost more.
     std::atomic<bool> is_short{false};
   };
-  /// One worker's instances in serial order: a patch stays with one worker, as its data stay in that core's cache.
+  /// The instances of one worker in serial order: a patch stays with one worker, as its data stay in that core's cache.
   struct alignas(64) List {
     std::vector<Entry> entries;
-    /// So many of the first are the owner's alone, see `OwnWalk`.
+    /// Number of the first entries that are the owner's alone, see `OwnWalk`.
     std::atomic<std::size_t> n_reserved{0};
     /// The last step of which a worker has seen all entries done.
     std::atomic<Epoch> finished{0};

@@ -28,7 +28,7 @@ struct CheckpointHeader {
   std::string fingerprint;
 };
 
-/// All that a checkpoint says but for the values of its tables.
+/// The contents of a checkpoint but for the values of its tables.
 struct CheckpointContents {
   CheckpointHeader header;
   std::vector<std::byte> host;
@@ -51,11 +51,11 @@ struct CheckpointCopy {
   CheckpointContents contents;
   /// The values of each table, patch after patch.
   std::vector<std::vector<std::byte>> bytes;
-  /// What they take.
+  /// The memory that they take, in the ledger.
   LedgerHold held;
 };
 
-/// Calls its second argument once for each number from 0 to below the first, in whatever order and threads.
+/// A function that calls `work` once for each number from 0 to below `n`, in whatever order and threads.
 using ForAll = std::function<void(int n, const std::function<void(int)>& work)>;
 
 /// `for_all` shares out the copying, by table.

@@ -11,7 +11,7 @@
 namespace tamp::runtime
 {
 
-/// One label of the state for one group on one patch.
+/// The values of one label of the state for one group on one patch.
 struct PatchState {
   /// Null where another rank has the patch.
   const Field* field = nullptr;
@@ -25,9 +25,10 @@ struct PatchState {
   void set_bytes(std::span<const std::byte> bytes) const;
 };
 
-/// One label of the state for one group, over all patches.
+/// The values of one label of the state for one group, over all patches.
 struct StateTable {
-  /// Such as particles/sand/position, cells/sand/temperature, or common/nodes/mass of a field of no group.
+  /// Path of the table in the file, such as particles/sand/position, cells/sand/temperature, or common/nodes/mass for a
+  /// field of no group.
   std::string path;
   std::size_t value_bytes = 0;
   /// A global or an accumulated reduction has one entry instead of one a patch, which all ranks have.

@@ -24,7 +24,7 @@ class ValueGatherer
   {
   }
 
-  /// Those of the next columns, of `n_own` items here and of as many as `n_items` says on each patch.
+  /// Gathers the values of the next `n_columns` columns, which have `n_own` items here and `n_items` on each patch.
   void gather(std::size_t n_columns, std::size_t n_own, const Counts& n_items)
   {
     for (std::size_t i = 0; i < n_columns; ++i) {

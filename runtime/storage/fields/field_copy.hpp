@@ -24,7 +24,8 @@ struct FieldCopy {
   FieldCopy(FieldCopy&&) = default;
   FieldCopy& operator=(FieldCopy&&) = default;
 
-  /// Of the values, and of the largest column as it stands in a file: one at a time is brought into that form.
+  /// Bytes of the values, and of the largest column as it stands in a file, as one column at a time is brought into
+  /// that form.
   std::size_t n_bytes() const;
   /// Has the columns show the values as they are now.
   void show_values();
@@ -35,7 +36,7 @@ struct FieldCopy {
   std::deque<Values> values;
   /// How many particles of each block each patch has, whatever rank it is on.
   std::vector<std::vector<std::uint64_t>> n_particles;
-  /// What the values take.
+  /// The memory that the values take, in the ledger.
   LedgerHold held;
 };
 

@@ -16,7 +16,7 @@ struct XdmfColumn {
   std::string name;
   ColumnKind kind;
   bool whole_numbers = false;
-  /// Such as fields.h5:/step_00000012/nodes/mass.
+  /// File and path of the dataset, such as fields.h5:/step_00000012/nodes/mass.
   std::string dataset;
 };
 
