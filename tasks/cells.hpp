@@ -9,7 +9,7 @@
 namespace tamp::tasks
 {
 
-/// The one of a patch's cells that holds a particle of it.
+/// The cell of a patch that holds a particle of the patch at x [m].
 template <int D>
 runtime::Index cell_of(const runtime::Grid& grid, const runtime::IndexBox& cells, const Vector<D>& x)
 {

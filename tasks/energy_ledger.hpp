@@ -19,7 +19,7 @@ struct EnergyLedger {
   double filter = 0;
   /// Work of driven bodies, body forces and pressure loads.
   double driving = 0;
-  /// The part of `driving` by driven bodies and pressure loads in the last step.
+  /// The part of `driving` that driven bodies and pressure loads did in the last step.
   double last_driving = 0;
   /// Work of gravity and of a steady centrifuge.
   double gravity = 0;

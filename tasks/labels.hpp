@@ -28,44 +28,46 @@ namespace particle
 
 /// Number in the scene, from 0, the same for any cut into patches.
 inline const runtime::ParticleLabel<std::int64_t, "id"> id;
-/// The body it was made for: its place in the scene's list.
+/// The particle's body, as its index in the scene's list.
 inline const runtime::ParticleLabel<std::int64_t, "body"> body;
-/// Where it was at the start [m].
+/// Position of the particle at the start [m].
 template <int D>
 inline const runtime::ParticleLabel<Vector<D>, "reference position"> reference_position;
 inline const runtime::ParticleLabel<double, "mass"> mass;
-/// Where the grid is periodic: how often it has left at the upper end of each axis, less how often at the lower.
+/// Where the grid is periodic: how often the particle has left at the upper end of each axis, less how often at the
+/// lower.
 inline const runtime::ParticleLabel<runtime::Index, "laps"> laps;
 template <int D>
 inline const runtime::ParticleLabel<Vector<D>, "position"> position;
-/// At the middle of the step that led here: half a step behind the position (leapfrog).
+/// Velocity [m/s] at the middle of the last step: half a step behind the position (leapfrog).
 template <int D>
 inline const runtime::ParticleLabel<Vector<D>, "velocity"> velocity;
-/// At the middle of the step that led here [1/s]; row: component of velocity. Only where the transfer brings it.
+/// Velocity gradient [1/s] at the middle of the last step; row: component of velocity. Only where the transfer needs
+/// it.
 template <int D>
 inline const runtime::ParticleLabel<Matrix<D>, "velocity gradient"> velocity_gradient;
-/// sum S_ip v_i (x) (x_i - x_p) in the step that led here [m^2/s]; row: component of velocity. Only where the transfer
-/// brings it.
+/// sum S_ip v_i (x) (x_i - x_p) in the last step [m^2/s]; row: component of velocity. Only where the transfer needs it.
 template <int D>
 inline const runtime::ParticleLabel<Matrix<D>, "velocity moment"> velocity_moment;
 template <int D>
 inline const runtime::ParticleLabel<Matrix<D>, "deformation gradient"> deformation_gradient;
-/// How much longer than at the start the ring of the particle is. Only in axisymmetric scenes.
+/// Length of the particle's ring over that at the start. Only in axisymmetric scenes.
 inline const runtime::ParticleLabel<double, "hoop stretch"> hoop_stretch;
 inline const runtime::ParticleLabel<double, "volume"> volume;
 /// Cauchy stress [Pa].
 template <int D>
 inline const runtime::ParticleLabel<SymmetricTensor<D>, "stress"> stress;
-/// The part of artificial viscosity [Pa], compression positive.
+/// The part of the pressure that is artificial viscosity [Pa], compression positive.
 inline const runtime::ParticleLabel<double, "viscous pressure"> viscous_pressure;
 /// The state that a material model keeps for each particle; only for models that have one.
 template <class Model>
 inline const runtime::ParticleLabel<typename Model::State, Model::state_name> state;
-/// Gaps between grains, as a volumetric strain, see components::Gaps; only of soil that keeps them.
+/// Gaps between grains, as a volumetric strain, see components::Gaps. Only for soil that has them.
 inline const runtime::ParticleLabel<double, "opening"> opening;
-/// In the nodes of this step, see components::own_stiffness; 0 where the rule for the time step does not ask.
+/// Stiffness that the particle gives its nodes in this step, see components::own_stiffness; 0 where the rule for the
+/// time step does not use it.
 inline const runtime::ParticleLabel<double, "own stiffness"> own_stiffness;
-/// Strain increment of this step, in the frame of its end.
+/// Strain increment of this step, in the frame at its end.
 template <int D>
 inline const runtime::ParticleLabel<SymmetricTensor<D>, "strain increment"> strain_increment;
 /// dt times the gradient of the velocity in this step; row: component of velocity. Only where particles deform as their
@@ -89,7 +91,7 @@ namespace cell
 /// components::mean_stress [Pa].
 inline const runtime::CellLabel<components::CellMean, "volume change of cells"> volume_change;
 inline const runtime::CellLabel<components::CellMean, "mean stress of cells"> mean_stress;
-/// Compression positive [Pa]; for samples of the state.
+/// Mean pressure of the particles in a cell [Pa], compression positive; for samples of the state.
 inline const runtime::CellLabel<components::CellMean, "pressure of cells"> pressure;
 
 }  // namespace cell
@@ -107,7 +109,7 @@ template <int D>
 inline const runtime::NodeLabel<components::NodeSums<D>, "carried sums"> carried_sums;
 template <int D>
 inline const runtime::NodeLabel<components::NodeMotion<D>, "carried motion"> carried_motion;
-/// 0 at nodes that hardly exist [1/kg].
+/// Inverse of the nodal mass [1/kg]; 0 at nodes with next to no mass.
 inline const runtime::NodeLabel<double, "inverse mass"> inverse_mass;
 /// Only for materials with a body under a pressure load.
 template <int D>
@@ -117,12 +119,12 @@ template <int D>
 inline const runtime::NodeLabel<components::NodeVector<D>, "body force"> body_force;
 template <int D>
 inline const runtime::NodeLabel<components::ContactPlane<D>, "contact plane"> contact_plane;
-/// Anew in each pass over the particles that turns the planes.
+/// Summed anew in each pass over the particles that turns the planes.
 template <int D>
 inline const runtime::NodeLabel<components::RegressionSums<D>, "regression sums"> regression_sums;
 template <int D>
 inline const runtime::NodeLabel<components::EdgeSums<D>, "edge sums"> edge_sums;
-/// Only where a contact finds any.
+/// Plane of contact at a node. Only where a contact finds planes by a pass of its own.
 template <int D>
 inline const runtime::NodeLabel<components::ContactFace<D>, "contact face"> contact_face;
 /// Only for materials that meet a rigid body by its solid.
@@ -144,30 +146,30 @@ inline const runtime::NodeLabel<components::NodeVector<D>, "returned momentum"> 
 
 /// Accumulated from the start: what a step adds to the energies, and how long the next may be.
 inline const runtime::ReductionLabel<StepTotals, "step totals"> step_totals;
-/// What contact by solids adds to the step totals.
+/// The part of the step totals that contact by solids adds.
 inline const runtime::ReductionLabel<StepTotals, "totals of solids"> solid_totals;
 inline const runtime::ReductionLabel<GridTotals, "grid totals"> grid_totals;
 inline const runtime::ReductionLabel<LostParticles, "lost particles"> lost_particles;
 /// Where a scene has body forces.
 inline const runtime::ReductionLabel<BodyForceWork, "body force work"> body_force_work;
-/// Accumulated since the host last took their means, from the middle of the step before, `forces_taken_at` [s]; loads
-/// where a scene has any.
+/// Impulses accumulated since the host last took their means, from the middle of the step before, `forces_taken_at`
+/// [s]; loads only where a scene has any.
 inline const runtime::ReductionLabel<ContactImpulses, "contact impulses"> contact_impulses;
 inline const runtime::ReductionLabel<LoadTotals, "load totals"> load_totals;
 inline const runtime::GlobalLabel<double, "forces taken at"> forces_taken_at;
 inline const runtime::ReductionLabel<RigidCouplings, "rigid couplings"> rigid_couplings;
 
-/// Since the start.
+/// Energies since the start.
 inline const runtime::GlobalLabel<EnergyLedger, "energy ledger"> energy_ledger;
 inline const runtime::GlobalLabel<StepBound, "longest step"> longest_step;
-/// What set the steps since the start.
+/// Records of what set the lengths of the steps since the start.
 inline const runtime::GlobalLabel<StepRecords, "step records"> step_records;
-/// Tries of steps that were refused, since the start.
+/// Attempted steps that were refused since the start.
 inline const runtime::GlobalLabel<Occurrences, "refused steps"> refused_steps;
 
 /// Where rigid bodies are and how they move; like the velocities of particles, their momenta are half a step behind.
 inline const runtime::GlobalLabel<RigidStates, "rigid states"> rigid_states;
-/// As they were at the start of the step, with the momenta that body forces alone give them in it.
+/// The rigid states at the start of the step, with the momenta that body forces alone give them in it.
 inline const runtime::GlobalLabel<RigidStates, "free rigid states"> free_rigid_states;
 
 }  // namespace tamp::tasks

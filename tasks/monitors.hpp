@@ -7,7 +7,7 @@
 #include "tasks/occurrences.hpp"
 #include "tasks/step_totals.hpp"
 
-/// What a run looks at, every so many steps, to say how far it can be trusted.
+/// Samples that a run takes every so many steps, to say how far it can be trusted.
 namespace tamp::tasks
 {
 
@@ -21,8 +21,8 @@ struct Share {
   static constexpr auto fields = std::tuple{&Share::part, &Share::whole};
 };
 
-/// The pressure by which matter in compression is loaded, weighted by itself: what lies far from the load, and bears
-/// next to nothing, does not count.
+/// Pressure of the matter in compression, weighted by itself: matter far from the load, which bears next to nothing,
+/// does not count.
 struct Load {
   double squared = 0;  ///< sum of V p^2 [Pa^2 m^3]
   double borne = 0;    ///< sum of V p [Pa m^3]
@@ -34,15 +34,16 @@ struct Load {
 
 /// Sums over the particles of a state.
 struct StateSample {
-  /// Sums of V (p - p_c)^2 and V p^2, p_c being the mean pressure of a particle's material in its cell [Pa^2 m^3].
+  /// Sums of V (p - p_c)^2 and V p^2 [Pa^2 m^3], p_c being the mean pressure of a particle's material in its cell.
   Share uneven_pressure;
-  /// Particles of elastic materials: those whose neighbours are more than 1.2 cells away, and that hold tension; all.
+  /// Numbers of particles of elastic materials: of those whose neighbours are more than 1.2 cells away and that hold
+  /// tension, and of all.
   Share torn_apart;
-  /// Sums of V p over sand in compression: that which is looser than any test, and all [Pa m^3].
+  /// Sums of V p over sand in compression [Pa m^3]: over the sand that is looser than any test, and over all.
   Share borne_by_looser;
   Load load;
-  /// Of those that are torn, looser than any test, and in compression beyond the largest strain that was tested, that
-  /// with the lowest id.
+  /// The particle with the lowest id among those that are torn, that are looser than any test, and that are in
+  /// compression beyond the largest strain that was tested.
   ParticlePlace torn, looser, out_of_range;
 
   static constexpr auto fields = std::tuple{&StateSample::uneven_pressure,
@@ -54,16 +55,16 @@ struct StateSample {
                                             runtime::Least{&StateSample::out_of_range}};
 };
 
-/// Matter has swollen if its volume is more than so many times that at its material's density. From its densest to its
-/// loosest packing sand grows by about a third.
+/// Matter counts as swollen if its volume exceeds that at its material's density by this factor. From its densest to
+/// its loosest packing sand grows by about a third.
 inline constexpr double swollen_from = 1.2;
-/// It bears load if its pressure is above this part of the greatest load that the run has seen.
+/// Matter bears load if its pressure is above this part of the greatest load that the run has seen.
 inline constexpr double bears_from = 0.01;
 
-/// Masses of the deformable matter [kg]: that which has swollen and yet bears load, and all.
+/// Masses of the deformable matter [kg]: of the part that has swollen and yet bears load, and of all.
 struct SwollenSample {
   Share bearing;
-  /// Of the swollen particles that bear load that with the lowest id.
+  /// The particle with the lowest id among the swollen ones that bear load.
   ParticlePlace first;
 
   static constexpr auto fields = std::tuple{&SwollenSample::bearing, runtime::Least{&SwollenSample::first}};
@@ -73,7 +74,7 @@ struct SwollenSample {
 struct ContactSample {
   /// Normal impulses [N s]: those across a gap, those between materials that are within each other, and all.
   Share early, within;
-  /// Of each that at the node with the lowest number.
+  /// The node with the lowest number that has an impulse of each kind.
   ParticlePlace first_early, first_within;
 
   /// An impulse across a gap [cells], below 0 where the materials are within each other.
@@ -87,7 +88,7 @@ struct ContactSample {
 /// Loads on walls with an image behind them [J], see components::WallLoads: those across a gap, and all.
 struct WallSample {
   Share early;
-  /// Of the particles whose load crosses a gap that with the lowest id.
+  /// The particle with the lowest id among those whose load crosses a gap.
   ParticlePlace first;
 
   static constexpr auto fields = std::tuple{&WallSample::early, runtime::Least{&WallSample::first}};
@@ -97,17 +98,17 @@ struct WallSample {
 struct SampledShare {
   Share all;
   double greatest = 0;
-  /// Of samples above the scene's limit.
+  /// The samples above the scene's limit.
   Occurrences above;
 
   void add(const Share& share, double limit, std::int64_t n_steps, double time, const ParticlePlace& place = {});
 };
 
-/// What a part of the matter bears at most in the samples of a run so far, over the most that all of it bears in any:
-/// beside the blow that a run is about, what is left after it is nothing.
+/// Largest load that a part of the matter bears in the samples of a run so far, over the largest that all of it bears
+/// in any sample: after the main impact of a run, what is still borne is small beside it.
 struct BorneShare {
   Share greatest;
-  /// Of samples in which the part bears more than the scene's limit of the most so far.
+  /// The samples in which the part bears more than the scene's limit, as a share of the most borne so far.
   Occurrences above;
 
   void add(const Share& sample, double limit, std::int64_t n_steps, double time, const ParticlePlace& place);
@@ -120,7 +121,7 @@ double missed_substeps(const components::UpdateCounts& updates, std::size_t n_pa
 /// The updates that ended in compression beyond the largest strains that their modulus was made for: not those of sand
 /// that is looser than any test, nor those in tension, where sand has next to no stress, whatever its modulus.
 std::size_t n_out_of_range(const components::UpdateCounts& updates);
-/// The part of the updates that these are.
+/// The share of these among all updates.
 double out_of_range(const components::UpdateCounts& updates);
 
 struct MonitorRecords {
@@ -133,15 +134,15 @@ struct MonitorRecords {
   Occurrences missed_substeps, out_of_range;
 };
 
-/// Kinetic energy of deformable particles in a step, and that of what no node sees of their motion,
-/// v_p - sum S_ip v_i [J]; in steps that are sampled.
+/// Kinetic energy of deformable particles in a step, and of the part of their motion that no node sees, v_p - sum S_ip
+/// v_i [J]; in steps that are sampled.
 inline const runtime::ReductionLabel<Share, "motion in the null space"> null_space_motion;
 inline const runtime::ReductionLabel<StateSample, "state sample"> state_sample;
 inline const runtime::ReductionLabel<SwollenSample, "swollen sample"> swollen_sample;
 inline const runtime::ReductionLabel<ContactSample, "contact sample"> contact_sample;
 /// Only where walls have an image.
 inline const runtime::ReductionLabel<WallSample, "wall sample"> wall_sample;
-/// Since the start.
+/// Records of the samples since the start.
 inline const runtime::GlobalLabel<MonitorRecords, "monitor records"> monitor_records;
 
 }  // namespace tamp::tasks

@@ -14,23 +14,24 @@
 namespace tamp::tasks
 {
 
-/// A body of the scene that keeps its shape: what stays of it. How it moves is in `rigid_states`.
+/// The constant properties of a body of the scene that keeps its shape. Its motion is in `rigid_states`.
 struct RigidBody {
   /// Places in Scene::bodies and Scene::materials.
   int body;
   int material;
   components::MassProperties properties{};
-  /// Null where it moves as the forces on it will have it.
+  /// Null where it moves freely under the forces on it.
   const BodyDrive* drive = nullptr;
   /// Mirrors against which it may lie: see touchable_mirrors.
   Sides touchable{};
-  /// What mirrors on which it starts, or the axis of an axisymmetric scene, leave no room for: it stays at rest.
+  /// Components of its motion that stay at rest, because of mirrors on which it starts or the axis of an axisymmetric
+  /// scene.
   components::Held still = components::nothing_held;
 
   components::Held held() const;
 };
 
-/// Where the rigid bodies are, by material, and how they move; materials that are none have nothing here.
+/// Positions and motions of the rigid bodies, by material; entries of deformable materials are unused.
 struct RigidStates {
   std::array<components::RigidState, runtime::PerGroup<int>::max_groups> by_material;
   /// The impulse that drives each driven body in this step [N s].
@@ -86,14 +87,15 @@ Sides mirrors_beneath(const Scene& scene, const SceneBody& body);
 /// driven, or turns, those on which it starts.
 Sides touchable_mirrors(const Scene& scene, const SceneBody& body);
 
-/// The components of a motion that the whole of a body does not have, whose planes of symmetry are normal to these
-/// axes: along a plane's normal, and spins about other axes.
+/// The components of a motion that a body with planes of symmetry normal to these axes does not have: velocity along a
+/// plane's normal, and spins about the other axes.
 components::Held still_on_planes(const std::array<bool, 3>& normal_to);
 
-/// The rigid body of a scene of which the scene's body number `body` tells, but for its mass properties.
+/// The rigid body that the scene's body number `body` belongs to, but for its mass properties.
 RigidBody make_rigid_body(const Scene& scene, int body);
 
-/// What the body's particles have together; where it lies on a mirror, as a part of the whole.
+/// Mass properties of the body from those of its particles; where it lies on a mirror, as a part of the whole, see
+/// components::half_of_whole.
 components::MassProperties within_whole(const RigidBody& body, const Scene& scene,
                                         const components::MassProperties& of_particles);
 

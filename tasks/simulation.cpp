@@ -115,7 +115,7 @@ double Simulation::shorter_step(double refused_size, int n_tries) const
       *refusal(scene_, warehouse().total(step_totals), warehouse().result(step_totals), refused_size));
 }
 
-/// The state is that before the step, but for this.
+/// Counts a refused try, the only change to the state before the step.
 void Simulation::note_refusal()
 {
   const StepTotals& step = warehouse().result(step_totals);
@@ -124,7 +124,7 @@ void Simulation::note_refusal()
   warehouse().global_state(refused_steps).add(n_steps(), time(), place);
 }
 
-/// The last step, and the bound that it had to keep within.
+/// Records the last step, and the bound that it had to keep within.
 void Simulation::note_step(const StepBound& bound, bool is_redone)
 {
   const StepCause cause = cause_of(last_step_size(), scene_.time, bound, n_steps() == 1, is_redone);
@@ -205,7 +205,7 @@ MeanForces Simulation::take_mean_forces()
 {
   const ContactImpulses contact = warehouse().take(contact_impulses);
   const LoadTotals loads = warehouse().take(load_totals);
-  // Of kicks, the last of which ends in the middle of the last step.
+  // Means are over kicks, the last of which ends in the middle of the last step.
   const double until = time() - 0.5 * last_step_size();
   const double span = until - std::exchange(warehouse().global_state(forces_taken_at), until);
   MeanForces mean{std::vector<ContactForce>(scene_.materials.size()),

@@ -20,11 +20,11 @@
 namespace tamp::tasks
 {
 
-/// Bytes that a particle takes.
+/// Memory of a particle [bytes].
 struct ParticleBytes {
   /// Data that a step leaves to the next.
   std::size_t state = 0;
-  /// These as they are kept: twice where a step makes them anew.
+  /// The state as it is stored: twice where a step makes it anew.
   std::size_t kept_state = 0;
   /// All arrays, with those that live within a step.
   std::size_t all = 0;
@@ -39,11 +39,11 @@ struct ContactForce {
 /// By material, means over a time.
 struct MeanForces {
   std::vector<ContactForce> contact;
-  /// By pressure loads [N].
+  /// Forces of pressure loads [N].
   std::vector<Eigen::Vector3d> loads;
 };
 
-/// Changes the tasks of a step before they become its graph: for what measures them.
+/// Changes the tasks of a step before they become its graph, so that they can be measured.
 using ChangeStep = std::function<void(runtime::TaskList& step)>;
 
 /// A scene in time. Made with all particles in place; each `advance` is one time step. Over several ranks every call is
@@ -77,26 +77,27 @@ class Simulation
   const components::UpdateCounts& updates() const { return warehouse().total(step_totals).updates; }
   /// Sums over the nodes since the start.
   const GridTotals& grid_totals() const { return warehouse().total(tasks::grid_totals); }
-  /// Since the start.
+  /// Particles lost since the start.
   const LostParticles& lost() const { return warehouse().total(lost_particles); }
 
-  /// What set the steps since the start.
+  /// Records of what set the lengths of the steps since the start.
   const StepRecords& step_records() const { return warehouse().global_state(tasks::step_records); }
-  /// Tries of steps that were refused since the start.
+  /// Attempted steps that were refused since the start.
   const Occurrences& refused() const { return warehouse().global_state(refused_steps); }
 
-  /// Of the samples since the start, one every so many steps of the scene.
+  /// Records of the samples since the start, one every so many steps of the scene.
   const MonitorRecords& monitors() const { return warehouse().global_state(monitor_records); }
 
-  /// One step, as long as stability allows and not past `end` [s]. In one that goes wrong, as a particle inverts, a
-  /// state is not finite, a material cannot be updated or grows too stiff, nothing has happened: a shorter one is
-  /// tried, as often as the scene allows. Then, and where the time step falls below the scene's minimum, throws
-  /// SimulationError; the state of the last good step is still there. An error on one rank is thrown on all.
+  /// Takes one step, as long as stability allows and not past `end` [s]. If it goes wrong (a particle inverts, a state
+  /// is not finite, a material cannot be updated or grows too stiff), the state before it is kept and a shorter step is
+  /// tried, as often as the scene allows. After the last of these, and where the time step falls below the scene's
+  /// minimum, throws SimulationError; the state of the last good step is still there. An error on one rank is thrown on
+  /// all.
   void advance(double end);
   ParticleReport report();
   /// Peaks near noses in the last report; those of no particle where the scene has no nose.
   NoseReport nose_peaks() const;
-  /// Those since the last call, or the start, each to the middle of the last step, where velocities are; not
+  /// Mean forces since the last call, or the start, each to the middle of the last step, where velocities are; not
   /// collective, but to be called by all ranks alike.
   MeanForces take_mean_forces();
 
@@ -135,10 +136,10 @@ class Simulation
   void note_refusal();
   void note_step(const StepBound& bound, bool is_redone);
   void sample_state();
-  /// The contact of the next step, as it will be.
+  /// Samples the contact of the next step, before it is taken.
   void sample_contact(double step_size);
 
-  /// Last asked for.
+  /// The columns that were last asked for.
   runtime::FieldCopy particles_;
 };
 

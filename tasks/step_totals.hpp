@@ -33,22 +33,23 @@ struct BadMotion : ParticlePlace {
 struct FailedUpdate : ParticlePlace {
   components::UpdateFault fault{};
   double pressure = 0, q = 0;                                 ///< Pa, compression positive
-  double volumetric_increment = 0, deviatoric_increment = 0;  ///< of strain, refused; compression positive
+  double volumetric_increment = 0, deviatoric_increment = 0;  ///< of the refused strain, compression positive
   /// The columns of its model's state.
   std::array<double, components::max_state_columns> state{};
 
-  /// With all of the above in words.
+  /// The failure in words, with all of the above.
   std::string reason(const components::MaterialModel& model) const;
 };
 
-/// A deformable particle and its own bound on the next step, at the end of this one; its place is that at the start.
+/// A deformable particle and its own bound on the next step, at the end of this one; its place is that at the start of
+/// this step.
 struct StepSetter : ParticlePlace {
   double bound = std::numeric_limits<double>::infinity();  ///< s
   double volume_ratio = 0;                                 ///< its volume over that at its material's density
   double pressure = 0;                                     ///< Pa, compression positive
   double wave_speed = 0;                                   ///< of dilatational waves [m/s]
 
-  /// By the bound; of equal ones the lowest id comes first.
+  /// Orders by the bound, and equal bounds by the id.
   bool operator<(const StepSetter& other) const
   {
     return bound < other.bound || (bound == other.bound && ParticlePlace::operator<(other));
@@ -58,7 +59,7 @@ struct StepSetter : ParticlePlace {
 /// The longest next step that is stable, before the multiplier.
 struct StepBound {
   double size = std::numeric_limits<double>::infinity();  ///< s
-  /// The particle whose bound it is; none where that is of contact, of a rigid body, or of bodies at the start.
+  /// The particle that sets it; none where contact, a rigid body, or bodies at the start set it.
   StepSetter setter;
 };
 
@@ -66,14 +67,14 @@ struct StepBound {
 struct StepTotals {
   /// The longest next step that is stable, before the multiplier [s].
   double stable_step = std::numeric_limits<double>::infinity();
-  /// Of waves in any particle at the end of the step [m/s].
+  /// The greatest wave speed in any particle at the end of the step [m/s].
   double greatest_wave_speed = 0;
   /// Work stored, and work turned to heat, in this step [J].
   double elastic = 0;
   double plastic = 0;
   double viscous = 0;  ///< by artificial viscosity
   double contact = 0;
-  /// Work of what drives bodies, in this step [J].
+  /// Work that drives rigid bodies in this step [J].
   double driving = 0;
   /// Work of the stress at the end of this step in its second half, summed over particles: half of the sum of
   /// V sigma:strain, with viscous pressure [J].
@@ -82,9 +83,9 @@ struct StepTotals {
   components::UpdateCounts updates;
   /// The failed update with the lowest id in the first step that had any.
   FailedUpdate failed;
-  /// That with the lowest id; a step with one is refused.
+  /// The bad motion with the lowest id; a step with one is refused.
   BadMotion bad_motion;
-  /// Of all deformable particles that with the least bound on the next step.
+  /// The deformable particle with the least bound on the next step.
   StepSetter setter;
 
   StepBound next_bound() const { return {stable_step, setter.bound == stable_step ? setter : StepSetter{}}; }
@@ -106,30 +107,32 @@ struct StepTotals {
 /// Work of body forces in one step [J].
 struct BodyForceWork {
   double value = 0;
-  /// By the forces of its end, in its second half.
+  /// Work of the forces at the end of the step, in its second half [J].
   double at_end = 0;
 
   static constexpr auto fields = std::tuple{&BodyForceWork::value, &BodyForceWork::at_end};
 };
 
-/// Sums over the nodes of one step, and over what their particles take from them.
+/// Sums of one step over the nodes, and over the exchange of particles with them.
 struct GridTotals {
-  /// Momentum that all particles take from the nodes [N s]: gravity, loads and the walls; forces within and between
-  /// bodies cancel. What transfers that filter velocities add is here too: 0 but where images behind walls have a part.
+  /// Momentum that all particles take from the nodes [N s], by gravity, loads and walls; forces within and between
+  /// bodies cancel. It includes what transfers that filter velocities add, which is 0 but where images behind walls
+  /// have a part.
   std::array<double, 3> impulse{0, 0, 0};
-  /// The energy that walls take by friction and by stopping what runs into them [J].
+  /// Energy that walls take by friction and by stopping matter that runs into them [J].
   double taken_by_walls = 0;
-  /// That which local damping takes [J].
+  /// Energy that local damping takes [J].
   double taken_by_damping = 0;
-  /// Kinetic energy that the nodes of deformable materials gain, and what of it their particles do [J].
+  /// Kinetic energy that the nodes of deformable materials gain, and that which their particles gain [J].
   double gained_by_nodes = 0, gained_by_particles = 0;
-  /// That which rigid bodies gain [J].
+  /// Kinetic energy that rigid bodies gain [J].
   double gained_by_rigid_bodies = 0;
-  /// Work of gravity and a steady centrifuge on all particles, and on those of the end of the step in its second half,
-  /// which velocities, of half a step before, do not have yet [J].
+  /// Work of gravity and a steady centrifuge on all particles [J]; and the part of it in the second half of the step,
+  /// which velocities do not have yet as they are half a step behind [J].
   double gravity_work = 0, gravity_work_at_end = 0;
-  /// Work that forces take from these nodes [J]: at their velocities at the start of the step in the half of the step
-  /// before, minus the sum of f.v dt/2; where particles deform by other velocities in the whole kick.
+  /// Work that internal forces f take from these nodes [J]: minus the sum of f.v dt/2 over the half of the step before,
+  /// at the velocities v at the start of this one; where particles deform by other velocities, over the whole kick, at
+  /// the mean of the velocities before and after it.
   double taken_by_forces = 0;
 
   static constexpr auto fields =
@@ -151,10 +154,10 @@ struct LostParticles {
 
 /// Work and impulse of pressure loads in one step.
 struct LoadTotals {
-  /// To each material [N s].
+  /// Impulse on each material [N s].
   std::array<std::array<double, 3>, runtime::PerGroup<int>::max_groups> impulse{};
   double work = 0;  ///< J
-  /// At the velocities of the start of the step, in the half of the step before [J].
+  /// Work at the velocities of the start of the step, in the half step before it [J].
   double work_at_start = 0;
 
   static constexpr auto fields = std::tuple{&LoadTotals::impulse, &LoadTotals::work, &LoadTotals::work_at_start};

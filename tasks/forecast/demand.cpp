@@ -62,9 +62,9 @@ double state_bytes(std::span<const runtime::TaskGraph* const> graphs, const std:
   return bytes;
 }
 
-/// Memory of tasks, over that of the compiled graph alone: what each rank has of all tasks, with their labels and their
-/// schedule, and what it has only of its own, such as their data. The sum is measured on one rank with 400 to 10,000
-/// patches, the parts are an estimate.
+/// Memory of tasks over that of the compiled graph alone: the part that each rank has of all tasks, with their labels
+/// and their schedule, and the part that it has only of its own, such as their data. The sum is measured on one rank
+/// with 400 to 10,000 patches; how it divides is an estimate.
 constexpr double of_all_tasks = 3.5;
 constexpr double of_own_tasks = 5;
 
@@ -105,7 +105,7 @@ Demand demand_of(const Scene& scene, int n_ranks)
   }
   const auto add = scene.grid.dimension == 2 ? add_fields<2> : add_fields<3>;
   add(scene, n_particles, n_ranks, demand);
-  // One column at a time is there as in the file, too.
+  // One column at a time is also held in the form that it has in the file.
   constexpr double most_components = 6;
   const auto most_particles = static_cast<double>(*std::max_element(n_particles.begin(), n_particles.end()));
   demand.output_room = demand.output_file + bytes_of_number * most_components * most_particles;

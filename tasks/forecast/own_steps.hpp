@@ -6,7 +6,7 @@ namespace tamp::tasks
 {
 
 /// Counts the steps that a scene takes on its own cells, while a trial of it runs on cells `factor` times as large.
-/// What differs between the two, beside the cells that waves cross in a step:
+/// Beside the cells that waves cross in a step, the two differ in this:
 ///  - the longest step of the scene is as long on any cells;
 ///  - sand that is thrown up is opened the further the smaller the cells are, see `loosest_bound`.
 class OwnSteps

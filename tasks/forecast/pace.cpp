@@ -34,11 +34,11 @@ std::optional<Scene> coarsened(const Scene& scene, int factor)
   return coarse;
 }
 
-/// How far a run came, and what it took until then.
+/// The progress of a run: the part of its time that it has completed, and its steps and processor time [s] until then.
 struct Progress {
   double part = 0;
   double n_steps = 0;
-  /// That the scene takes on its own cells for the same.
+  /// Number of steps that the scene takes on its own cells for the same part.
   double own_steps = 0;
   double seconds = 0;
 };
@@ -57,13 +57,13 @@ struct Trial {
   }
 };
 
-/// Processor time of this program [s]: what else the machine does is no cost of a run.
+/// Processor time of this program [s], so that other programs of the machine do not count as a cost of the run.
 double processor_seconds()
 {
   return static_cast<double>(std::clock()) / CLOCKS_PER_SEC;
 }
 
-/// Runs `coarse`, the scene on coarser cells, as far as it comes in so much processor time; nothing if it has not all
+/// Runs `coarse`, the scene on coarser cells, as far as it comes in so much processor time; empty if it lacks one of
 /// the bodies.
 std::optional<Trial> tried(const Scene& scene, const Scene& coarse, int factor, double seconds)
 {
@@ -85,8 +85,8 @@ std::optional<Trial> tried(const Scene& scene, const Scene& coarse, int factor, 
   return trial;
 }
 
-/// How many times the steps so far a trial takes until its end, by its last tenth: what has been compacted stays so,
-/// and keeps its faster waves.
+/// Ratio of the steps of a whole trial to its steps so far, extrapolated from its last tenth: sand that has been
+/// compacted stays so, and keeps its faster waves.
 double until_end(const Trial& trial)
 {
   const Progress &reached = trial.end(), &late = trial.at(0.9 * reached.part);
@@ -95,9 +95,9 @@ double until_end(const Trial& trial)
   return 1 + rate * (1 - reached.part) / reached.own_steps;
 }
 
-/// To the end on the scene's own cells. A coarser trial that was complete tells how the finer one would have gone on,
-/// and by which power of the cell size a particle's part of a step gets dearer: a step has costs of its own, and in a
-/// longer one more of the sand takes more substeps.
+/// Extrapolates to the end of the run on the scene's own cells. A coarser trial that was complete tells how the finer
+/// one would have gone on, and with which power of the cell size the cost of a particle in a step grows: each step has
+/// costs of its own, and in a longer step more of the sand takes more substeps.
 Pace extrapolated(const Trial& fine, const Trial* coarse, int dimension)
 {
   const Progress& reached = fine.end();
@@ -106,7 +106,8 @@ Pace extrapolated(const Trial& fine, const Trial* coarse, int dimension)
   if (coarse != nullptr) {
     constexpr double greatest_power = 0.35;  // chosen by the runs in results/failures/forecasts.csv
     const Progress &there = coarse->at(reached.part), &end = coarse->end();
-    // What is to come, and no more times what was: bodies touch a little sooner or later on other cells.
+    // Adds the steps still to come, rather than scaling those so far: bodies touch a little sooner or later on other
+    // cells.
     own_steps = reached.own_steps + end.own_steps - there.own_steps;
     more_steps = end.n_steps / there.n_steps;
     more_seconds = end.seconds / there.seconds;
@@ -129,8 +130,8 @@ Pace extrapolated(const std::vector<Trial>& trials, int dimension)
   return extrapolated(fine, tells ? coarse : nullptr, dimension);
 }
 
-/// Whether its fields would take more than is laid out within the time. To know that takes a while itself, and a small
-/// grid has none.
+/// Whether the scene's fields are too large to be laid out within the time. Counting them takes a while, too; a small
+/// grid is never too large.
 bool is_too_large(const Scene& scene)
 {
   constexpr std::int64_t small = 100'000;
@@ -141,10 +142,10 @@ bool is_too_large(const Scene& scene)
 /// From coarse cells to fine ones, until the time is up or one did not come to its end.
 std::vector<Trial> trials_of(const Scene& scene, const Effort& effort)
 {
-  // More are not laid out and begun within the time.
+  // More particles cannot be laid out and begun within the time.
   constexpr double most_particles = 150'000;
   constexpr int greatest_factor = 32;
-  // However short the run: nobody notices it [s].
+  // However short the run is, nobody notices a forecast of this time [s].
   constexpr double unnoticed = 0.1;
   double n_particles = 0;
   for (const SceneBody& body : scene.bodies) n_particles += static_cast<double>(body.n_particles);

@@ -9,7 +9,7 @@
 #include "tasks/method.hpp"
 #include "tasks/phases/walls.hpp"
 
-/// What is done with the planes at nodes that part the particles of two materials.
+/// Operations on the planes at nodes that separate the particles of two materials.
 namespace tamp::tasks
 {
 

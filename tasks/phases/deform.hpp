@@ -18,7 +18,8 @@
 namespace tamp::tasks
 {
 
-/// What the motion of a step, at its middle, does to a batch of particles over their shape at its start (eqs 54-58).
+/// Gradients of the motion of a step, at its middle, for a batch of particles over their shape at its start (eqs
+/// 54-58).
 template <int D>
 struct StepGradients {
   std::span<Matrix<D>> g;  ///< dt times the gradient of the velocity; row: component of velocity
@@ -89,7 +90,7 @@ void follow_gradients(const Method<D>& method, const Data& data, std::size_t fir
   }
 }
 
-/// Deforms a batch of particles; what the material answers is added by the next phase.
+/// Deforms a batch of particles; the next phase adds the response of the material.
 template <int D, class Data>
 void deform(const Method<D>& method, const Data& data, std::size_t first, const StepGradients<D>& gradients)
 {
@@ -185,7 +186,8 @@ void take_gradients(const Method<D>& method, const runtime::TaskContext& at, con
   }
 }
 
-/// How stiff a batch of particles makes its nodes, for the kernel that finds it; 0 where no rule for the step asks.
+/// Stiffness that a batch of particles gives its nodes, for the kernel that computes it; 0 where no rule for the step
+/// uses it.
 template <int D, class Data>
 components::OwnStiffness own_stiffness_of(const Method<D>& method, const Data& data, const double* inverse_mass,
                                           std::size_t first, std::size_t size)

@@ -10,7 +10,8 @@
 namespace tamp::tasks
 {
 
-/// What particles carry to the nodes beside their velocities, one of the two or nothing.
+/// The matrices that particles carry to the nodes beside their velocities: velocity gradients, velocity moments, or
+/// none.
 template <int D, class Data>
 std::span<const Matrix<D>> carried_by(const Data& data)
 {
@@ -18,8 +19,9 @@ std::span<const Matrix<D>> carried_by(const Data& data)
   return gradients.empty() ? data[particle::velocity_moment<D>] : gradients;
 }
 
-/// Adds to the grid the images of what is scattered behind the walls. Only then do walls take what does not cross them:
-/// the image behind a wall one cell away lies on this one. Rough walls keep what pushes them unless `also_on_rough`.
+/// Adds to the grid the images behind the walls of what is scattered. Only after that do walls take what does not cross
+/// them: the image behind a wall one cell away lies on this one. Rough walls keep what pushes them unless
+/// `also_on_rough`.
 template <int D, class Value>
 void fold_images(const Method<D>& method, const runtime::TaskContext& at, const runtime::GridView<Value>& values,
                  bool also_on_rough)
@@ -30,7 +32,8 @@ void fold_images(const Method<D>& method, const runtime::TaskContext& at, const 
   });
 }
 
-/// The same of all sums, of which a rough wall keeps forces and momenta, but no surface: what lies on it is none.
+/// The same for all sums of a node. Rough walls keep forces and momenta, but no surface: what lies on them is no
+/// surface.
 template <int D>
 void fold(const Method<D>& method, const runtime::TaskContext& at,
           const runtime::GridView<components::NodeSums<D>>& sums)

@@ -31,7 +31,7 @@ using runtime::TaskContext;
 namespace
 {
 
-/// Where the solids that a material meets are at the start of the step; until the next call on this thread.
+/// Positions of the solids that a material meets, at the start of the step; valid until the next call on this thread.
 template <int D>
 std::span<const PlacedSolid<D>> solids_met_by(const Method<D>& method, int material, const RigidStates& states)
 {
@@ -53,10 +53,11 @@ template <int D>
 struct Touch {
   const RigidBody& body;
   Vector<D> normal;  ///< out of the body
-  /// How fast the gap may close in the step [m/s]: as fast as leaves nothing of it.
+  /// The speed that closes the whole gap within the step [m/s].
   double closing;
 
-  /// The velocity of the material, as if it had to leave no gap.
+  /// The velocity of the material, with the closing of the gap added: there is contact only where the motion closes
+  /// more than the gap.
   Vector<D> without_gap(const Vector<D>& velocity) const { return velocity + closing * normal; }
 };
 
@@ -74,8 +75,7 @@ std::optional<Touch<D>> touch_at(const Method<D>& method, const GapSums<D>& sums
   }
   const Vector<D> normal = sums.normal();
   if (normal.isZero(0)) return {};
-  // What has overlapped is not pushed out: with a fifth of it in each step runs of rigid_contact.json gain energy, and
-  // fail.
+  // An overlap is not pushed out: where a fifth of it is in each step, runs of rigid_contact.json gain energy and fail.
   return Touch<D>{method.rigid_bodies[static_cast<std::size_t>(body)], normal, std::max(sums.gap(), 0.0) / dt};
 }
 
@@ -141,7 +141,7 @@ struct BodyMotions {
   RigidMotion before, after;
 };
 
-/// What contact does at the nodes of a material.
+/// Applies contact at the nodes of a material.
 template <int D>
 class NodesOnSolids
 {
@@ -158,7 +158,7 @@ class NodesOnSolids
     }
   }
 
-  /// At the node `i`. Only nodes that are `counted` add to the sums over all.
+  /// Applies contact at the node `i`. Only nodes with `is_counted` add to the sums over all nodes.
   void push(const NodeSums<D>& sums, const GapSums<D>& gaps, const Index& i, bool is_counted, NodeMotion<D>& motion,
             StepTotals& totals, ContactImpulses& impulses) const
   {

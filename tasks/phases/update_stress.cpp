@@ -62,8 +62,8 @@ MaterialBatch<D, typename Model::State> batch_at(std::size_t first, const Data& 
 
 using Account = components::StressAccount<batch_size>;
 
-/// Adds up what `n` particles add, in their order, whatever lanes it has been worked out in. Whether one of them bounds
-/// the next step at least as much as the setter so far.
+/// Adds the contributions of `n` particles in their order, whatever lanes they were computed in. Returns whether one of
+/// them bounds the next step at least as much as the setter so far.
 bool add_to(StepTotals& totals, const Account& account, std::size_t n)
 {
   const double least_before = totals.setter.bound;
@@ -73,7 +73,7 @@ bool add_to(StepTotals& totals, const Account& account, std::size_t n)
     totals.plastic += account.plastic[k];
     totals.viscous += account.viscous[k];
     totals.stress_work_at_end += account.stress_work_at_end[k];
-    // Written so that what is not a number does not pass for a bound.
+    // Written so that a NaN does not pass for a bound.
     const double stable_step = account.stable_step[k];
     totals.stable_step = stable_step >= totals.stable_step ? totals.stable_step : stable_step;
     totals.greatest_wave_speed = std::max(totals.greatest_wave_speed, account.wave_speed[k]);
@@ -109,7 +109,7 @@ StepSetter setter_of_batch(const Method<D>& method, int material, const Data& da
   return setter;
 }
 
-/// One batch after the material has answered.
+/// Accounts for a batch of particles once its material has been updated.
 template <int D, class Data>
 void account(const Method<D>& method, const TaskContext& at, const Data& data, std::size_t first,
              std::span<const SymmetricTensor<D>> old_stress, const BatchAnswer& answer)
@@ -137,7 +137,8 @@ void account(const Method<D>& method, const TaskContext& at, const Data& data, s
   totals.setter = std::min(totals.setter, setter_of_batch(method, at.group, data, first, n, account));
 }
 
-/// A particle that could not follow the motion, see `leave_undeformed`, or has none; where it was before.
+/// The record of a particle that could not follow the motion, see `leave_undeformed`, or whose motion is not finite;
+/// with its place before the step.
 template <int D, class Data>
 BadMotion bad_motion(const Method<D>& method, int material, std::size_t p, const Data& data)
 {
@@ -250,7 +251,7 @@ bool may_separate(const Model& model)
   return false;
 }
 
-/// Whether the material asks how long rings are by now, or how large.
+/// Whether the update of the material uses the hoop stretch of rings.
 template <class Model>
 bool asks_for_hoop(const Model& model)
 {
@@ -258,7 +259,8 @@ bool asks_for_hoop(const Model& model)
          (may_separate(model) && !std::is_same_v<typename Model::State, components::SoilState>);
 }
 
-/// Where particles take the velocity of the nodes, these have slowed the motion within what separates.
+/// Whether particles without stress lose their velocity gradients. Where particles take the velocity of the nodes they
+/// need not: the nodes have slowed the motion within matter that separates.
 template <class Model>
 bool forgets_gradients(const Model& model, const Scene& scene)
 {

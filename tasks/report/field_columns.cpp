@@ -99,7 +99,7 @@ void add_uneven_pressures(runtime::Warehouse& warehouse, int patch, int group, s
   }
 }
 
-/// Of single particles, what the monitors of the same names sum up.
+/// Adds the flaws of single particles that the monitors of the same names sum up.
 template <int D>
 void add_flaws(const Scene& scene, int material, std::vector<ParticleField>& fields)
 {
@@ -143,7 +143,7 @@ ParticleField volume_ratio_field(const Scene& scene, int material)
   return {"J", ColumnKind::scalar, of_ring, particle::deformation_gradient<D>, particle::hoop_stretch};
 }
 
-/// All that can be written of a material's particles, but for id; the scene must outlive it.
+/// All fields that can be written for a material's particles, but for id; the scene must outlive them.
 template <int D>
 std::vector<ParticleField> particle_fields(const Scene& scene, int material)
 {

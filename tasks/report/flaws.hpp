@@ -8,7 +8,7 @@
 #include "tasks/cells.hpp"
 #include "tasks/scene.hpp"
 
-/// What is wrong with single particles: monitors sum it up, and field files show where it is.
+/// Flaws of single particles: monitors sum them up, and field files show where they are.
 namespace tamp::tasks
 {
 

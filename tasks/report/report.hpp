@@ -38,7 +38,7 @@ struct MaterialPeaks {
   template <class Model, class State>
   void add(const Model& model, const State& state, std::span<const components::Invariants> stress);
 
-  /// The one of `state_extremes` at this place; infinite where there was no particle.
+  /// The extreme number `k` of `state_extremes`; infinite where there was no particle.
   double extreme(std::size_t k, const components::StateExtreme& of) const
   {
     return of.greatest ? extremes[k] : -extremes[k];

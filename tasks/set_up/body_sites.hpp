@@ -13,7 +13,7 @@ namespace tamp::tasks
 template <int D>
 std::vector<components::Site<D>> particle_sites(const Scene& scene, const SceneBody& body);
 
-/// Their places alone.
+/// The positions of these particles, without their volumes [m].
 template <int D>
 std::vector<Vector<D>> sites_of(const Scene& scene, const SceneBody& body)
 {
@@ -22,10 +22,10 @@ std::vector<Vector<D>> sites_of(const Scene& scene, const SceneBody& body)
   return places;
 }
 
-/// Their volume, all together [m^3].
+/// The volume of all these particles together [m^3].
 double particle_volume(const Scene& scene, const SceneBody& body);
 
-/// That of the body's solid, in an axisymmetric scene of what turning it about the axis makes of it.
+/// The volume of the body's solid; in an axisymmetric scene, of the solid of revolution about the axis.
 components::Volume solid_volume(const Scene& scene, const SceneBody& body);
 
 }  // namespace tamp::tasks

@@ -37,7 +37,7 @@ DeformedStart<D> answer_of(const Model& model, const Matrix<D>& f)
   }
 }
 
-/// What a plane that cuts space holds of it.
+/// The part of a deformation in space that lies in the plane of the first D axes.
 template <int D>
 DeformedStart<D> in_plane(const DeformedStart<3>& start)
 {

@@ -41,16 +41,16 @@ class BodyParticles
   struct Particles {
     std::vector<std::int64_t> id;
     std::vector<std::int64_t> body;
-    /// Undeformed, and where they are.
+    /// Their undeformed sites, and their positions [m].
     std::vector<components::Site<D>> site;
     std::vector<Vector<D>> position;
   };
 
-  /// From the scene's velocity and angular velocity alone.
+  /// The velocity at x [m/s] from the scene's velocity and angular velocity alone.
   Vector<D> rigid_velocity(int body, const Vector<D>& x) const;
   Vector<D> initial_velocity(const Particles& particles, std::size_t p) const;
   void store(const Particles& particles, int patch, int material, runtime::Warehouse& warehouse) const;
-  /// Those of the body's turning, with the weights of the start.
+  /// Stores the velocity moments of the body's rotation, with the weights at the start.
   void store_velocity_moments(const Particles& particles, int patch, int material, runtime::Warehouse& warehouse) const;
 
   const Scene& scene_;
@@ -58,7 +58,7 @@ class BodyParticles
   std::vector<std::vector<Particles>> particles_;
   /// Mean place of each body's particles.
   std::vector<Vector<D>> centres_;
-  /// Those that start settled, by their place in the scene's list.
+  /// The bodies that start settled, by their index in the scene's list.
   std::map<std::size_t, SettledGround<D>> settled_;
 };
 

@@ -40,7 +40,7 @@ bool are_strata(const Scene& scene, int material_a, int material_b)
 namespace
 {
 
-/// The stress across over that along the vertical in an elastic layer that cannot widen.
+/// Ratio of the stress across to that along the vertical in an elastic layer that cannot widen.
 double elastic_k0(const SceneMaterial& material)
 {
   return std::visit(
@@ -56,7 +56,7 @@ double elastic_k0(const SceneMaterial& material)
       material.model);
 }
 
-/// Where particles stand along an axis, and between which walls.
+/// The layers of particles along an axis, and the walls that they stand between.
 LayerColumn column_of(const Scene& scene, const SceneBody& body, std::vector<double> layers, std::size_t k)
 {
   const runtime::Grid& grid = scene.grid;
@@ -77,10 +77,10 @@ LayerColumn column_of(const Scene& scene, const SceneBody& body, std::vector<dou
   return column;
 }
 
-/// What a body must be whose stress is known without a run.
+/// The shape that a body must have for its stress to be known without a run.
 constexpr const char* a_box = "a box along the axes; other ground can settle in the run, with \"local_damping\"";
 
-/// Those of a body's particles, which fill a box.
+/// The columns of layers along each axis of a body's particles, which must fill a box.
 template <int D>
 std::array<LayerColumn, std::size_t{D}> columns_of(const Scene& scene, const SceneBody& body)
 {
@@ -131,7 +131,7 @@ struct Stratum {
   LayerColumn column;
 };
 
-/// All there are, from the lower end of the vertical axis on.
+/// All bodies that start settled, from the lower end of the vertical axis on.
 template <int D>
 std::vector<Stratum> strata_of(const Scene& scene, std::size_t vertical)
 {
@@ -164,7 +164,7 @@ void check_touch(const Scene& scene, const Stratum& below, const Stratum& above)
       "bodies that lie on one another");
 }
 
-/// Where three meet at a node, their contacts one after another do not hold them at rest.
+/// Checks that no three materials meet at a node, where their contacts one after another would not hold them at rest.
 void check_is_thick(const Scene& scene, const Stratum& below, const Stratum& between, const Stratum& above)
 {
   if (below.body->material == between.body->material || between.body->material == above.body->material) return;
@@ -179,7 +179,7 @@ void check_is_thick(const Scene& scene, const Stratum& below, const Stratum& bet
                  "a thicker one, or finer cells");
 }
 
-/// The layers of all of them.
+/// The layers of all strata together.
 LayerColumn pile_of(const Scene& scene, const std::vector<Stratum>& strata)
 {
   LayerColumn pile = strata.front().column;
@@ -194,7 +194,7 @@ LayerColumn pile_of(const Scene& scene, const std::vector<Stratum>& strata)
   return pile;
 }
 
-/// The component along each axis of gravity and what rest in the turning frame feels.
+/// The body force along each axis: gravity, and the centrifugal force on matter at rest in the turning frame.
 template <int D>
 std::array<components::LinearForce, std::size_t{D}> body_force(const Scene& scene)
 {
@@ -219,7 +219,7 @@ std::array<components::LinearForce, std::size_t{D}> body_force(const Scene& scen
   return force;
 }
 
-/// Of a model whose particle bears this.
+/// Tangent bulk modulus of a model whose particle bears this stress [Pa].
 template <class Model>
 double settled_bulk_modulus(const Model& model, const components::SettledStress& settled)
 {
@@ -255,7 +255,7 @@ SettledGround<D>::SettledGround(const Scene& scene, const SceneBody& body)
     const LayerColumn& column = k == vertical_ ? pile : columns_[k];
     along_[k] = components::settled_stress(scene.interpolator, particles_per_axis, column, force[k]);
   }
-  // Of the pile, the part that is the body's own.
+  // The body's own layers are a part of those of the pile.
   const std::vector<double>&own = columns_[vertical_].layers, of_pile = along_[vertical_];
   const auto first = std::lower_bound(pile.layers.begin(), pile.layers.end(), own.front()) - pile.layers.begin();
   const auto begin = of_pile.begin() + first;

@@ -32,9 +32,9 @@ class SettledGround
   /// must outlive this object.
   SettledGround(const Scene& scene, const SceneBody& body);
 
-  /// What the particle at x bears.
+  /// The settled stress of the particle at x.
   components::SettledStress at(const Vector<D>& x) const;
-  /// Throws components::BadValue where that is more than the material can bear.
+  /// Throws components::BadValue where the stress at x is more than the material can bear.
   void check_at(const Vector<D>& x) const;
 
   /// The greatest tangent bulk modulus of a particle of the layers, where the sides press most [Pa].
@@ -48,7 +48,7 @@ class SettledGround
   const MaterialModel* model_;
   double k0_;
   std::size_t vertical_ = 0;
-  /// The body's own.
+  /// The layers of the body along each axis.
   std::array<components::LayerColumn, std::size_t{D}> columns_;
   /// For each axis, the stress in each layer that carries the body force along it [Pa, tension positive].
   std::array<std::vector<double>, std::size_t{D}> along_;
