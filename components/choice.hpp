@@ -9,7 +9,7 @@
 namespace tamp::components
 {
 
-/// A word of scenes, what it stands for, and what that is: half a line for people, in Markdown.
+/// A word of scenes, the value that it stands for, and its meaning: half a line for people, in Markdown.
 template <class Value>
 struct Word {
   std::string_view word;
@@ -19,21 +19,21 @@ struct Word {
   std::string_view old_word{};
 };
 
-/// One of the alternatives of a variant, each of which has a `word`, its name in scenes, a `meaning`, and where it was
-/// renamed an `old_word`.
+/// A choice among the alternatives of a variant, each of which has a `word`, its name in scenes, a `meaning`, and where
+/// it was renamed an `old_word`.
 template <class Alternatives>
 class Choice
 {
  public:
-  /// By its word, `Choice("flip")`; a word that there is not does not compile.
+  /// Chooses by word, `Choice("flip")`; an unknown word does not compile.
   consteval Choice(const char* word) : number_(number_of(word)) {}
-  /// By its place among the alternatives.
+  /// Chooses by the index among the alternatives.
   explicit constexpr Choice(int number) : number_(number) {}
   explicit constexpr operator int() const { return number_; }
 
   friend constexpr bool operator==(Choice, Choice) = default;
 
-  /// All there are.
+  /// The words of all alternatives.
   static std::vector<Word<Choice>> words()
   {
     std::vector<Word<Choice>> all;

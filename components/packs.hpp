@@ -37,7 +37,7 @@ struct Pack {
   }
 };
 
-/// One column for each number of `Of`, a struct of numbers, for up to `size` particles.
+/// A column for each number of `Of`, a struct of numbers, for up to `size` particles.
 template <template <class> class Of, std::size_t size>
 class Columns
 {
@@ -105,7 +105,7 @@ void for_each_pack(std::size_t n, const Number& number, const Act& act)
   }
 }
 
-/// Some of the particles.
+/// A list of some of the particles.
 template <std::size_t size>
 class PackedList
 {
@@ -113,7 +113,7 @@ class PackedList
   bool empty() const { return n_ == 0; }
   void clear() { n_ = 0; }
 
-  /// Without a branch.
+  /// Adds particle i if the condition holds, without a branch.
   void add_if(bool condition, std::size_t i)
   {
     of_[n_] = static_cast<std::uint32_t>(i);

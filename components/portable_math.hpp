@@ -12,8 +12,8 @@ namespace tamp::portable
 {
 
 double exp(double x);
-/// Of numbers that are finite, within 2 units in the last place of 64 bits. The C library's is the processor's own, and
-/// those of two makers differ.
+/// The exponential of a finite number, within 2 units in the last place of 64 bits. The C library's is the processor's
+/// own, and those of two makers differ.
 long double exp(long double x);
 double expm1(double x);
 double log(double x);

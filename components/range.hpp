@@ -6,7 +6,7 @@
 namespace tamp::components
 {
 
-/// The numbers that something may have.
+/// The range of numbers that a parameter may have.
 struct Range {
   double lower = -std::numeric_limits<double>::infinity();
   double upper = std::numeric_limits<double>::infinity();
@@ -14,7 +14,7 @@ struct Range {
   bool holds_upper = true;
 
   bool contains(double x) const;
-  /// Such as "above 0" or "from 0 to 1"; empty if every number will do.
+  /// The range in words, such as "above 0" or "from 0 to 1"; empty if every number will do.
   std::string words() const;
 };
 

@@ -13,7 +13,7 @@
 namespace tamp::components
 {
 
-/// At the centre of a cell, by the linear functions N of its nodes.
+/// The motion at the centre of a cell, by the linear functions N of its nodes.
 template <int D>
 struct MotionAtCentre {
   Vector<D> place;     ///< m
@@ -21,8 +21,8 @@ struct MotionAtCentre {
   Matrix<D> gradient;  ///< sum v_i (x) grad N_i [1/s]; row: component of velocity
 };
 
-/// Of the cell that holds `x`. `nodes` and `inverse_mass`, 0 where there is none, are those of the first node of the
-/// block. Empty where a corner of the cell has no mass, and so no velocity.
+/// The motion at the centre of the cell that holds `x`. `nodes` and `inverse_mass`, 0 where there is none, are those of
+/// the first node of the block. Empty where a corner of the cell has no mass, and so no velocity.
 template <int D>
 std::optional<MotionAtCentre<D>> motion_at_centre(const GridBlock<D>& block, const NodeMotion<D>* nodes,
                                                   const double* inverse_mass, const Vector<D>& x)
@@ -54,10 +54,10 @@ std::optional<MotionAtCentre<D>> motion_at_centre(const GridBlock<D>& block, con
   return MotionAtCentre<D>{centre, velocities / n_corners, sum * (2.0 / (n_corners * block.cell_size))};
 }
 
-/// As E. A. de Souza Neto et al. (Int. J. Solids Struct. 33, 1996) for finite elements and W. M. Coombs et al. (Comput.
-/// Methods Appl. Mech. Eng. 333, 2018) for material points: every particle of a cell takes the change of volume at its
-/// centre. `g`, dt times the gradients at the particles, is set to dt times those there, where there are any; and so is
-/// `hoop` of rings to dt v_r / r there, which is empty of other particles.
+/// Gives every particle of a cell the change of volume at the cell's centre, like E. A. de Souza Neto et al. (Int. J.
+/// Solids Struct. 33, 1996) for finite elements and W. M. Coombs et al. (Comput. Methods Appl. Mech. Eng. 333, 2018)
+/// for material points. `g`, dt times the gradients at the particles, is set to dt times those at the centre, where
+/// there are any; and `hoop` of rings, which is empty for other particles, to dt v_r / r there.
 template <int D>
 void centre_gradients(const GridBlock<D>& block, const NodeMotion<D>* nodes, const double* inverse_mass,
                       std::span<const Vector<D>> position, double dt, std::span<Matrix<D>> g,

@@ -3,14 +3,14 @@
 namespace tamp::components
 {
 
-/// Where a face of the grid lets material go.
+/// What lies beyond a face of the grid, and so where material may go.
 enum class Beyond {
   nothing,   ///< a wall
   away,      ///< out of the simulation
   opposite,  ///< in at the opposite face
 };
 
-/// What holds for all nodes of a face. Each kind of face has
+/// Properties of all nodes of a face. Each kind of face has
 ///
 ///     word, meaning                                its name in scenes, unless it has parameters, and half a line
 ///     shown, parameters()                          if it has parameters: a scene then has an object of them, as shown
@@ -34,9 +34,9 @@ struct FaceTraits {
   constexpr bool has_image() const { return is_wall() && !at_edges; }
 };
 
-/// What a wall knows of one of its nodes.
+/// A node of a wall, as the wall's velocity rule sees it.
 struct WallNode {
-  int axis;          ///< to which the wall is normal
+  int axis;          ///< axis that the wall is normal to
   int outside;       ///< the side of the grid that it is on, -1 or +1
   double cell_size;  ///< m
   double step;       ///< s

@@ -15,7 +15,7 @@
 namespace tamp::components
 {
 
-/// At one node, as one of the two materials sees it; all zero where no two materials are to be parted.
+/// The plane at one node, as one of the two materials sees it; all zero where no two materials are to be parted.
 template <int D>
 struct ContactPlane {
   /// -1: this material is the first of the pair, the normal points out of it. +1: the second.
@@ -39,7 +39,7 @@ struct ContactPlane {
 /// A particle seen from a node with a plane. Number is double, or Lanes for as many particles and nodes.
 template <int D, class Number>
 struct PartedParticle {
-  /// Of the plane, as the particle's material sees it.
+  /// Side and coefficients of the plane, as the particle's material sees it.
   Number side;
   Vector<D + 1, Number> coefficients;
   /// S_ip
@@ -68,7 +68,7 @@ struct RegressionSums : NodeValues<D, D == 2 ? 12 : 16, 1> {
     return lower;
   }
 
-  /// What a particle adds to the values.
+  /// The share that a particle adds to the values.
   template <class Number>
   static Share<Number> share(const PartedParticle<D, Number>& particle)
   {
@@ -123,7 +123,7 @@ struct RegressionSums : NodeValues<D, D == 2 ? 12 : 16, 1> {
   }
 };
 
-/// One step of Newton's method towards the least cost, in which both materials weigh the same and a ridge bounds n.
+/// Takes a step of Newton's method towards the least cost, in which both materials weigh the same and a ridge bounds n.
 /// From no plane at all the first step is Fisher's linear discriminant.
 template <int D>
 Vector<D + 1> newton_step(const Vector<D + 1>& plane, const RegressionSums<D>& first, const RegressionSums<D>& second);
@@ -139,8 +139,8 @@ struct EdgeSums {
   double weight = 0;
   double moment = 0;
 
-  /// What a particle of edge `size` adds to weight and moment. Of many layers, each a size behind the one before, the
-  /// outermost has the say.
+  /// The share that a particle of edge `size` adds to weight and moment. Among many layers, each a size behind the one
+  /// before, the outermost decides.
   template <class Number>
   static Share<Number> share(const PartedParticle<D, Number>& particle, double size)
   {

@@ -96,7 +96,8 @@ struct OwnNormal {
   }
 };
 
-/// That of a rigid body's solid, see solid_contact.hpp. Nodes do not find it between the sums of two materials.
+/// The normal of a rigid body's solid, see solid_contact.hpp. It is not computed at the nodes from the sums of two
+/// materials.
 struct SolidNormal {
   static constexpr std::string_view word = "solid",
                                     meaning =
@@ -114,7 +115,7 @@ struct SolidNormal {
   }
 };
 
-/// All there are; one more is added here.
+/// All kinds of normals; a new kind is added here.
 using ContactNormal = std::variant<FlatterNormal, RegressionNormal, OwnNormal, SolidNormal>;
 
 /// Whether bodies may push each other before they touch.
@@ -133,7 +134,7 @@ template <int D>
 struct ContactFace {
   /// Out of this material and into the other; not of unit length, and zero at nodes without a face.
   Vector<D> outward = Vector<D>::Zero();
-  /// What would be left of the gap at the end of the step if nothing touched [m]: they touch if it is 0 or below.
+  /// Gap that would be left at the end of the step without contact [m]: the materials touch if it is 0 or below.
   double gap = 0;
 
   bool is_there() const { return !outward.isZero(0); }

@@ -12,14 +12,15 @@ struct SoftGap {
   double weight, gap;
 };
 
-/// Of a particle at `distance` from a surface that is `width` wide along the normal, and was `size` [m].
+/// Weight and gap of a particle at `distance` from a surface; the particle is `width` wide along the normal, and was
+/// `size` wide at the start [m].
 inline SoftGap soft_gap(double distance, double width, double size)
 {
   // Rows behind the first make the soft minimum larger than its gap: by 1 / (e^3 - 1) of a width if all weigh the same,
   // less at the surface, where the second has a third of the first's S. Hertz's force (tamp verify hertz_ball) is right
   // to 4 % on 4 cells a contact radius with two thirds of that, and 11 % too small without.
   constexpr double of_rows_behind = 0.035;
-  // As many sizes apart as a node can see; deep within nothing is to overflow.
+  // The distance, in sizes, that a node can see; deep within the body nothing may overflow.
   constexpr double farthest = 8;
   const double weight = portable::exp(-3 * std::clamp(distance / size, -farthest, farthest));
   return {weight, distance - (0.5 + of_rows_behind) * width};

@@ -48,7 +48,7 @@ std::optional<NearBody<D>> nearest_to(const Vector<D>& x, std::span<const Placed
   return nearest;
 }
 
-/// What a particle adds to its nodes, for S = 1.
+/// The share that a particle adds to its nodes, for S = 1.
 template <int D>
 GapSums<D> share_of(const NearBody<D>& near, const Matrix<D>* deformation, double size)
 {

@@ -5,7 +5,7 @@
 
 #include "components/contact/wall_gaps.hpp"
 
-/// What matter bears beside walls, and across which gaps.
+/// Loads of the matter beside walls, and the gaps that they cross.
 namespace tamp::components
 {
 

@@ -56,7 +56,7 @@ class PiecewiseLinear
 
   void cut_into_buckets();
 
-  /// One between which and x there is no other.
+  /// An inner point that has no other between itself and x.
   const Kink& kink_near(double x) const { return kinks_[buckets_ ? buckets_->of(x) : last_kink_before(x)]; }
   KinkOf<Lanes> kink_near(const Lanes& x) const
   {
@@ -73,9 +73,9 @@ class PiecewiseLinear
   std::size_t last_kink_before(double x) const;
 
   std::vector<double> x_, y_, slopes_;
-  /// With at most one inner point in each; none where the points are too uneven for that.
+  /// Buckets with at most one inner point in each; none where the points are too uneven for that.
   std::optional<OctaveBuckets> buckets_;
-  /// One for each bucket; without buckets all inner points.
+  /// The inner point of each bucket; without buckets all inner points.
   std::vector<Kink> kinks_;
 };
 

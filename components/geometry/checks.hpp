@@ -8,7 +8,7 @@
 namespace tamp::components
 {
 
-/// Such as [0.1, 2].
+/// The vector in words, such as [0.1, 2].
 template <int D>
 std::string text(const Vector<D>& v);
 

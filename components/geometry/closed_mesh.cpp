@@ -76,7 +76,7 @@ void require_places(std::istream& stl)
   }
 }
 
-/// Such a triangle covers nothing, and CGAL takes none.
+/// Whether two corners of a triangle are equal: it then covers nothing, and CGAL does not accept it.
 bool has_equal_corners(const Facet& facet)
 {
   return facet[0] == facet[1] || facet[1] == facet[2] || facet[2] == facet[0];
@@ -170,7 +170,7 @@ struct ClosedMesh::Surface {
   }
 
   const Triangles mesh;
-  /// Refer to the mesh.
+  /// Both refer to the mesh.
   Tree tree;
   const CGAL::Side_of_triangle_mesh<Triangles, Kernel> side_of;
 };

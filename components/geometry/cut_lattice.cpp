@@ -43,7 +43,7 @@ struct Block {
   }
 };
 
-/// What a solid holds of a site's share: how many of the points in it, and the sum of their places.
+/// The part of a site's share that a solid holds: the number of sample points in it, and the sum of their places.
 template <int D>
 struct Held {
   double n = 0;
@@ -162,7 +162,7 @@ class CutLattice
     return held;
   }
 
-  /// To those neighbours that hold the most, in equal parts, so that what is its own image stays so.
+  /// Gives slivers to the neighbours that hold the most, in equal parts, so that symmetric bodies stay symmetric.
   void give_away_slivers()
   {
     const std::unordered_map<std::size_t, Held<D>> before = cut_;
@@ -211,9 +211,9 @@ class CutLattice
 
   const Solid<D>& solid_;
   const ParticleLattice<D>& lattice_;
-  /// Along each axis, `n_per_axis` of them to a cell.
+  /// All sites, `n_per_axis` of them along each axis of a cell.
   Block<D> sites_;
-  /// Those of which the solid holds all, and of the others those of which it holds a part.
+  /// Sites whose share the solid holds as a whole; and among the others, those of which it holds a part.
   std::vector<bool> whole_;
   std::unordered_map<std::size_t, Held<D>> cut_;
 };
@@ -231,7 +231,7 @@ bool hold_all_of(const CellRange<D>& cells, const ParticleLattice<D>& lattice, c
   return true;
 }
 
-/// Makes the volume of particles that are no whole shares what is left of the solid's.
+/// Scales the volumes of particles that are no whole shares, so that all together have the volume of the solid.
 template <int D>
 void scale_cut(double solid_volume, double share, std::vector<Site<D>>& particles)
 {
@@ -243,7 +243,8 @@ void scale_cut(double solid_volume, double share, std::vector<Site<D>>& particle
   }
 }
 
-/// Those that the solid holds a part of. Not within `fill_cut`: its lambdas would have types that other files can name.
+/// The particles of all sites of which the solid holds a part. Not within `fill_cut`: its lambdas would have types that
+/// other files can name.
 template <int D>
 std::vector<Site<D>> particles_of(const CutLattice<D>& cut, const ParticleLattice<D>& lattice,
                                   const CellRange<D>& range)

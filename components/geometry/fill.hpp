@@ -20,7 +20,7 @@ struct ParticleLattice {
 
   /// The share of one particle [m^3]; in the plane of one metre of thickness.
   double particle_volume() const;
-  /// That of a site within a cell, each along every axis.
+  /// Place of a site within a cell [m], both given by their indices along every axis.
   Vector<D> place(const std::array<int, std::size_t{D}>& cell, const std::array<int, std::size_t{D}>& site) const;
   /// Throws BadValue for a cell size or a number of sites that is not above 0.
   void check() const;

@@ -12,12 +12,13 @@ namespace tamp::components
 namespace
 {
 
-/// Between two radii and two angles.
+/// The part of a ring between two radii and two angles.
 struct Sector {
   double inner, outer, from, to;
 
   double area() const { return 0.5 * (outer * outer - inner * inner) * (to - from); }
-  /// Of what turning it about the axis x = 0 makes of it, its centre being at x: 2 pi times the integral of x over it.
+  /// Volume of the solid of revolution about the axis x = 0, the ring's centre being at x: 2 pi times the integral of x
+  /// over it.
   double revolved(double x) const
   {
     const double cubes = outer * outer * outer - inner * inner * inner;

@@ -41,8 +41,8 @@ bool meet(const Edge& a, const Edge& b)
   return (a_straddles && b_straddles) || is_on(a, b.from) || is_on(a, b.to) || is_on(b, a.from) || is_on(b, a.to);
 }
 
-/// Of a polygon that runs against the clock; of others minus that. From the first corner, so that a small polygon far
-/// from the origin loses no digits.
+/// Twice the area of a polygon whose corners run anticlockwise; minus that for others. Measured from the first corner,
+/// so that a small polygon far from the origin loses no digits.
 double twice_the_area(const std::vector<Vector<2>>& corners)
 {
   double twice = 0;
@@ -88,7 +88,7 @@ bool Polygon::contains(const Vector<2>& x) const
   // Is the number of edges to the left of x odd?
   bool inside = false;
   for (std::size_t i = 0; i < corners_.size(); ++i) {
-    // From the lower end, so that polygons that share an edge compute the same.
+    // Computed from the lower end, so that polygons that share an edge compute the same.
     const auto& [a, b] = std::minmax(corners_[i], corners_[(i + 1) % corners_.size()],
                                      [](const Vector<2>& p, const Vector<2>& q) { return p[1] < q[1]; });
     if (a[1] > x[1] || b[1] <= x[1]) continue;
@@ -136,7 +136,7 @@ void ExtrudedPolygon::faces(const Vector<3>& x, SurfacePoints<3>& points) const
   for (const SurfacePoint<2>& side : sides) {
     points.push_back({{side.at[0], side.at[1], z}, {side.normal[0], side.normal[1], 0}});
   }
-  // Of the ends the place beneath the point, or that of their rims which is nearest.
+  // On both ends, the nearest place is the one beneath the point, or the nearest on their rims.
   const auto nearest = std::min_element(sides.begin(), sides.end(), [&](const auto& a, const auto& b) {
     return (a.at - x.head<2>()).squaredNorm() < (b.at - x.head<2>()).squaredNorm();
   });

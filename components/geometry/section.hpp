@@ -6,7 +6,7 @@
 namespace tamp::components
 {
 
-/// What a solid of space holds of the plane z = 0.
+/// The section of a solid of space with the plane z = 0.
 struct Section {
   Solid<3> solid;
 

@@ -99,7 +99,7 @@ class Solid
   std::shared_ptr<const AnyShape> shape_;
   std::size_t n_shapes_ = 1;
   bool is_made_of_others_ = false;
-  /// Of the bounding box.
+  /// The middle of the bounding box [m].
   Vector<D> middle_;
 };
 

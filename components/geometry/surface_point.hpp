@@ -14,11 +14,11 @@ struct SurfacePoint {
   Vector<D> normal;
 };
 
-/// Of each face of a solid the point that is nearest to another.
+/// The points nearest to a given one, one for each face of a solid.
 template <int D>
 using SurfacePoints = std::vector<SurfacePoint<D>>;
 
-/// How far a point is from a surface [m], below 0 within the solid, and the direction in which that grows the fastest:
+/// Distance of a point from a surface [m], below 0 within the solid, and the direction in which it grows the fastest:
 /// at a face its normal. x - value * normal is the nearest point.
 template <int D>
 struct SignedDistance {

@@ -12,7 +12,8 @@ namespace tamp::components
 namespace
 {
 
-/// One particle by itself; false if its step is not admissible. Few need it, so that it stays out of the loop below.
+/// Deforms one particle by itself; false if its step is not admissible. Few need it, so that it stays out of the loop
+/// below.
 template <int D, class Update>
 [[gnu::noinline]] bool deform_one(const DeformedParticles<D>& particles, std::size_t p)
 {
@@ -24,7 +25,7 @@ template <int D, class Update>
   return step.admissible();
 }
 
-/// Flattened, as what it calls for every few particles would otherwise go through memory.
+/// Flattened, as the functions that it calls for every few particles would otherwise pass values through memory.
 template <int D, class Update>
 [[gnu::flatten]] std::optional<std::size_t> deform_by(const DeformedParticles<D>& particles)
 {

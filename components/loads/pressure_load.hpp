@@ -27,7 +27,7 @@ class PressureCurve
   std::vector<Point> points_;
 };
 
-/// One number for each axis k and each way that faces normal to it look: (k, 0) against the axis, (k, 1) along it.
+/// A number for each axis k and each way that faces normal to it look: (k, 0) against the axis, (k, 1) along it.
 template <int D>
 using ByFace = Eigen::Matrix<double, D, 2>;
 

@@ -20,7 +20,7 @@ struct LayerColumn {
   /// Middles of the layers [m], ascending and `spacing` apart. They reach to the walls there are.
   std::vector<double> layers;
   double spacing;
-  /// Of each layer [kg/m^3]; between two walls that of all.
+  /// Density of each layer [kg/m^3]; between two walls all layers have the same.
   std::vector<double> density;
 
   /// The end that is no wall [m]; of a column between walls, its upper end.

@@ -44,7 +44,7 @@ struct StressAccount {
   /// Work of the stress at the end of the step in its second half, which it takes from the motion.
   std::array<double, N> stress_work_at_end;
   std::array<double, N> stable_step;
-  /// Of dilatational waves, at the end of the step [m/s].
+  /// Speed of dilatational waves at the end of the step [m/s].
   std::array<double, N> wave_speed;
 };
 

@@ -75,7 +75,7 @@ double shear_by_bulk(const BoltonSand& sand)
   return 1.5 * (1 - 2 * sand.poissons_ratio) / (1 + sand.poissons_ratio);
 }
 
-/// What the sand answers with, see SoilBatch.
+/// The response of the sand, see SoilBatch.
 class BoltonResponse
 {
  public:

@@ -70,7 +70,7 @@ struct BoltonSand {
 
   /// The pressure beyond which not even the densest sand dilates, as its grains crush [Pa].
   double crushing_pressure() const;
-  /// Beyond that pressure nothing here holds.
+  /// Whether a state is within the range of the model, which ends at that pressure.
   Tested tested(const SoilState& state, double pressure) const;
 
   double void_ratio(const SoilState& state) const;
@@ -78,8 +78,8 @@ struct BoltonSand {
   double dilatancy_index(const SoilState& state, double pressure) const;
 };
 
-/// One return to the strength and with the flow of the step's start, exact on each of its parts; of first order in what
-/// these change by. An increment that is not finite is refused.
+/// Returns once, to the strength and with the flow at the start of the step: exact on each part of the surface, and of
+/// first order in the change of strength and flow within the step. An increment that is not finite is refused.
 template <int D>
 BatchFailure update(const BoltonSand& sand, const MaterialBatch<D, SoilState>& batch, UpdateCounts& counts);
 

@@ -23,7 +23,7 @@ struct FlowStartOf {
   Number multiplier = 0;          ///< half the flow: dl; zero where it does not load
   Number plastic_volumetric = 0;  ///< half the flow: d
   ReturnGuessOf<Number> guess{};  ///< of the other half
-  /// of the envelope, where which of two normals counts is for round-off to say
+  /// Whether it is on a kink of the envelope, where round-off decides which of two normals counts.
   Mask<Number> on_kink = Mask<Number>(false);
 
   /// The stress deviator there.
@@ -70,8 +70,8 @@ Number fraction_inside(const YieldSurface& surface, const CapParticleOf<Number>&
   return select(searched, low, met);
 }
 
-/// With the consistency condition of the continuum, G s:e/q - G dl - h_p (dp - d dp/dd) - h_X X' d = 0, where dp is
-/// the trial's change of pressure and d = -dl h_p.
+/// The start of the flow, from the consistency condition of the continuum, G s:e/q - G dl - h_p (dp - d dp/dd) - h_X X'
+/// d = 0, where dp is the trial's change of pressure and d = -dl h_p.
 template <class Number>
 FlowStartOf<Number> flow_start(const YieldSurface& surface, const CapParticleOf<Number>& old,
                                const DeviatoricTrialOf<Number>& deviatoric, const PathPointOf<Number>& trial)
@@ -135,7 +135,8 @@ Number flow_error(const FlowStartOf<Number>& start, const ReturnPointOf<Number>&
     return sqrt(bulk * volumetric * volumetric + shear * deviatoric * deviatoric);
   };
   const SurfaceNormalOf<Number>& a = start.normal;
-  // That of the flow itself, which on a kink of the envelope is neither side's; but at the apex, where it has none.
+  // The normal of the flow itself, which on a kink of the envelope is neither side's; not at the apex, where the flow
+  // has none.
   SurfaceNormalOf<Number> b = point.normal;
   b.slope_sine = select(point.multiplier > 0.0 && b.sine > 0.0, -point.plastic_volumetric / point.multiplier * b.sine,
                         point.normal.slope_sine);
@@ -152,7 +153,7 @@ Number flow_error(const FlowStartOf<Number>& start, const ReturnPointOf<Number>&
   return returned * turn * (0.5 * uneven + of_turn_squared * turn);
 }
 
-/// The same of a step whose volume is given, and whose deviator returns along itself.
+/// The same error for a step whose volume is given, and whose deviator returns along itself.
 template <class Number>
 Number shear_error(const ReturnPointOf<Number>& point, const Number& cosine)
 {

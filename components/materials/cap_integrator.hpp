@@ -12,8 +12,8 @@
 namespace tamp::components
 {
 
-/// The stress update of one particle of sand, on every way that it can go: the reference for CapLanes, and what does
-/// the substeps that are left to it.
+/// The stress update of one particle of sand, for every way that it can go: the reference for CapLanes, and the one
+/// that takes the substeps which CapLanes leaves to it.
 ///
 /// A step is of second order: half of the plastic flow is taken along the surface's normal where the step starts to
 /// flow
@@ -32,7 +32,7 @@ class CapIntegrator
   const CapSubsteps& substeps() const { return substeps_; }
   UpdateCounts& counts() { return counts_; }
 
-  /// One step, in as many substeps as its error estimate asks for.
+  /// Takes one step, in as many substeps as its error estimate asks for.
   CapOutcome advance(const CapParticle& particle, const CapStrain& strain)
   {
     CapOutcome at{particle, 0};
@@ -45,7 +45,7 @@ class CapIntegrator
     }
   }
 
-  /// One substep; nothing is counted but evaluations of the elastic model.
+  /// Takes one substep; nothing is counted but evaluations of the elastic model.
   CapOutcome substep(const CapParticle& old, const CapStrain& strain, double size)
   {
     const double compaction = size * strain.compaction;

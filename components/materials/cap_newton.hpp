@@ -43,7 +43,7 @@ struct BeforeOf {
   }
 };
 
-/// One step of Newton's method on the cone, for phi(d) = d + (qt - g)/G g'.
+/// A step of Newton's method on the cone, for phi(d) = d + (qt - g)/G g'.
 template <class Number, class Strength>
 Number step_on_cone(const Strength& g, const PathPointOf<Number>& at, const Number& shear_d, const Number& trial_d,
                     const Number& d)
@@ -61,8 +61,8 @@ Mask<Number> is_on_segment(const YieldSurface& surface, const ResidualOf<Number>
          end.at.trial_sqrt_j2 >= end.limit;
 }
 
-/// One on the cap, for (d, t), t the tangent of half the cap's angle: sin = 2t/(1+t^2), cos = (1-t^2)/(1+t^2). Then the
-/// apex is no singular point. The equations are p(d) = kappa + a cos and phi sin = 0.
+/// A step of Newton's method on the cap, for (d, t), t the tangent of half the cap's angle: sin = 2t/(1+t^2), cos =
+/// (1-t^2)/(1+t^2). Then the apex is no singular point. The equations are p(d) = kappa + a cos and phi sin = 0.
 template <class Number>
 struct StepOnCap {
   Number d, t;
@@ -112,7 +112,7 @@ Mask<Number> has_converged(const StepOnCap<Number>& step, const Number& d, const
   return has_converged(step.d, d) && abs(step.t) <= 10.0 * newton_tolerance * t;
 }
 
-/// The last step, taken along the path's tangent: what that leaves out is of the order of the step squared.
+/// The last step, taken along the path's tangent, with an error of the order of the step squared.
 template <class Number>
 ResidualOf<Number> stepped(const YieldSurface& surface, PathPointOf<Number> at, const Number& d, const Number& step,
                            const Number& shear_d, const Number& trial_d)
@@ -137,7 +137,7 @@ template <class Path>
 class Newton
 {
  public:
-  /// `n_evaluations` of the path are counted on.
+  /// Adds its evaluations of the path to `n_evaluations`.
   Newton(const YieldSurface& surface, const Path& path, int& n_evaluations)
       : surface_(surface), path_(path), n_evaluations_(n_evaluations)
   {

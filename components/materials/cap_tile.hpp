@@ -14,7 +14,7 @@ namespace tamp::components
 {
 
 /// The steps of up to `size` particles of sand, side by side: each round tries one substep of all that are not at their
-/// end yet. Particles that likely flow alike are packed together. What a particle gets depends on no other.
+/// end yet. Particles that likely flow alike are packed together. The result of a particle depends on no other.
 template <class Model>
 class CapTile
 {
@@ -93,10 +93,10 @@ class CapTile
   Columns<CapStrainOf, size> strain_;
   Columns<CapOutcomeOf, size> tried_;
   std::array<CapProgress, size> progress_;
-  /// Those that likely go the same way together.
+  /// Particles that have yet to start, by the way that they likely go.
   std::array<List, CapLanes<Model>::n_ways> starting_;
   List under_way_;
-  /// By CapLanes.
+  /// Particles that CapLanes has left to CapIntegrator.
   List left_;
   Lanes n_evaluations_ = 0.0;  ///< by CapLanes, of the elastic model
 };

@@ -10,7 +10,7 @@
 #include "components/materials/soil_update.hpp"
 #include "components/range.hpp"
 
-/// What soils of constant moduli, an angle of friction and a cohesion have in common.
+/// Common parts of soils with constant moduli, an angle of friction and a cohesion.
 namespace tamp::components
 {
 

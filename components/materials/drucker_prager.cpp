@@ -15,7 +15,7 @@ double slope_of(double angle)
   return 2 * std::numbers::sqrt3 * sine / (3 - sine);
 }
 
-/// Where the square root of J2 of a trial stress ends, and how it flowed.
+/// The return of a trial stress: where the square root of J2 ends, and how it flowed.
 struct ConeReturn {
   Lanes pressure;
   Lanes sqrt_j2;
@@ -24,7 +24,7 @@ struct ConeReturn {
   Mask<Lanes> is_at_cut_off;
 };
 
-/// What a Drucker-Prager soil answers with, see SoilBatch.
+/// The response of a Drucker-Prager soil, see SoilBatch.
 class ConeResponse
 {
  public:

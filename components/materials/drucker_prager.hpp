@@ -60,7 +60,7 @@ struct DruckerPrager {
   State settled_state(const SettledStress& settled) const;
 };
 
-/// One return to the cone, the cut-off, or where they meet: exact, however long the increment, where a straight path
+/// Returns once, to the cone, the cut-off, or where they meet: exact, however long the increment, where a straight path
 /// starts without shear and does not meet the cut-off before the cone; of first order otherwise. An increment that is
 /// not finite is refused.
 template <int D>

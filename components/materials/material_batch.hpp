@@ -57,9 +57,9 @@ concept Soil = requires
   Model::is_soil;
 };
 
-/// Where a state in compression lies beside those that a model was made for: `looser` has less plastic volumetric
-/// strain than any tested sand, as what has dilated, `beyond` is past the largest strain or pressure. In tension sand
-/// has next to no stress, and lies `within`.
+/// Where a state in compression lies relative to the range that a model was made for: `looser` has less plastic
+/// volumetric strain than any tested sand, as after dilation; `beyond` is past the largest strain or pressure. In
+/// tension sand has next to no stress, and lies `within`.
 enum class Tested { within, looser, beyond };
 
 /// Elastic moduli [Pa], of one state or of as many as there are lanes.
@@ -81,23 +81,23 @@ using TangentModuli = ModuliOf<double>;
 template <int D, class State>
 struct MaterialBatch {
   std::span<const SymmetricTensor<D>> strain_increment;
-  /// At the end of the step, in the axes of space.
+  /// Deformation gradient at the end of the step, in the axes of space.
   std::span<const Matrix<D>> deformation_gradient;
   std::span<const State> old_state;
 
   /// The old stress, turned to the frame of the step's end; the update makes it the new one.
   std::span<SymmetricTensor<D>> stress;
-  /// New; may be the same memory as `old_state`.
+  /// State at the end of the step; may be the same memory as `old_state`.
   std::span<State> state;
-  /// For waves in the material as it now is [Pa]; zero where it has separated.
+  /// Moduli for waves at the end of the step [Pa]; zero where the material has separated.
   std::span<double> bulk_modulus;
   std::span<double> shear_modulus;
   /// Work on the step's plastic strain [J per m3 of current volume], not negative.
   std::span<double> plastic_work;
-  /// Of rings about the axis, which the deformation gradient in the plane does not have; empty elsewhere.
+  /// Hoop stretch of rings about the axis, which the deformation gradient in the plane does not have; empty elsewhere.
   std::span<const double> hoop_stretch{};
-  /// Of soil whose grains may part: gaps between them, as a volumetric strain; `opening` may be the same memory as
-  /// `old_opening`. Both empty where they may not.
+  /// Gaps between the grains of soil whose grains may part, as a volumetric strain; `opening` may be the same memory as
+  /// `old_opening`. Both are empty for other materials.
   std::span<const double> old_opening{};
   std::span<double> opening{};
 };

@@ -10,7 +10,7 @@ namespace tamp::components
 namespace
 {
 
-/// What a Mohr-Coulomb soil answers with, see SoilBatch.
+/// The response of a Mohr-Coulomb soil, see SoilBatch.
 class MohrCoulombResponse
 {
  public:

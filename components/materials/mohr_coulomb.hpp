@@ -55,7 +55,7 @@ struct MohrCoulomb {
   State settled_state(const SettledStress& settled) const;
 };
 
-/// One return to the surface, exact on each of its parts. An increment that is not finite is refused.
+/// Returns once to the surface, exact on each of its parts. An increment that is not finite is refused.
 template <int D>
 BatchFailure update(const MohrCoulomb& soil, const MaterialBatch<D, SoilState>& batch, UpdateCounts& counts);
 

@@ -17,7 +17,7 @@ struct MohrCoulombStrength {
   Lanes cohesion;      ///< 2 c cos(phi) [Pa]
   Lanes tension;       ///< at most that of the apex [Pa]
 
-  /// How far two principal stresses are beyond it [Pa].
+  /// Amount by which two principal stresses exceed the strength [Pa].
   Lanes beyond(const Lanes& greater, const Lanes& lesser) const
   {
     return (greater - lesser) + (greater + lesser) * sin_friction - cohesion;
@@ -58,7 +58,8 @@ class MohrCoulombReturn
     return now;
   }
 
-  /// Of trial values, with the mean stress at the cut-off, and as much of the deviator as the strength has left there.
+  /// Returns trial values to the cut-off: the mean stress is at the cut-off, with as much of the deviator as the
+  /// strength allows there.
   PrincipalValues<Lanes> at_cut_off(const PrincipalValues<Lanes>& values) const
   {
     const Lanes mean = (values[0] + values[1] + values[2]) / 3.0;
@@ -73,8 +74,8 @@ class MohrCoulombReturn
  private:
   static Lanes lame(const ModuliOf<Lanes>& m) { return m.bulk_modulus - 2.0 / 3.0 * m.shear_modulus; }
 
-  /// Two planes at once: the first with the greatest and the least stress, the second with the one that has met another
-  /// in place of that.
+  /// Returns to two planes at once: the first with the greatest and the least stress, the second with the stress that
+  /// has met another in place of that.
   PrincipalValues<Lanes> on_edge(const PrincipalValues<Lanes>& trial, const Lanes& beyond, const Lanes& own,
                                  const Mask<Lanes>& upper_meet) const
   {
@@ -90,7 +91,7 @@ class MohrCoulombReturn
   }
 
   const MohrCoulombStrength& strength_;
-  /// What a unit of flow takes from the greatest stress, gives the least, and takes from all.
+  /// Amounts that a unit of flow takes from the greatest stress, gives the least, and takes from all.
   Lanes up_, down_, all_;
   Lanes lame_;
 };

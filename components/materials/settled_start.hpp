@@ -11,10 +11,10 @@
 namespace tamp::components
 {
 
-/// What a particle of ground that has settled bears.
+/// The stress that a particle of settled ground bears.
 struct SettledStress {
   SymmetricTensor<3> stress;  ///< Pa, tension positive; without shear along the axes
-  double greatest;            ///< Pa: the most that it has been pressed along an axis, compression positive
+  double greatest;            ///< Pa: the greatest stress that it has borne along an axis, compression positive
 };
 
 /// Models whose bodies may start settled. `settled_state` is that of a particle; it throws BadValue where the stress is

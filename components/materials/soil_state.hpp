@@ -7,7 +7,7 @@
 namespace tamp::components
 {
 
-/// What a particle of soil keeps from step to step where moduli and strength are formulas.
+/// The state that a particle of soil keeps from step to step where moduli and strength are formulas.
 template <class Number>
 struct SoilStateOf {
   Number plastic_volumetric = 0;  ///< compression positive: dilation makes it fall
@@ -23,7 +23,7 @@ inline constexpr std::array<StateColumn<Model>, 2> soil_columns{{
      [](const Model&, const SoilState& s, const Invariants&) { return s.equivalent_plastic; }},
 }};
 
-/// Of these columns.
+/// Extremes of these columns.
 inline constexpr std::array<StateExtreme, 3> soil_extremes{
     {{.column = 0}, {.column = 0, .greatest = false}, {.column = 1}}};
 

@@ -10,8 +10,8 @@
 #include "components/materials/soil_state.hpp"
 #include "components/tensor_lanes.hpp"
 
-/// What the soils that consist of numbers have in common: a trial stress, its return to the strength, and grains that
-/// part and meet again. Requirements of a `Response`, what one of them answers with in lanes:
+/// Common update of the soils that consist of numbers: a trial stress, its return to the strength, and grains that part
+/// and meet again. Requirements of a `Response`, with which each of these soils answers in lanes:
 ///
 ///  - `trial<D>(old stress, strain increment, state)` gives a SoilTrial;
 ///  - `returned<D>(trial, state)` gives a SoilReturn;
@@ -28,14 +28,14 @@ struct SoilTrial {
   Lanes old_pressure;  ///< at the start, compression positive
 };
 
-/// Where a trial stress ends, and how it flowed.
+/// The return of a trial stress: where it ends, and how it flowed.
 template <int D>
 struct SoilReturn {
   SymmetricTensor<D, Lanes> stress;
   Lanes expansion;   ///< plastic, volumetric
   Lanes equivalent;  ///< sqrt(2/3 de:de) of the plastic strain's deviator
   Lanes work;        ///< of the stress on the plastic strain [J/m3]
-  /// Whether it ended at the greatest mean tension that it bears. What it expanded by there opens gaps.
+  /// Whether it ended at the greatest mean tension that it bears. The expansion there opens gaps.
   Mask<Lanes> is_torn;
 };
 
@@ -100,8 +100,8 @@ class SoilBatch
     if constexpr (requires { response_.is_beyond(pressure); }) count_range(i, response_.is_beyond(pressure));
   }
 
-  /// Takes all stress from soil that was torn in this step, and keeps its gap. Its plastic work is what it had stored,
-  /// and the work of the step: `released`.
+  /// Takes all stress from soil that was torn in this step, and keeps its gap. Its plastic work is `released`: the
+  /// energy that it had stored, and the work of the step.
   void part(std::size_t i, const Mask<Lanes>& parts, const Mask<Lanes>& finite, const Gaps& gaps, const Lanes& released,
             SoilReturn<D>& now)
   {

@@ -120,7 +120,7 @@ double in_range(const TabularCap& sand, const CapState& state, const Invariants&
       sand.parameters().modulus);
 }
 
-/// Modulus of the last update; before the first, that of the state which the particle starts with.
+/// Tangent bulk modulus of the last update [Pa]; before the first, that of the particle's initial state.
 double tangent_bulk_modulus(const TabularCap& sand, const CapState& state, const Invariants& stress)
 {
   const bool is_fresh = state.bulk_modulus == 0 && state.separation_volume == 0;
@@ -230,7 +230,7 @@ class CapBatch
     tile_.put(i, n, particles, {-trace(strain), e_j2, sqrt(e_j2)}, sound && !parted.still);
   }
 
-  /// That of lane l of the n particles from `begin` on; what is left over repeats the last.
+  /// The old state of lane l of the n particles from `begin` on; lanes beyond them repeat the last.
   const CapState& old_state(std::size_t begin, std::size_t n, std::size_t l) const
   {
     return batch_.old_state[begin + std::min(l, n - 1)];
@@ -254,7 +254,7 @@ class CapBatch
     return gaps;
   }
 
-  /// Over that at the start.
+  /// Volume of a particle over that at the start.
   double volume_of(std::size_t i) const
   {
     const double in_plane = batch_.deformation_gradient[i].determinant();
@@ -306,7 +306,7 @@ class CapBatch
     }
   }
 
-  /// Those of the n particles from `begin` on, all of which found a stress.
+  /// Sets the states of the n particles from `begin` on, all of which found a stress.
   void set_states(std::size_t begin, std::size_t n, const CapParticleOf<Lanes>& now)
   {
     std::array<double*, n_lanes> states;
@@ -320,7 +320,7 @@ class CapBatch
                         states, n);
   }
 
-  /// That of particle i, which found the stress of lane l. It may have joined, or be torn now.
+  /// Sets the state of particle i, which found the stress of lane l. It may have joined, or be torn now.
   void set_state(std::size_t i, const CapParticleOf<Lanes>& now, const Gaps& parted, std::size_t l)
   {
     const CapState old = batch_.old_state[i];
@@ -340,7 +340,7 @@ class CapBatch
     if (sand_.keeps_gaps()) batch_.opening[i] = opening;
   }
 
-  /// The tile has left its stress, its moduli and its plastic work at zero.
+  /// Keeps the particle apart; the tile has left its stress, its moduli and its plastic work at zero.
   void stay_apart(std::size_t i, double opening)
   {
     batch_.state[i] = batch_.old_state[i];
@@ -348,7 +348,8 @@ class CapBatch
     ++counts_.apart;
   }
 
-  /// With gaps, what it was stretched by beyond the vertex is one, and its plastic volume stays as it was.
+  /// Separates the particle. With gaps, its stretch beyond the vertex becomes a gap, and its plastic volume stays as it
+  /// was.
   void part(std::size_t i, double pressure, double old_plastic)
   {
     CapState& state = batch_.state[i];

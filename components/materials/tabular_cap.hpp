@@ -33,7 +33,8 @@ struct CapState {
   double equivalent_plastic = 0;  ///< sum of sqrt(2/3 de:de), e the plastic strain's deviator
   double bulk_modulus = 0;        ///< that the last update ended with; 0 before the first and where it is apart
   std::int32_t n_failures = 0;    ///< updates that failed, and left stress and strains as they were
-  /// Volume over that at the start, at which it came apart; 0 while it is whole. Not a double, so that a state takes no
+  /// Volume at which it separated, over that at the start; 0 while it is whole. Not a double, so that a state takes no
+  /// more than 40 bytes.
   /// more than 40 bytes.
   float separation_volume = 0;
 };
@@ -94,7 +95,7 @@ class TabularCap
   double bulk_modulus(const CapState& state, double pressure) const;
   TangentModuli initial_moduli() const;
 
-  /// Of a state under `pressure`.
+  /// Whether a state under `pressure` is within the tested range.
   Tested tested(const CapState& state, double pressure) const;
 
   /// Sand with less plastic volumetric strain is looser than any that was tested.
@@ -110,8 +111,8 @@ class TabularCap
   /// that was loaded to it.
   double plastic_volumetric_at_crush(double pressure) const;
 
-  /// That of sand which was loaded to the greatest pressure on it, and not more: it is the crush pressure at least.
-  /// Throws BadValue for a stress outside of the yield surface.
+  /// The state of sand which was loaded to the greatest pressure on it, and not more: that is the crush pressure at
+  /// least. Throws BadValue for a stress outside of the yield surface.
   State settled_state(const SettledStress& settled) const;
 
  private:

@@ -18,7 +18,7 @@ namespace tamp::components
 class PressureModulus
 {
  public:
-  /// One curve for each plastic strain (ascending, the first 0): elastic strain as a function of pressure.
+  /// Takes a curve for each plastic strain (ascending, the first 0): elastic strain as a function of pressure.
   PressureModulus(std::span<const double> curve_plastic, std::span<const MonotoneCubic> curves);
 
   template <class Number>

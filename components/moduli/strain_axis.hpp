@@ -12,7 +12,7 @@
 namespace tamp::components
 {
 
-/// One side of a rectangle of strains, divided into squares: sections between given strains, each divided evenly.
+/// A side of a rectangle of strains, divided into squares: sections between given strains, each divided evenly.
 class StrainAxis
 {
  public:

@@ -114,7 +114,7 @@ class UnloadingTable
 
   static constexpr double least_elastic = -1e-3;
 
-  // One entry a curve, the first for plastic strain zero; curves are elastic strain of pressure.
+  // An entry for each curve, the first for plastic strain zero; curves are elastic strain of pressure.
   std::vector<double> curve_plastic_;
   std::vector<std::ptrdiff_t> curve_row_;
   std::vector<MonotoneCubic> measured_;

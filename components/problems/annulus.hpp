@@ -11,7 +11,7 @@
 namespace tamp::components
 {
 
-/// What lies at one distance from the centre of a problem: circles in the plane, cylinders about the axis of an
+/// The shells at equal distance from the centre of a problem: circles in the plane, cylinders about the axis of an
 /// axisymmetric scene, or spheres.
 enum class Shells { circles, cylinders, spheres };
 
@@ -60,7 +60,7 @@ Shells shells_of(const P& problem, const ProblemBody& body)
   return body.axisymmetric ? Shells::cylinders : Shells::circles;
 }
 
-/// Where a point is, seen from a centre.
+/// A point in polar coordinates about a centre.
 struct PolarPlace {
   double radius;  ///< m, above 0
   Vector<3> outwards;

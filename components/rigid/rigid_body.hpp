@@ -30,9 +30,9 @@ struct MassProperties {
 MassProperties mass_properties(std::span<const double> mass, std::span<const Vector3> position, double particle_size,
                                bool plane);
 
-/// Of the half of a body that a plane of symmetry cuts, normal to `axis` at `place` [m], from those of that half by
-/// itself: half of those of the whole, whose centre lies on the plane and which turns about the plane's normal without
-/// wobbling.
+/// Mass properties of the half of a body that is cut by a plane of symmetry, normal to `axis` at `place` [m], from
+/// those of that half by itself: half of those of the whole, whose centre lies on the plane and which turns about the
+/// plane's normal without wobbling.
 MassProperties half_of_whole(const MassProperties& half, int axis, double place);
 
 /// Where a rigid body is, and how it moves.

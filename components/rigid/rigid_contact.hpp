@@ -49,7 +49,7 @@ struct RigidCoupling {
 
   /// The motion of a body which has `free` momenta before contact: the one whose change of momentum is minus the sum of
   /// all J. Implicit in the body's own velocity, so that it holds however light the body is beside what it touches.
-  /// What is held keeps its part of the free motion.
+  /// Components that are held keep their part of the free motion.
   RigidMotion solve(const MassProperties& body, const RigidState& free, const Held& held = nothing_held) const;
 };
 

@@ -14,7 +14,7 @@ inline double greatest_own_stiffness(int dimension, int n_per_axis, double along
   return portable::pow(std::max(1.0, 0.5 * n_per_axis), dimension - 1) * dimension * along_axis;
 }
 
-/// What the hoop of a particle alone adds to that at worst, half its size from the axis: (h / r)^2.
+/// The most that the hoop of a particle alone adds to its own stiffness, half its size from the axis: (h / r)^2.
 inline double greatest_hoop_stiffness(int n_per_axis)
 {
   return std::max(1.0, 0.5 * n_per_axis) * 4 * n_per_axis * n_per_axis;

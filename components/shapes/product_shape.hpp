@@ -34,7 +34,7 @@ class ProductShape
   /// The reach of a particle anywhere in a cell, in cells; see interpolator.hpp.
   double reach() const { return 0.5 * Support; }
 
-  /// That of a particle at `x` that is not deformed.
+  /// The stencil of a particle at `x` that is not deformed.
   Stencil<D, Support> at(const GridBlock<D>& block, const Vector<D>& x) const
   {
     const Vector<D> place = block.in_cells(x);

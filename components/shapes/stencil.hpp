@@ -32,7 +32,7 @@ class StencilBatch
   static constexpr std::size_t capacity = 32;
   static_assert(capacity % n_lanes == 0);
 
-  /// Sets those of n_lanes particles from `p` on; `first` has the places of their first nodes as whole numbers.
+  /// Sets the stencils of n_lanes particles from `p` on; `first` has the places of their first nodes as whole numbers.
   void set(std::size_t p, const Lanes& first, const Stencil<D, Support, Lanes>& stencil)
   {
     for (std::size_t l = 0; l < n_lanes; ++l) first_[p + l] = static_cast<std::ptrdiff_t>(double{first[l]});
@@ -46,19 +46,19 @@ class StencilBatch
 
   /// Place of the first node of a particle.
   std::ptrdiff_t first(std::size_t p) const { return first_[p]; }
-  /// That of one particle.
+  /// The stencil of one particle.
   Stencil<D, Support> operator[](std::size_t p) const
   {
     return made<double>(first_[p], [p](const auto& values) { return values[p]; });
   }
-  /// Those of n_lanes particles from `p` on.
+  /// The stencils of n_lanes particles from `p` on.
   Stencil<D, Support, Lanes> lanes(std::size_t p) const
   {
     return made<Lanes>(0, [p](const auto& values) { return Lanes(&values[p], std::experimental::element_aligned); });
   }
 
  private:
-  /// By axis, node along it, and particle.
+  /// Weights or slopes by axis, node along it, and particle.
   using Factors = std::array<std::array<std::array<double, capacity>, Support>, D>;
 
   template <class Number, class Take>
@@ -189,7 +189,7 @@ template <int D, int Support, class Visit>
     }
   });
 }
-/// Calls `visit(node, weight)` for them.
+/// Calls `visit(node, weight)` for every node of a stencil.
 template <int D, int Support, class Visit>
 [[gnu::always_inline]] inline void for_each_weight(const GridBlock<D>& block, const Stencil<D, Support>& stencil,
                                                    Visit&& visit)

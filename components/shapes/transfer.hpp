@@ -45,8 +45,8 @@ struct ParticleShare {
   std::array<Quad, D> with_derivative;
 };
 
-/// What the hoop of a particle adds to the second of those times its weight: the force of its hoop stress on r, and
-/// V / r to the surface gradient, which so vanishes within a body as it does in a slab.
+/// The share of a particle's hoop that goes with its weight, to be added to the second four: the force of its hoop
+/// stress on r, and V / r to the surface gradient, which so vanishes within a body as it does in a slab.
 inline Quad hoop_share(const ParticleSources<2>& from, std::size_t p, double surface)
 {
   const double per_radius = 1 / from.places.position[p][0];
@@ -81,7 +81,7 @@ std::array<Quad, n> in_fours(const std::array<double, n>& numbers)
   return fours;
 }
 
-/// What particle p brings of a gradient of momentum [kg/s], m_p grad v_p, or m_p B_p D_p^-1 of first moments B_p of
+/// The gradient of momentum that particle p brings [kg/s]: m_p grad v_p, or m_p B_p D_p^-1 from first moments B_p of
 /// velocities and the second moments D_p of its weights (APIC, see apic.hpp): `inverse_moments()` is D_p^-1.
 template <int D, class InverseMoments>
 [[gnu::always_inline]] inline Matrix<D> momentum_gradient(const ParticleSources<D>& from, std::size_t p,
@@ -109,8 +109,8 @@ std::array<Quad, D> beside_mass(const Matrix<D>& gradient)
 ///
 /// Particles that carry gradients bring m_p S_ip (v_p + grad v_p (x_i - x_p)) (Wallstedt & Guilkey, CMES 19, 2007). A
 /// rigid motion then comes to the grid as it is, where without it nodes at a surface get the velocity of the matter
-/// that they reach, which lies to one side of them. What the gradients bring sums to zero over the nodes: momentum
-/// stays what it is.
+/// that they reach, which lies to one side of them. The contributions of the gradients sum to zero over the nodes, so
+/// that momentum is conserved.
 template <bool with_surface = true, bool carries = false, Plane plane = Plane::slab, class Interpolator,
           int D = Interpolator::dimension>
 void particles_to_grid(const Interpolator& interpolator, const GridBlock<D>& block, const ParticleSources<D>& from,
@@ -128,10 +128,10 @@ void particles_to_grid(const Interpolator& interpolator, const GridBlock<D>& blo
       columns = beside_mass<D>(momentum_gradient(
           from, p, [&] { return Eigen::DiagonalMatrix<double, D>(second_moments_of(stencil, arms).cwiseInverse()); }));
     }
-    // Kept in registers, which what is stored at the nodes might otherwise seem to change.
+    // Kept in registers: otherwise stores to the nodes might seem to change them.
     const auto weight = in_fours(stencil.weight[0]), slope = in_fours(stencil.slope[0]);
     for_each_row<D>(block, stencil, [&, sums](const StencilRow<D>& row) {
-      // Common to the nodes of the row: what goes with their weights along x, and with the slopes of those.
+      // Common to the nodes of the row: the factors of their weights along x, and of the slopes of these.
       Quad with_weight = share.with_weight;
       if constexpr (carries) {
         for (std::size_t k = 1; k < D; ++k) with_weight += arms[k][row.place[k - 1]] * columns[k];
@@ -198,12 +198,13 @@ struct ParticleMotion {
 /// beside |grad S_ip|^2.
 struct OwnStiffness {
   std::span<const double> mass;
-  /// Of nodes [1/kg], 0 at those that do not count.
+  /// Inverse masses of the nodes [1/kg], 0 at those that do not count.
   const double* inverse_mass = nullptr;
   std::span<double> stiffness;
 };
 
-/// What particles take from the grid: all spans of one length, or, but the first, empty where nobody asks for them.
+/// The data that particles take from the grid: all spans of one length; all but the first are empty where nobody needs
+/// them.
 template <int D>
 struct ParticleTargets {
   std::span<ParticleMotion<D>> motion;

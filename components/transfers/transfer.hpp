@@ -56,7 +56,7 @@ struct PlainTransfer {
   static constexpr int n_passes() { return 0; }
   static constexpr double amplification() { return 1; }
 
-  /// That of the nodes.
+  /// The velocity of the nodes.
   template <int D>
   Vector<D> velocity(const Vector<D>&, const ParticleMotion<D>& motion, const Vector<D>&) const
   {
