@@ -28,7 +28,7 @@ const tasks::SceneMaterial& material_of(const tasks::Scene& scene, const tasks::
   return scene.materials[static_cast<std::size_t>(body.material)];
 }
 
-/// Such as "about 1100 steps for 3200, 0.4 of the time".
+/// A comparison in words, such as "about 1100 steps for 3200, 0.4 of the time".
 std::string compared(const tasks::Pace& other, const tasks::Pace& own)
 {
   constexpr double noise = 0.9;
@@ -53,7 +53,7 @@ tasks::Scene with_rigid(tasks::Scene scene, const tasks::SceneBody& body)
   return scene;
 }
 
-/// How sure the depth of a rigid body is.
+/// The error of a rigid body's depth, in words.
 std::string depth_if_rigid(const Rigidity& rigidity)
 {
   if (rigidity.is_soft()) {
@@ -64,7 +64,7 @@ std::string depth_if_rigid(const Rigidity& rigidity)
                      rigidity.is_safe() ? "within 1 %" : "not within 1 %", 100 * rigidity.depth_error());
 }
 
-/// Which body bounds the step, as far as one that goes into another is rigid or could be.
+/// Advises on a body that bounds the step, where a body that goes into another is rigid or could be.
 void advise_on_step(const tasks::Scene& scene, const tasks::SceneBody& body, const Penetration& penetration,
                     const std::optional<tasks::Pace>& pace, Lines& lines)
 {
@@ -86,7 +86,7 @@ void advise_on_step(const tasks::Scene& scene, const tasks::SceneBody& body, con
                               body.name, compared(*rigid, *pace), depth));
 }
 
-/// Shorter steps than are known to be stable cost as much more.
+/// Advises on a time step rule whose steps are shorter than those known to be stable, which costs as much more.
 void advise_on_rule(const tasks::Scene& scene, const std::optional<tasks::Pace>& pace, Lines& lines)
 {
   if (scene.time.rule != components::StepRule::published || scene.time.multiplier >= 0.5 || !pace) return;
@@ -107,8 +107,8 @@ bool is_compacted_sand(const tasks::Scene& scene, const tasks::SceneBody& ground
 constexpr const char* not_known =
     "not known for this scene (`tamp check SCENE --study OUT.json` writes the study that tells)";
 
-/// By how much the force is too large on a body that goes into sand as the punch did that was measured: with a flat
-/// end, in the plane, at 200 m/s.
+/// Relative excess of the force on a body that goes into sand like the punch that was measured: with a flat end, in the
+/// plane, at 200 m/s.
 std::optional<MeasuredError> force_error(const CheckedScene& checked, const tasks::SceneBody& body,
                                          const Penetration& penetration)
 {
@@ -144,7 +144,7 @@ void advise_on_cells(const CheckedScene& checked, const tasks::SceneBody& body, 
   lines.push_back(line);
 }
 
-/// What the front is about, of a scene.
+/// The parts of a scene's method that the front of cost and error compares, in words.
 std::string method_of(const tasks::Scene& scene)
 {
   const auto& viscosity = scene.artificial_viscosity;
@@ -153,8 +153,8 @@ std::string method_of(const tasks::Scene& scene)
   return fmt::format("\"{}\", \"{}\", {}", scene.interpolator.word(), scene.transfer.word(), coefficients);
 }
 
-/// Of a method that is not on the front of cost and error: how far it is off, as far as that was measured, and the
-/// front.
+/// Advice on a method that is not on the front of cost and error: its error, as far as that was measured, and the
+/// methods of the front.
 std::string off_the_front(const tasks::Scene& scene, const std::string& what, const std::optional<MeasuredError>& error,
                           const std::string& front)
 {
@@ -165,7 +165,7 @@ std::string off_the_front(const tasks::Scene& scene, const std::string& what, co
                      error->text(), error->command, front);
 }
 
-/// Sand that is compacted fast, in the plane, by a body that is many cells thick.
+/// Advises on the method for sand that is compacted fast, in the plane, by a body that is many cells thick.
 void advise_on_plane_method(const tasks::Scene& scene, Lines& lines)
 {
   constexpr double cells_a_metre = 100, on_front_within = 0.01;
@@ -176,7 +176,7 @@ void advise_on_plane_method(const tasks::Scene& scene, Lines& lines)
                                 "with \"cubic_spline\", \"flip\", viscosity 1 / 4 it is 0.5 %"));
 }
 
-/// The same by a body a few cells thick, or in space.
+/// The same for a body that is a few cells thick, or in space.
 void advise_on_thin_method(const tasks::Scene& scene, Lines& lines)
 {
   if (scene.interpolator == tasks::Interpolator("gimp") && scene.transfer == tasks::Transfer("tflip")) return;
@@ -186,7 +186,7 @@ void advise_on_thin_method(const tasks::Scene& scene, Lines& lines)
                                 "with \"gimp\", \"tflip\" it is 0.1 %, for 1.27 times a step"));
 }
 
-/// Soil that is pressed, and hardly changes its volume.
+/// Advises on the method for soil that is pressed, and hardly changes its volume.
 void advise_on_pressed_method(const tasks::Scene& scene, Lines& lines)
 {
   const bool on_front = scene.interpolator == tasks::Interpolator("quadratic_spline") &&
@@ -205,7 +205,7 @@ bool is_slab(const tasks::Scene& scene)
          (is_one_cell_thick(scene, 0) || is_one_cell_thick(scene, 1) || is_one_cell_thick(scene, 2));
 }
 
-/// The front that is meant is that of cost against error in cells_and_method.md and which_method_for_least_cost.md.
+/// Advises on the method by the front of cost against error in cells_and_method.md and which_method_for_least_cost.md.
 void advise_on_method(const tasks::Scene& scene, const tasks::SceneBody& body, Lines& lines)
 {
   const auto& model = material_of(scene, body).model;
@@ -235,7 +235,8 @@ std::string spacing_in_words(const tasks::Scene& scene, int material)
   return fmt::format("{:.2g} m apart, {:.2g} to its half width", spacing, penetration->half_width / spacing);
 }
 
-/// What meets a rigid body by other normals meets its particles, whose lattice is blunter than the body.
+/// Advises on contact with a rigid body by other normals than those of its solid: it is then with the body's particles,
+/// whose lattice is blunter than the body.
 void advise_on_contact(const tasks::Scene& scene, Lines& lines)
 {
   if (scene.is_periodic()) return;

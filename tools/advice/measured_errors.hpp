@@ -8,12 +8,12 @@
 namespace tamp::tools
 {
 
-/// What a method has been found to be off, relative: on just so many cells, or between the numbers that were tried.
+/// The measured relative error of a method, for one number of cells, or between the numbers of cells that were tried.
 struct MeasuredError {
   double least, greatest;
-  std::string command;  ///< that measures it anew
+  std::string command;  ///< the command that measures it anew
 
-  /// Such as "8 %" or "8 to 16 %".
+  /// The error in words, such as "8 %" or "8 to 16 %".
   std::string text() const;
 };
 

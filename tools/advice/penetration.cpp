@@ -18,10 +18,11 @@ namespace
 using Eigen::Vector3d;
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
-/// What cells, and directions along an axis, are off by rounding.
+/// Rounding error of numbers of cells, and of directions along an axis.
 constexpr double rounding = 1e-9;
 
-/// Of the wall at which the grid ends in a direction, x . direction [m]; infinite where it is open, or no axis leads.
+/// Place of the wall at which the grid ends in a direction, x . direction [m]; infinite where the grid is open there,
+/// or the direction is not along an axis.
 double wall_in(const tasks::Scene& scene, const Vector3d& direction)
 {
   for (int axis = 0; axis < scene.grid.dimension; ++axis) {
@@ -40,7 +41,7 @@ bool lies_on_wall(const tasks::Scene& scene, const tasks::SceneBody& body, const
   return reach(body, direction) > wall_in(scene, direction) - 0.5 * spacing;
 }
 
-/// One in the plane, two in space, along the grid's axes where the way is.
+/// The directions across the way: one in the plane, two in space, along the grid's axes where the way is.
 std::vector<Vector3d> directions_across(const tasks::Scene& scene, const Vector3d& way)
 {
   if (scene.grid.dimension == 2) return {Vector3d(-way.y(), way.x(), 0)};
@@ -58,13 +59,14 @@ double half_width(const tasks::Scene& scene, const tasks::SceneBody& body, const
   return n_walls == 1 ? width : width / 2;
 }
 
-/// By how much two bodies cover each other, seen from across [m].
+/// Width along `across` over which two bodies cover each other [m].
 double overlap(const tasks::SceneBody& a, const tasks::SceneBody& b, const Vector3d& across)
 {
   return std::min(reach(a, across), reach(b, across)) + std::min(reach(a, -across), reach(b, -across));
 }
 
-/// Whether a body runs into another one by their bounding boxes: what covers it by less than half a cell slides along.
+/// Whether a body runs into another one by their bounding boxes: where they cover each other by less than half a cell,
+/// it slides along.
 bool runs_into(const tasks::Scene& scene, const tasks::SceneBody& body, const tasks::SceneBody& other,
                const Vector3d& way)
 {
@@ -77,7 +79,7 @@ bool runs_into(const tasks::Scene& scene, const tasks::SceneBody& body, const ta
   });
 }
 
-/// Of waves in the unstrained material [Pa].
+/// Stiffness of the unstrained material for waves [Pa].
 double stiffness_of(const tasks::Scene& scene, const tasks::SceneBody& body)
 {
   if (body.rigid) return infinity;
@@ -85,7 +87,7 @@ double stiffness_of(const tasks::Scene& scene, const tasks::SceneBody& body)
   return K + 4 * G / 3;
 }
 
-/// The half width with which a body runs into another one, which is infinite where it does not [m].
+/// The half width with which a body runs into another one [m]; infinite where it does not.
 double half_width_into(const tasks::Scene& scene, const tasks::SceneBody& body, const tasks::SceneBody& other)
 {
   const Vector3d way = way_of(scene, body) - way_of(scene, other);
@@ -99,7 +101,7 @@ double half_width_into(const tasks::Scene& scene, const tasks::SceneBody& body, 
   return least;
 }
 
-/// Down to two digits; what is a rounding error below a number of two digits is that number.
+/// Rounds down to two digits; a number that is below one of two digits by a rounding error becomes that one.
 double rounded_down(double x)
 {
   const double digit = std::pow(10, std::floor(std::log10(x)) - 1);

@@ -11,19 +11,20 @@ namespace tamp::tools
 /// The greatest x . direction of a body's points at the start [m].
 double reach(const tasks::SceneBody& body, const Eigen::Vector3d& direction);
 
-/// How far a body's velocity or its drive takes it by the end of the scene, if nothing stops it [m].
+/// The way that a body's velocity or its drive takes it by the end of the scene, if nothing stops it [m].
 Eigen::Vector3d way_of(const tasks::Scene& scene, const tasks::SceneBody& body);
 
 /// The speed of compression waves in a body's unstrained material [m/s].
 double waves_in(const tasks::Scene& scene, const tasks::SceneBody& body);
 
-/// With fewer cells to a half width the force on it is a tenth or more too large, see docs/how_to/cells_and_method.md.
+/// Fewest cells to a half width: with fewer the force on a body is a tenth or more too large, see
+/// docs/how_to/cells_and_method.md.
 inline constexpr double least_cells_per_half_width = 6;
 
 /// Whether no other body is in a body's way.
 bool meets_no_other(const tasks::Scene& scene, const tasks::SceneBody& body, const Eigen::Vector3d& way);
 
-/// That a body is on its way into a softer one of another material.
+/// A body on its way into a softer one of another material.
 struct Penetration {
   const tasks::SceneBody* into;
   /// Half of the body's least width across that way, or all of it from a wall on which the body lies: a half or a
@@ -37,8 +38,8 @@ struct Penetration {
   double fine_cell_size() const;
 };
 
-/// None where it meets no other body, or only slides along it, or reaches from wall to wall. Of several bodies that it
-/// meets the one on whose way it is the thinnest.
+/// The penetration of a body, if it has one: none where it meets no other body, only slides along it, or reaches from
+/// wall to wall. If it meets several bodies, that one of them into which it is the thinnest.
 std::optional<Penetration> penetration_of(const tasks::Scene& scene, const tasks::SceneBody& body);
 
 }  // namespace tamp::tools

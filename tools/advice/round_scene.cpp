@@ -61,11 +61,11 @@ double spread(int i, int dimension)
   return place - std::floor(place);
 }
 
-/// Of a particle in the plane, over that of one in space (docs/reference/advice.md).
+/// Cost of a particle in the plane over that of one in space (docs/reference/advice.md).
 constexpr double plane_particle_cost = 0.5;
 
 constexpr int n_samples = 16'000;
-/// Points that may be off where surfaces have facets or are cut by rounding.
+/// Share of the points that may differ, as surfaces have facets or are cut by rounding.
 constexpr double most_off = 0.01;
 
 /// Whether the solid goes on across the line as far as the grid does.

@@ -20,15 +20,16 @@ namespace tamp::tools
 namespace
 {
 
-/// From a body to a side of the ground, along an axis.
+/// The way from a body to a side of the ground, along an axis.
 struct Side {
   int axis;
   bool is_upper;
-  /// From the body to the ground's end [m]; 0 or less where the body reaches beyond it.
+  /// Distance from the body to the ground's end [m]; 0 or less where the body reaches beyond it.
   double room;
-  /// What the ground's end need be away, so that no wave from there is at the body in time [m].
+  /// Least distance of the ground's end at which no wave comes back from it to the body in time [m].
   double needed;
-  /// When a wave is there, and when it is back [s]; of a body that is as fast as waves, when that itself is there.
+  /// Times at which a wave is at the ground's end, and back at the body [s]; for a body as fast as waves, the time at
+  /// which it is there itself.
   double there, back;
   bool is_outrun;
 
@@ -36,7 +37,7 @@ struct Side {
   Eigen::Vector3d direction() const { return (is_upper ? 1 : -1) * Eigen::Vector3d::Unit(axis); }
 };
 
-/// Where along a direction waves start: at the nose, if the body has one, or else all along it [m].
+/// Place along a direction where waves start [m]: at the nose, if the body has one, or else all along it.
 double start_of_waves(const tasks::SceneBody& body, const Eigen::Vector3d& direction)
 {
   return body.axis ? Eigen::Vector3d(body.axis->nose.data()).dot(direction) : reach(body, direction);
@@ -71,10 +72,11 @@ std::vector<Side> sides_of(const tasks::Scene& scene, const tasks::SceneBody& bo
   return sides;
 }
 
-/// Whole cells at a side that no wave comes back from in time, and no body but the ground comes near to.
+/// Number of whole cells at a side that can be left out: no wave comes back from there in time, and no body but the
+/// ground comes near.
 int spare_cells(const tasks::Scene& scene, const tasks::SceneBody& ground, const Side& side)
 {
-  // Contact and weights spread a blow over a few cells at once.
+  // Contact and weights spread an impact over a few cells at once.
   constexpr double spread = 4, near = 3;
   const double h = scene.grid.cell_size;
   double spare = side.room - side.needed - spread * h;
@@ -114,7 +116,7 @@ struct SmallerGrid {
     }
   }
 
-  /// As --set has it, with the ground cut to it.
+  /// The smaller grid as options --set, with the ground cut to it.
   std::string settings(const tasks::SceneBody& ground) const
   {
     std::string text = fmt::format("/grid/lower={} /grid/upper={} /grid/patches=[{}]", list_of(lower), list_of(upper),

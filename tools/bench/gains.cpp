@@ -28,9 +28,10 @@ struct SlowedTask {
   std::string name;
   double share = 0;
   double on_chain = 0;
-  /// By replay of the run as it is, by its gain of a tenth, and as they were.
+  /// Times of a step with the slower task [s], by round: by replay of the run as it is, extrapolated from the gain of a
+  /// tenth, and measured.
   std::vector<double> replayed{}, extrapolated{}, measured{};
-  /// Measured over replayed, of each round.
+  /// Measured over replayed time, by round.
   std::vector<double> ratio{};
 };
 
@@ -72,7 +73,7 @@ std::vector<std::string> typical_tasks(const tasks::Scene& scene, int n_threads)
       tasks::Simulation::make(scene, executor, {}, [&](runtime::TaskList& step) { known = names_of(step); });
   while (run->n_steps() < 4 * steps_of_turn && run->time() < scene.time.end) run->advance(scene.time.end);
   std::vector<runtime::TaskStatistics> all = run->engine().profile().tasks;
-  // What the runtime itself does is no scene's task.
+  // Only tasks of the scene count, none of the runtime's own.
   std::erase_if(all, [&](const auto& task) { return std::ranges::find(known, task.name) == known.end(); });
   std::vector<std::string> found = dearest(all, [](const auto& task) { return task.on_chain > 0.5; });
   for (const std::string& name : dearest(all, [](const auto& task) { return task.on_chain < 0.1; })) {
@@ -190,9 +191,9 @@ class GainBenchmark
   const GainOptions& options_;
   tasks::Scene scene_;
   std::vector<SlowedTask> tasks_;
-  /// Of the runs as they are [s].
+  /// Time of a step of the unchanged runs [s].
   std::vector<double> steps_;
-  /// The part of each round in which its workers had their cores.
+  /// The share of each round in which its workers had their cores.
   std::vector<double> core_share_;
 };
 

@@ -39,7 +39,7 @@ struct States {
   std::vector<double> pressure, elastic, plastic;
 };
 
-/// In compression, where the tests measured.
+/// States in compression, where the tests measured.
 States states_of(const UnloadingTable& table)
 {
   const components::StrainRange range = table.range();
@@ -70,7 +70,7 @@ EvaluationLoop loop_of(const Function& point_at)
   };
 }
 
-/// The state form: one state after the other, and lanes of them.
+/// The state form, for one state after the other, and below for lanes of them.
 template <components::ElasticModel Model>
 EvaluationLoop single_of(const Model& model)
 {
@@ -100,13 +100,13 @@ EvaluationLoop batch_rate_of(const Model& model)
   };
 }
 
-/// Nanoseconds a state.
+/// Time of an evaluation [ns a state].
 double measured(const EvaluationLoop& loop, const States& states, Points& points)
 {
   return seconds_of([&] { loop(states, points); }) / static_cast<double>(points.size()) * 1e9;
 }
 
-/// One form of a model: as it is used, and by its definition. `multiply_adds` is about what one state needs.
+/// A form of a model, as it is used and by its definition. `multiply_adds` is about what one state needs.
 struct Contest {
   std::string model, form;
   int multiply_adds;
@@ -124,7 +124,7 @@ struct Contest {
     if (form == "state") max_error = std::max(max_error, error(points, expected, &ElasticPoint::pressure));
   }
 
-  /// The largest difference, of the largest number. A loop that has no pressure leaves it at none.
+  /// The largest difference over the largest number. A loop without pressures leaves them empty.
   static double error(const Points& points, const Points& expected, double ElasticPoint::*member)
   {
     double difference = 0, largest = 0;

@@ -19,12 +19,12 @@ namespace tamp::tools::bench
 namespace
 {
 
-/// One program and method in the contest.
+/// A program and method in the contest.
 struct Contestant {
   std::string name;
   std::size_t n_particles;
   std::function<void()> step;
-  /// A particle and step [ns], by round.
+  /// Time of a particle and step [ns], by round.
   std::vector<double> ns{};
 
   void run(int n_steps)

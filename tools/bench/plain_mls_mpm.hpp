@@ -5,8 +5,8 @@
 
 #include "components/materials/drucker_prager.hpp"
 
-/// What TAMP is timed against: MLS-MPM as a textbook has it, on one thread, made to be quick and to do no more than it
-/// must: no energies, no bound on the step, no contact, no checks, and stress rotated to first order.
+/// The program that TAMP is timed against: MLS-MPM as a textbook has it, on one thread, made to be quick and to do no
+/// more than it must: no energies, no bound on the step, no contact, no checks, and stress rotated to first order.
 namespace tamp::tools::bench
 {
 
@@ -23,7 +23,7 @@ struct PlainParticle {
   /// (xx, yy, zz, xy) in plane strain and (xx, yy, zz, xy, yz, xz) in space, as SymmetricTensor.
   std::array<double, n_symmetric<D>> stress;
   double mass;
-  /// At the start and now.
+  /// Volume at the start and now [m^3].
   double initial_volume, volume;
   components::SoilState state;
 };
@@ -40,23 +40,24 @@ class PlainMlsMpm
 
   struct Problem {
     double cell_size;
-    /// Of the grid, whose lower end along the last axis is the floor. Particles stay a cell away from its other ends.
+    /// Cells of the grid, whose lower end along the last axis is the floor. Particles stay a cell away from its other
+    /// ends.
     std::array<int, D> n_cells;
     components::DruckerPrager soil;
-    /// Downwards [m/s^2].
+    /// Gravity, downwards [m/s^2].
     double gravity;
   };
 
   /// Steps are fastest with particles in the order of the nodes, the last axis running fastest.
   PlainMlsMpm(const Problem& problem, std::vector<Particle> particles);
 
-  /// One step of this size [s], not bounded by anything.
+  /// Takes a step of this size [s], not bounded by anything.
   void step(double step_size);
 
   const std::vector<Particle>& particles() const { return particles_; }
 
  private:
-  /// Momentum, later velocity, and mass; four numbers in the plane, too, as many as a register holds.
+  /// Momentum, later velocity, and mass of a node; four numbers in the plane, too, as many as a register holds.
   using Node = std::array<double, 4>;
   static constexpr std::size_t mass_at = D;
   static_assert(D == 2 || D == 3);

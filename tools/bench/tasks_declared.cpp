@@ -21,7 +21,7 @@ constexpr LabelName<6> name_of_row(int row)
   return letters;
 }
 
-/// What the tasks of a step of the pattern make: a number on each patch, which has one cell.
+/// The label that the tasks of a row of the pattern make: a number on each patch, which has one cell.
 template <int Row>
 const CellLabel<std::uint64_t, name_of_row(Row)> made_in{};
 

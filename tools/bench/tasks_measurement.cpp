@@ -61,7 +61,7 @@ double processor_ns(const TaskContest& contest)
   return seconds * 1e9 / static_cast<double>(n_runs) / tasks.size();
 }
 
-/// One length of task, measured until the calibrations on both sides agree.
+/// Measures tasks of one length, until the calibrations before and after agree.
 std::optional<TaskSample> sample(const TaskSubject& subject, int kernel_iterations, TaskFigures& figures)
 {
   for (int attempt = 0; attempt < most_attempts; ++attempt) {
@@ -77,7 +77,7 @@ std::optional<TaskSample> sample(const TaskSubject& subject, int kernel_iteratio
   return std::nullopt;
 }
 
-/// From tasks an eighth as long as their overhead, each time twice as long, until half of the time is work.
+/// Measures tasks from an eighth of their overhead on, each time twice as long, until half of the time is work.
 std::optional<double> sweep(const TaskSubject& subject, TaskFigures& figures)
 {
   std::vector<TaskSample> samples;

@@ -6,7 +6,7 @@
 namespace tamp::tools::bench
 {
 
-/// One length of task: what it took and what of this was work.
+/// A measurement with tasks of one length: the time that they took, and the part of it that was work.
 struct TaskSample {
   /// Time of all threads over the number of tasks [ns].
   double granularity = 0;

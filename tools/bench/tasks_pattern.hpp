@@ -38,7 +38,8 @@ TaskPattern nearest_27_pattern(int edge, int n_steps);
 /// below `width`, then again from 1.
 TaskPattern fft_pattern(int width, int n_steps);
 
-/// One point, then two for each of the row before until there are `width`, a power of two; then each reads itself.
+/// A tree: one point, then two for each of the row before until there are `width`, a power of two; then each reads
+/// itself.
 TaskPattern tree_pattern(int width, int n_steps);
 
 }  // namespace tamp::tools::bench

@@ -38,7 +38,7 @@ double kernel_ns_on(const runtime::Communicator& ranks)
   return std::accumulate(all.begin(), all.end(), 0.0) / ranks.size();
 }
 
-/// One that takes part, on one row of patches.
+/// A contestant on one row of patches.
 struct RowContest {
   RowContestant contestant;
   PatchRow shape;

@@ -15,11 +15,11 @@ class RowScheduler
 {
  public:
   virtual ~RowScheduler() = default;
-  /// So many steps more. Collective, but ranks may leave at different times.
+  /// Runs so many steps more. Collective, but ranks may leave at different times.
   virtual void run(int n_steps) = 0;
 };
 
-/// One that takes part in the comparison. To make it is collective, and so is to destroy it.
+/// A contestant of the comparison. Making and destroying its scheduler are collective.
 struct RowContestant {
   std::string name;
   std::unique_ptr<RowScheduler> (*make)(StampedRow& row, const runtime::Communicator& ranks);

@@ -15,7 +15,7 @@ using namespace runtime;
 
 const CellLabel<std::uint64_t, "stamps"> stamps;
 
-/// One row of cells for each patch, so that a halo of one layer holds a whole neighbour.
+/// A layout with one row of cells for each patch, so that a halo of one layer holds a whole neighbour.
 PatchLayout layout_of(const PatchRow& shape)
 {
   const int n = shape.n_patches();

@@ -19,7 +19,7 @@ class TaskScheduler
   virtual void run(int n_runs) = 0;
 };
 
-/// One that takes part in the comparison.
+/// A contestant of the comparison.
 struct TaskContestant {
   std::string name;
   std::unique_ptr<TaskScheduler> (*make)(StampedTasks& tasks, int n_threads);
@@ -58,7 +58,7 @@ TaskContestant task_group_contestant();
 /// not. None where TAMP was built without OpenMP.
 std::optional<TaskContestant> openmp_contestant();
 
-/// All of the above that there are, ours first.
+/// All of the above contestants that are available, ours first.
 std::vector<TaskContestant> task_contestants();
 
 }  // namespace tamp::tools::bench

@@ -9,7 +9,7 @@
 namespace tamp::tools::bench
 {
 
-/// One scheduler on one pattern, with what its rounds found.
+/// The results of one scheduler on one pattern, by round.
 struct TaskRow {
   std::string scheduler;
   std::string pattern;

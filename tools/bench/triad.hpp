@@ -9,8 +9,8 @@ namespace tamp::tools::bench
 /// larger than a core's own caches; the best of a few passes, as the bound that it serves for should be.
 double triad_bytes_per_second(std::size_t n = std::size_t{1} << 24);
 
-/// What each of `n_threads` threads gets while all do so at once, in about a tenth of a second; 0 where the system has
-/// not the memory or the threads for it.
+/// Bytes per second of the same on each of `n_threads` threads while all run at once, measured in about a tenth of a
+/// second; 0 where the system does not have the memory or the threads for it.
 double triad_bytes_per_second_each(int n_threads);
 
 }  // namespace tamp::tools::bench

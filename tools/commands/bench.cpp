@@ -33,9 +33,9 @@ struct BenchArguments {
   bench::WindowOptions windows;
   bench::PeerOptions peers;
   bench::GainOptions gains;
-  /// Empty: as each benchmark has it.
+  /// Numbers of threads; where empty, each benchmark has its own.
   std::vector<int> n_threads;
-  /// Options, and the benchmarks that they are of.
+  /// Options, and the benchmarks that use them.
   std::vector<std::pair<const CLI::Option*, std::vector<std::string>>> uses{};
 };
 
@@ -76,7 +76,7 @@ const std::map<std::string, Benchmark>& benchmarks()
   return all;
 }
 
-/// Those asked for, or all that there are for so many ranks.
+/// The benchmarks that were asked for, or all that there are for so many ranks.
 std::vector<std::string> names_of(const BenchArguments& options, int n_ranks)
 {
   if (n_ranks > 1) {
@@ -91,7 +91,7 @@ std::vector<std::string> names_of(const BenchArguments& options, int n_ranks)
   return names;
 }
 
-/// Refuses what none of these would look at, and what one of them cannot do.
+/// Refuses options that none of these benchmarks uses, and values that one of them cannot do.
 void expect_used(const BenchArguments& options, const std::vector<std::string>& names)
 {
   const auto is_run = [&](const std::string& name) { return std::ranges::find(names, name) != names.end(); };

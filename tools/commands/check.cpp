@@ -38,7 +38,7 @@ struct CheckArguments {
   bool json = false;
 };
 
-/// What a person reads: on stdout, or on stderr where the scene's JSON has stdout to itself.
+/// The report for people: on stdout, or on stderr where the scene's JSON has stdout to itself.
 struct CheckReport {
   bool is_on_stderr;
 
@@ -52,20 +52,20 @@ struct CheckReport {
       write_out(text);
     }
   }
-  /// A line each.
+  /// Prints the warnings, a line each.
   void warn(const std::vector<std::string>& warnings) const
   {
     for (const std::string& warning : warnings) line("tamp: warning: {}", warning);
   }
 };
 
-/// Such as "48 x 96": of the axes that the scene has.
+/// Counts along the axes that the scene has, such as "48 x 96".
 std::string along_axes(const tasks::Scene& scene, const runtime::Index& counts)
 {
   return fmt::format("{}", fmt::join(counts.begin(), counts.begin() + scene.grid.dimension, " x "));
 }
 
-/// Such as "0.12 x 0.24 m".
+/// Size of a grid in words, such as "0.12 x 0.24 m".
 std::string size_of(const runtime::Grid& grid)
 {
   std::vector<double> lengths;
@@ -74,7 +74,7 @@ std::string size_of(const runtime::Grid& grid)
   return fmt::format("{:.6g} m", fmt::join(lengths, " x "));
 }
 
-/// Such as "100 of steel (hypoelastic), 11520 of sand (tabular_cap)".
+/// Particles by material in words, such as "100 of steel (hypoelastic), 11520 of sand (tabular_cap)".
 std::string particles_by_material(const CheckedScene& checked)
 {
   std::vector<std::size_t> counts(checked.scene.materials.size());
@@ -91,7 +91,7 @@ std::string particles_by_material(const CheckedScene& checked)
   return fmt::format("{}", fmt::join(parts, ", "));
 }
 
-/// Title, kind, grid and particles.
+/// Prints the scene's title, kind, grid and particles.
 void report_scene(const CheckedScene& checked, const CheckArguments& options, const CheckReport& report)
 {
   const tasks::Scene& scene = checked.scene;
@@ -104,7 +104,7 @@ void report_scene(const CheckedScene& checked, const CheckArguments& options, co
   report.line("  particles  {}: {}", scene.n_particles(), particles_by_material(checked));
 }
 
-/// How much the solid and its particles hold, a line each.
+/// Prints the volumes of the solid and of its particles, a line each.
 void report_volumes(const tasks::Scene& scene, const tasks::SceneBody& body, const CheckReport& report)
 {
   const double density = scene.materials[static_cast<std::size_t>(body.material)].density;
@@ -117,7 +117,7 @@ void report_volumes(const tasks::Scene& scene, const tasks::SceneBody& body, con
               100 * (filled / solid.value - 1));
 }
 
-/// On how many cells a body goes into another one, if it does.
+/// Prints the number of cells across a body that goes into another one.
 void report_cells(const tasks::Scene& scene, const tasks::SceneBody& body, const CheckReport& report)
 {
   const auto penetration = penetration_of(scene, body);

@@ -2,7 +2,7 @@
 
 #include <CLI/CLI.hpp>
 
-/// One function for each command of the program, in the file of its name. It adds the command to `app` with a callback
+/// A function for each command of the program, in the file of its name. It adds the command to `app` with a callback
 /// that does the work when the command line has been read, and that throws when it cannot.
 namespace tamp::tools
 {

@@ -48,7 +48,7 @@ std::vector<std::string> names_of_scene_kinds()
 struct NewArguments {
   std::string kind;
   std::string out;
-  /// Empty: the usual one of the kind.
+  /// Name of the geometry; where empty, the usual one of the kind.
   std::string geometry;
 };
 
@@ -62,7 +62,7 @@ std::string geometry_of(const NewArguments& options)
                     fmt::format("expected {}", fmt::join(kind->geometries, " or "))});
 }
 
-/// Whatever is there, a link that leads nowhere too: what somebody has written is not for this command to replace.
+/// Refuses a file that exists, even a link that leads nowhere: this command does not replace what somebody has written.
 void expect_nothing_at(const std::filesystem::path& file)
 {
   std::error_code none;
@@ -70,7 +70,7 @@ void expect_nothing_at(const std::filesystem::path& file)
   throw InputError({file.string(), "is there already", "expected the name of a new file"});
 }
 
-/// What to do with it, and where the curve of force against depth will be.
+/// Prints the commands to run the scene, and where its curve of force against depth will be.
 void print_next_steps(const std::string& kind, const std::string& geometry, const std::filesystem::path& file)
 {
   const std::string scene = shell_word(file.string());

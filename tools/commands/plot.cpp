@@ -21,7 +21,7 @@ struct PlotArguments {
   std::string out;
 };
 
-/// Of a column as part of a file's name: without its unit.
+/// The name of a column as part of a file's name: without its unit.
 std::string name_in_file(std::string column)
 {
   column.erase(std::min(column.find('['), column.size()));

@@ -22,7 +22,7 @@ struct StudyArguments {
   std::vector<double> between;
 };
 
-/// What goes with --limit alone, and the command that the options ask for.
+/// Checks the options that go with --limit alone, and runs the command that the options ask for.
 void run(StudyArguments& arguments)
 {
   const std::vector<double>& ends = arguments.between;

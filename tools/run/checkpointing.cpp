@@ -84,7 +84,8 @@ std::map<std::int64_t, std::filesystem::path> checkpoints_in(const std::filesyst
   return all;
 }
 
-/// Those that were refused are newer than the one that was found; under their names they would count as kept.
+/// Renames the checkpoints that were refused, which are newer than the one that was found: under their names they would
+/// count as kept.
 void set_aside_newer(const std::filesystem::path& found, std::int64_t step)
 {
   const auto all = checkpoints_in(found.parent_path());

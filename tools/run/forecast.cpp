@@ -15,12 +15,12 @@ namespace tamp::tools
 namespace
 {
 
-/// Memory of a process besides, once its first particles are laid out [bytes].
+/// Further memory of a process, once its first particles are laid out [bytes].
 constexpr double of_libraries = 6.5e6;
 /// The profile and trace of a run, and the text of its history [bytes].
 constexpr double of_reports = 2e6;
 
-/// Such as "300 core-seconds (5 min of one core)".
+/// A time in words, such as "300 core-seconds (5 min of one core)".
 std::string in_time(double seconds)
 {
   if (seconds < 90) return fmt::format("{:.0f} core-seconds", seconds);
@@ -39,7 +39,7 @@ Forecast forecast(const tasks::Scene& scene, int n_ranks)
   all.n_particles = demand.n_particles;
   all.at_start = n_ranks * resident;
   all.memory = all.at_start + n_ranks * of_libraries + demand.graph + demand.fields + demand.output_room;
-  // One copy at a time, and on the first rank beside the others' own.
+  // One copy at a time; on several ranks the first rank holds it beside those of the others.
   all.copies = (n_ranks > 1 ? 2 : 1) * std::max(demand.output_room, demand.checkpoint_file) - demand.output_room;
   all.disk = n_outputs * demand.output_file + n_checkpoints_forecast * demand.checkpoint_file + of_reports;
   return all;

@@ -39,12 +39,12 @@ class MachineHistory
   /// Time that the run took before its restart [s]; on the first rank.
   double wall_before_ = 0;
   double processor_before_ = 0;
-  /// Since the row before.
+  /// Time and number of steps since the row before.
   double step_seconds_ = 0;
   long n_steps_ = 0;
   /// On the first rank only.
   std::optional<runtime::CsvWriter> csv_;
-  /// Of a table that goes on; 0 for one that was begun here.
+  /// Number of columns of a table that goes on; 0 for one that was begun here.
   std::size_t n_columns_ = 0;
 };
 

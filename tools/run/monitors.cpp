@@ -81,7 +81,7 @@ std::vector<Monitor> of_balances(const tasks::Simulation& simulation, const RunH
        "of the mass has left the grid, and acts on nothing from then on: a larger grid keeps it"}};
 }
 
-/// One state that is torn is enough; the others have to last.
+/// The monitors of samples of the state. A single torn state is enough for a warning; the others have to last.
 std::vector<Monitor> of_samples(const tasks::Simulation& simulation)
 {
   const tasks::SceneLimits& limits = simulation.scene().limits;
@@ -133,7 +133,7 @@ Monitor of_forecast(const tasks::SceneLimits& limits, const ForecastMiss& missed
           true};
 }
 
-/// How far along the way to its limit the share is.
+/// How close the share is to its limit, or how far beyond.
 double badness(const Monitor& monitor)
 {
   const double best = monitor.is_factor ? 1 : 0;

@@ -11,17 +11,17 @@
 namespace tamp::tools
 {
 
-/// What a run says of one thing that can go wrong.
+/// The finding of a run on one thing that can go wrong.
 struct Monitor {
-  /// That of its limit in the scene.
+  /// Name of its limit in the scene.
   std::string name;
-  /// How often it was seen, of what there was; nothing for sums.
+  /// How often it was seen; empty for sums.
   std::optional<double> count;
-  /// What is held against the limit.
+  /// The share, or factor, that is compared with the limit.
   double share = 0;
   double limit = 0;
   tasks::Occurrences first;
-  /// What it means and what helps, for a share beyond the limit.
+  /// Meaning and remedy of a share beyond the limit, in words.
   std::string words;
   /// Whether the share is a factor, of which 1 is the best, and not a part.
   bool is_factor = false;
@@ -29,11 +29,11 @@ struct Monitor {
   bool warns() const { return share > limit; }
 };
 
-/// All of them after a run so far, the worst first: by their shares over their limits.
+/// All monitors of a run so far, the worst first: by their shares over their limits.
 std::vector<Monitor> monitors_of(const tasks::Simulation& simulation, const RunHistory& history,
                                  const ForecastMiss& missed);
 
-/// A line for people.
+/// The warning in a line for people.
 std::string warning_of(const Monitor& monitor, const tasks::Scene& scene);
 
 nlohmann::ordered_json to_json(const Monitor& monitor, const tasks::Scene& scene);

@@ -10,26 +10,26 @@
 namespace tamp::tools
 {
 
-/// What of a run's profile is wanted.
+/// Selects which part of a run's profile is shown, and how.
 struct ProfileView {
   /// Only tasks of this phase; empty: all.
   std::string phase{};
   /// Each rank by itself; empty: all together.
   std::vector<std::size_t> ranks{};
-  /// By patch, the longest chain, or memory, in place of time by task.
+  /// Shows the patches, the longest chain, or memory, in place of time by task.
   bool patches = false;
   bool chain = false;
   bool memory = false;
   /// The folder of another run, to compare with.
   std::optional<std::filesystem::path> other{};
-  /// Says of a profile how many bytes memory gives a worker in a second; 0 if that is not known. See TableChoice.
+  /// Gives the bytes a second that memory gives a worker, for a profile; 0 if that is not known. See TableChoice.
   std::function<double(const nlohmann::json& profile)> memory_rate{};
   /// As JSON in place of tables for people.
   bool as_json = false;
 };
 
-/// What `render` makes of the `profile.json` of a run. Throws InputError for a folder that is no run's, and FileError
-/// for a profile that is missing or, as `render` finds, not what a run has written.
+/// The text that `render` makes of the `profile.json` of a run. Throws InputError for a folder that is no run's, and
+/// FileError for a profile that is missing or, as `render` finds, not what a run has written.
 std::string with_profile(const std::filesystem::path& run,
                          const std::function<std::string(const nlohmann::json&)>& render);
 

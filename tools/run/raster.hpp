@@ -6,21 +6,21 @@
 namespace tamp::tools
 {
 
-/// A picture of particles in cells of one size, each the nearest particle's of those that reach it.
+/// A picture of particles in cells of one size; each cell shows the nearest of the particles that reach it.
 class Raster
 {
  public:
   static constexpr int nobody = -1;
 
   struct Cell {
-    /// Of the particle, or `nobody`.
+    /// Material of the particle that it shows, or `nobody`.
     int material = nobody;
     double speed = 0;
-    /// How far away it is.
+    /// Distance of that particle.
     double distance = 0;
   };
 
-  /// Of a box, with `most` squares along its longer side. Throws std::out_of_range for what is no box.
+  /// Makes the picture of a box, with `most` cells along its longer side. Throws std::out_of_range for what is no box.
   Raster(std::array<double, 2> lower, std::array<double, 2> upper, int most);
 
   /// A particle is a square that reaches so far from its middle, a cell at least; `off` is how far it is from the

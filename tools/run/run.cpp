@@ -53,7 +53,8 @@ double seconds_since(Clock::time_point start)
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-/// Of the files in a folder and below [bytes]; what cannot be read counts nothing, nor what is held for later.
+/// Size of the files in a folder and below [bytes], without files that cannot be read and space that is reserved for
+/// later.
 double bytes_in(const std::filesystem::path& folder)
 {
   double bytes = 0;
@@ -162,7 +163,7 @@ class Runner
     complete();
   }
 
-  /// One step, with what is to be written after it.
+  /// Takes one step, and writes the output that is due after it.
   void advance()
   {
     const Clock::time_point begin = Clock::now();
@@ -348,7 +349,7 @@ class Runner
     checkpoint_clock_.written();
   }
 
-  /// When asked to; the state has been kept.
+  /// Ends a run that was asked to stop; its state has been kept.
   [[noreturn]] void leave(const StopReason& stop)
   {
     write_last_state();
@@ -376,11 +377,11 @@ class Runner
     throw tasks::SimulationError(reason, "", -1, {});
   }
 
-  /// After a run that has come to its end. Known to the first rank alone, whose forecast it is.
+  /// The miss of the forecast by a run that has come to its end. Known to the first rank alone, whose forecast it is.
   ForecastMiss miss_of_forecast() const
   {
     const runtime::MemoryLedger& ledger = simulation_->engine().warehouse().ledger();
-    // How many steps are traced is no matter of the scene.
+    // The trace is not part of the forecast, as the scene does not say how many steps are traced.
     const std::size_t own = ledger.total().peak() - std::min(ledger.trace.peak(), ledger.total().peak());
     UsedByRun taken{static_cast<double>(options_.communicator.sum(own))};
     if (simulation_->time() >= checked_.scene.time.end) taken.n_steps = simulation_->n_steps();
@@ -392,10 +393,10 @@ class Runner
     return missed;
   }
 
-  /// Those of files are the first rank's alone.
+  /// Number of warnings of the first rank, which alone has those about files.
   std::size_t common_warnings() const { return options_.communicator.from_first(warnings_.size()); }
 
-  /// Keeps what is good, and passes the error on with where in the run it happened.
+  /// Keeps the last good state, and passes the error on with the place in the run where it happened.
   [[noreturn]] void fail(const tasks::SimulationError& error)
   {
     instability_ = fmt::format("step {}, time {:.6g} s: {}", simulation_->n_steps(), simulation_->time(), error.what());
@@ -420,7 +421,7 @@ class Runner
     return fmt::format("\nto go on from step {}: {}{}", *step, options_.command_to_go_on, settings);
   }
 
-  /// What others have removed, replaced or emptied since it was written is told at the end.
+  /// Warns at the end of a run of output that others have removed, replaced or emptied since it was written.
   void look_for_lost_output()
   {
     output_.finish();
@@ -436,7 +437,7 @@ class Runner
     }
   }
 
-  /// After an output has failed, where there is none yet, as far as one can be written.
+  /// Writes a summary after an output has failed, where there is none yet, as far as one can be written.
   void leave_summary(const std::string& failure)
   {
     if (has_summary_) return;
@@ -455,7 +456,7 @@ class Runner
   {
     output_.finish();
     const auto [summary, profile] = summarise(status, reason);
-    // Last, as it may be large, and a run can do without.
+    // Written last, as it may be large, and a run can do without it.
     if (options_.traced_steps.kind != runtime::TraceChoice::Kind::none) write_trace();
     if (options_.quiet || !is_first()) return;
     print_out("{}\n{}  written to {}\n", runtime::to_text(profile, {.n_rows = 10}), summary_text(summary),
@@ -511,12 +512,12 @@ class Runner
   OutputTimes history_times_;
   CheckpointClock checkpoint_clock_;
   double end_;
-  /// The last that were written on schedule; what a run writes as it stops counts among `written_` alone.
+  /// The last outputs that were written on schedule; what a run writes as it stops counts among `written_` alone.
   Outputs scheduled_;
   Outputs written_;
   long restarted_at_ = -1;
   bool state_is_good_ = true;
-  /// What went wrong in the simulation; empty: nothing.
+  /// Description of what went wrong in the simulation; empty if nothing did.
   std::string instability_;
   bool has_summary_ = false;
   std::optional<runtime::FileError> lost_output_;

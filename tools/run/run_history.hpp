@@ -15,9 +15,9 @@
 namespace tamp::tools
 {
 
-/// The energies of a simulation at one moment [J], counted since its start. What is left in motion and stored, what has
-/// turned to heat, what particles filter out of the motion of the nodes, and the work of gravity: `total` stays what it
-/// was at the start but for the error of the steps.
+/// The energies of a simulation at one moment [J], counted since its start: kinetic and stored energy, heat, energy
+/// that particles filter out of the motion of the nodes, and the work of gravity. `total` stays what it was at the
+/// start but for the error of the steps.
 struct EnergyBalance {
   double kinetic;
   double elastic;
@@ -30,7 +30,8 @@ struct EnergyBalance {
   double total;
 };
 
-/// The largest of a run so far, by which its errors are measured: they stay large when the run comes to rest.
+/// The largest work and momentum of a run so far, by which its errors are measured: they stay large when the run comes
+/// to rest.
 struct LargestSoFar {
   /// The work of gravity, loads and driving bodies, without its sign [J].
   double given_from_outside = 0;
@@ -38,16 +39,16 @@ struct LargestSoFar {
   double momenta = 0;
 };
 
-/// What of energy, momentum and mass has come, gone or been taken without a cause in the mechanics, as parts.
+/// Shares of energy, momentum and mass that have come, gone or been taken without a cause in the mechanics.
 struct BalanceShares {
-  double energy_drift;     ///< of the energy that the run has been given
-  double momentum_error;   ///< of the largest momentum
-  double filtered_energy;  ///< of the energy given, by the transfer
-  double damped_energy;    ///< of the energy given, by local damping, see `RunHistory::damped_energy`
-  double lost_mass;        ///< of the mass, by what has left the grid
+  double energy_drift;     ///< over the energy that the run has been given
+  double momentum_error;   ///< over the largest momentum
+  double filtered_energy;  ///< by the transfer, over the energy given
+  double damped_energy;    ///< by local damping, over the energy given, see `RunHistory::damped_energy`
+  double lost_mass;        ///< mass that has left the grid, over all mass
 };
 
-/// Rows of the history in which such a part was above its limit.
+/// Rows of the history in which such a share was above its limit.
 struct BalanceSightings {
   tasks::Occurrences energy_drift, momentum_error, filtered_energy, damped_energy, lost_mass;
 };
@@ -63,8 +64,8 @@ class RunHistory
 
   /// Begins `history.csv` in a folder anew; the first rank writes it.
   void begin(const std::filesystem::path& folder);
-  /// Goes on with it after the row of step `kept_until`: later ones are taken out. What the user should know of it, on
-  /// the first rank; nothing if it is as `expected`.
+  /// Goes on with it after the row of step `kept_until`: later ones are taken out. Returns, on the first rank, what the
+  /// user should know about it; empty if it is as `expected`.
   std::string resume(const std::filesystem::path& folder, long kept_until, const runtime::CsvExtent& expected);
   /// Rows and bytes written so far; on the first rank.
   runtime::CsvExtent extent() const { return csv_ ? csv_->extent() : runtime::CsvExtent{}; }
@@ -81,9 +82,9 @@ class RunHistory
   /// judged by, see `energy_scale`. Energy that particles filter out of the motion of the nodes is no error; energy
   /// that they add is. After the last step; it needs no `measure`.
   double energy_error() const;
-  /// The energy given to the run so far, and until then as much more as work from outside, at its mean power so far,
-  /// gives in the time in which waves cross the four cells over which a grid spreads a blow: sooner it cannot tell what
-  /// that work goes into, and a run from rest would be judged by next to nothing in its first steps [J].
+  /// The energy given to the run so far [J], plus the work from outside, at its mean power so far, in the time in which
+  /// waves cross the four cells over which a grid spreads an impact. Earlier it cannot be told what that work goes
+  /// into, and a run from rest would be judged by next to nothing in its first steps.
   double energy_scale() const;
   /// The same; 0 where it is not known, as a centrifuge speeds up, and what is negligible beside the energy of waves.
   double known_energy_error() const;
@@ -91,7 +92,7 @@ class RunHistory
   double given_energy() const;
   /// Change of momentum that the grid has not given to the particles, over the largest sum of m |v| so far.
   double momentum_error() const { return momentum_error_; }
-  /// As last measured.
+  /// The shares as last measured.
   BalanceShares balances() const;
   const BalanceSightings& balances_above() const { return balances_above_; }
   void set_balances_above(const BalanceSightings& above) { balances_above_ = above; }
@@ -126,19 +127,20 @@ class RunHistory
     std::function<double()> value;
   };
 
-  /// One for each axis of the scene.
+  /// Adds a column for each axis of the scene.
   template <class Value>
   void add_vector(const std::string& name, const std::string& unit, const Value& value);
-  /// Those of rows that are there already.
+  /// Takes in the extremes of rows that are there already.
   void take_extremes(const std::filesystem::path& file);
   void add_columns();
   void add_body_columns(std::size_t body);
   void add_error_columns(std::size_t body);
   void add_peak_columns(std::size_t material, const std::string& where, const tasks::PeaksOfMaterials& peaks);
   std::vector<std::string> column_names() const;
-  /// That of all mass at a millionth of the fastest wave's speed, as what is at rest has no other energy to compare
-  /// with, what half a step of free fall makes, and the work of a step of driving and of loads, which is counted to the
-  /// step's middle while what it goes into is counted to its end [J].
+  /// Energy that is negligible in a balance [J]: that of all mass at a millionth of the fastest wave's speed, as matter
+  /// at rest has no other energy to compare with; that of half a step of free fall; and the work of a step of driving
+  /// and of loads, which is counted to the step's middle while the energy that it goes into is counted to the step's
+  /// end.
   double negligible_energy() const;
   double wrong_energy() const;
   /// Energy that local damping took, as far as motion, plastic strain or friction stands beside it: these depend on
@@ -165,7 +167,7 @@ class RunHistory
   LargestSoFar largest_;
   BalanceSightings balances_above_;
   double momentum_error_ = 0;
-  /// By material, since the row before.
+  /// Mean forces by material, since the row before.
   tasks::MeanForces mean_forces_;
   std::vector<Column> columns_;
   std::map<std::string, Extremes> extremes_;

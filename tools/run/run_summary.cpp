@@ -126,7 +126,7 @@ Json to_json(const Forecast& forecast)
   return json;
 }
 
-/// How many times the scene is in the whole that it is a part of, by its planes of symmetry.
+/// The part of the whole that the scene is, by its planes of symmetry.
 Json part_of_whole(const tasks::Scene& scene)
 {
   const tasks::Sides faces = planes_of_symmetry(scene);
@@ -164,7 +164,7 @@ Json rebalances(const tasks::Simulation& simulation)
   return all;
 }
 
-/// Those with limits, the worst first, then what is only counted.
+/// The monitors with limits, the worst first, then those that only count.
 Json monitors(const tasks::Simulation& simulation, const RunHistory& history, const ForecastMiss& missed)
 {
   Json all;
@@ -264,7 +264,7 @@ std::string in_words(double seconds)
   return std::abs(seconds) >= 1e-3 ? fmt::format("{:.4g} ms", seconds * 1e3) : fmt::format("{:.4g} us", seconds * 1e6);
 }
 
-/// One line on the scene's subject: the depth of a body, or the force that drives it.
+/// A line on the scene's subject: the depth of a body, or the force that drives it.
 std::string body_text(const std::string& name, const Json& body)
 {
   const auto number = [&](const char* key) { return body[key].get<double>(); };
@@ -286,7 +286,7 @@ std::string body_text(const std::string& name, const Json& body)
   return text + "\n";
 }
 
-/// How far the worst of what is watched is from its limit.
+/// A line on how far the worst of the monitors is from its limit.
 std::string monitors_text(const Json& monitors)
 {
   std::string text = "  of their limits:";

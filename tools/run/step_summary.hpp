@@ -7,8 +7,8 @@
 namespace tamp::tools
 {
 
-/// What set the time steps of a run: the first, the shortest and the last that a particle set, with the particle, and
-/// how many each material and each other cause set.
+/// Summary of what set the time steps of a run: the first, the shortest and the last that a particle set, with the
+/// particle, and the number that each material and each other cause set.
 nlohmann::ordered_json step_summary(const tasks::Simulation& simulation);
 
 }  // namespace tamp::tools

@@ -22,7 +22,7 @@ constexpr std::array stop_reasons{wall_limit_reached, StopReason{1U << 3, SIGTER
                                   StopReason{1U << 5, SIGHUP, "stopped by SIGHUP, as its terminal was lost"},
                                   StopReason{1U << 6, SIGXCPU, "stopped by SIGXCPU, at its limit of processor time"}};
 
-/// One of these was asked for; null if none.
+/// The reason that was asked for; null if none.
 inline const StopReason* stop_reason(unsigned requests)
 {
   for (const StopReason& reason : stop_reasons) {

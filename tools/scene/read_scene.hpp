@@ -19,9 +19,9 @@ struct CheckedScene {
   std::vector<std::string> notes{};
   /// The keys that it leaves out, by their pointers: they have their defaults.
   std::vector<std::string> left_out{};
-  /// What reading it has found to be hardly meant, a line each: the first of its plausibility_warnings.
+  /// Warnings of what is allowed and hardly ever meant, a line each: the first of its plausibility_warnings.
   std::vector<std::string> warnings{};
-  /// What reading it has found to be worth knowing of its files, a line each.
+  /// Remarks on its files, a line each.
   std::vector<std::string> remarks{};
 };
 

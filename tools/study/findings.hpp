@@ -19,26 +19,27 @@ struct OrderFit {
   std::vector<int> points;
   /// Empty where errors do not fall, or there are fewer than three.
   std::optional<double> order;
-  /// With which power of the refined setting the first cost goes: -3 where half the setting costs eight times as much.
+  /// The power of the first refined setting with which the cost grows: -3 where half the setting costs eight times as
+  /// much.
   std::optional<double> cost_power;
   std::string note;
 };
 
-/// All that is found of one quantity.
+/// The findings on one quantity.
 struct QuantityFindings {
   Reference reference;
-  /// By point id: of points that are done. Errors are distances from the reference.
+  /// Values and errors of the points that are done, by point id. Errors are distances from the reference.
   std::map<int, double> values, errors;
   /// Ids of the points of `errors` whose distance is no error, only a difference: the reference has no bound, or the
   /// point models something else. They are on no front and have no order.
   std::set<int> differences;
-  /// Ids of points of the charts than which none is cheaper and better at once.
+  /// Ids of the points of the charts on the Pareto front: no other is both cheaper and better.
   std::vector<int> front;
   std::vector<OrderFit> orders;
 };
 
 struct Findings {
-  /// One for each quantity of the study.
+  /// The findings on each quantity of the study.
   std::vector<QuantityFindings> quantities;
   std::vector<ErrorBudget> budgets;
 };

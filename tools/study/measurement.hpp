@@ -26,7 +26,8 @@ struct Measurement {
 /// cannot be read without them, and for a pointer to a place that it does not have.
 std::vector<Measurement> measurements_of(const Study& study, const std::vector<Point>& points);
 
-/// What is measured with these settings, every default filled in. Throws InputError where they are refused.
+/// The measured scene or material with these settings, every default filled in. Throws InputError where they are
+/// refused.
 Json resolved(const Measure& measure, const Settings& settings);
 
 /// The command that remakes it, for people.

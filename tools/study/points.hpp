@@ -11,7 +11,7 @@ namespace tamp::tools::study
 /// `settings` with `others` over them.
 Settings merged(Settings settings, const Settings& others);
 
-/// One combination of settings.
+/// A combination of settings.
 struct Point {
   enum class Role {
     chart,
@@ -25,7 +25,7 @@ struct Point {
   std::string method;
   /// Label that distinguishes it from the other points of its method.
   std::string label;
-  /// All of them, and those in which the points of its method differ.
+  /// All settings, and those in which the points of its method differ.
   Settings settings, own{};
   /// The method of a reference that serves one method alone.
   std::string reference_of{};

@@ -41,7 +41,7 @@ void expect_sound_reference(const Study& study, const std::vector<Point>& points
   }
 }
 
-/// Once, however many points have them.
+/// Prints each note once, however many points have it.
 void print_notes_of(const std::vector<Measurement>& measurements)
 {
   std::set<std::string> notes;
@@ -85,7 +85,7 @@ void throw_if_reference_failed(const StudyResults& results)
   }
 }
 
-/// What every charted point was refused for, each reason once.
+/// Throws, where no point of the charts ran, the reasons for which they were refused, each once.
 void throw_if_none_ran(const StudyResults& results)
 {
   std::vector<Problem> problems{{results.study.file.string(), "no point ran", "expected settings that can be run"}};

@@ -49,7 +49,7 @@ struct Method {
   /// Its points are all combinations of these, and those that are listed besides.
   std::vector<Axis> sweep;
   std::vector<Settings> listed;
-  /// Whether it models something else than the reference does, so that what it differs by is no error.
+  /// Whether it models something else than the reference does, so that its difference is no error.
   bool another_model = false;
 };
 
@@ -120,7 +120,7 @@ struct BudgetPart {
   std::vector<Settings> variations;
 };
 
-/// The settings whose error is asked for.
+/// The settings whose error is to be found.
 struct BudgetBase {
   std::string name;
   Settings settings;
@@ -159,8 +159,8 @@ struct Expectation {
 /// A failure that a study shows: one method that has it, and one that has not.
 struct Stability {
   std::string quantity;
-  /// An error that is clearly none of accuracy any more. The method that fails is three times as far off or becomes
-  /// unstable, the one that survives is within a third of it.
+  /// An error too large to be one of accuracy. The method that fails has three times this error or becomes unstable,
+  /// the one that survives at most a third of it.
   double threshold = 0;
   std::string fails, survives;
   /// For people: what is seen, and the number by which a run can tell.
@@ -184,8 +184,8 @@ struct StudyMap {
   std::vector<MapSheet> sheets;
 };
 
-/// What is stable where the limit of a setting is looked for: a run that comes to its end, with an error of the energy,
-/// and of a quantity whose answer is exact, that are no larger than these.
+/// The criterion of stability where the limit of a setting is looked for: a run is stable if it comes to its end, with
+/// errors of the energy, and of a quantity whose answer is exact, that are no larger than these.
 struct StableIf {
   std::optional<double> energy_error{};
   /// Empty for none.
@@ -205,7 +205,7 @@ struct Study {
   std::optional<ReferenceRuns> reference;
   std::optional<Budget> budget;
   std::vector<Expectation> expectations;
-  /// Of entries of the failure catalogue.
+  /// The failure that the study shows, where it is an entry of the failure catalogue.
   std::optional<Stability> stability{};
   StableIf stable_if;
   std::optional<StudyMap> map;

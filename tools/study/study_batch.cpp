@@ -74,7 +74,7 @@ std::vector<fs::path> chosen_studies(const StudyBatch& batch)
                         meant_or(name, known, fmt::format("expected one of {}", fmt::join(known, ", ")))});
     }
     const fs::path& file = all[static_cast<std::size_t>(at - known.begin())];
-    // One named twice runs once: both would write into one folder.
+    // A study that is named twice runs once: both would write into one folder.
     if (std::find(chosen.begin(), chosen.end(), file) == chosen.end()) chosen.push_back(file);
   }
   return chosen;

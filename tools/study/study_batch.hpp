@@ -43,7 +43,7 @@ void make_folder(const StudyBatch& batch, const std::vector<std::string>& output
 /// Interrupted as the studies do.
 std::vector<std::string> run_studies(const StudyBatch& batch, const std::vector<std::filesystem::path>& files);
 
-/// What a study has found, its `study.json`.
+/// The results of a study, its `study.json`.
 Json results_of(const StudyBatch& batch, const std::filesystem::path& file);
 
 }  // namespace tamp::tools::study

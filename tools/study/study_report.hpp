@@ -12,13 +12,13 @@
 namespace tamp::tools::study
 {
 
-/// All that a report of a study is made of.
+/// The data that a report of a study is made from.
 struct StudyResults {
   const Study& study;
   /// The command line that remakes all of it.
   std::string command;
   std::vector<MeasuredPoint> points;
-  /// One for each point.
+  /// The measurement of each point.
   std::vector<Measurement> measurements;
   Findings findings;
   std::vector<ExpectationResult> expectations;

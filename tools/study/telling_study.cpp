@@ -18,7 +18,7 @@ namespace fs = std::filesystem;
 
 constexpr const char* cell_size_key = "/grid/cell_size";
 
-/// What `--set` gives, as a study does: files are named from the study's folder there.
+/// The settings of options `--set`, as a study has them: with files named from the study's folder.
 Json settings_of(const std::vector<std::string>& assignments)
 {
   Json settings = Json::object();
@@ -35,7 +35,7 @@ Json settings_of(const std::vector<std::string>& assignments)
   return settings;
 }
 
-/// One patch, which is wide enough on any cells.
+/// The setting for a single patch, which is wide enough on any cells.
 Json one_patch(const tasks::Scene& scene)
 {
   return Json(std::vector<int>(static_cast<std::size_t>(scene.grid.dimension), 1));
@@ -75,7 +75,7 @@ Json methods_of(const fs::path& file, const std::vector<std::string>& assignment
   return methods;
 }
 
-/// Of bodies that go into others or are pressed, and else of all that move.
+/// The quantities of bodies that go into others or are pressed; where there are none, of all that move.
 Json quantities_of(const tasks::Scene& scene)
 {
   Json of_those_that_enter = Json::array(), of_all = Json::array();

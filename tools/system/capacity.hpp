@@ -6,10 +6,10 @@
 namespace tamp::tools
 {
 
-/// How much memory a program may still take here, and what leaves no more.
+/// The memory that a program may still take here [bytes], and what bounds it.
 struct FreeMemory {
   double bytes;
-  /// Such as "this machine has free".
+  /// The bound in words, such as "this machine has free".
   std::string why;
 };
 
@@ -23,7 +23,7 @@ double resident_bytes();
 /// Free space on the disk of a folder, which need not exist yet [bytes].
 double free_disk(const std::filesystem::path& folder);
 
-/// Such as 1.2 GiB.
+/// A size in words, such as 1.2 GiB.
 std::string in_bytes(double bytes);
 
 /// Has large memory given back to the system as it is freed, so that what was gathered for an output leaves no gaps

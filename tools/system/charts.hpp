@@ -7,9 +7,9 @@
 namespace tamp::tools
 {
 
-/// What the Python tools are to draw.
+/// A drawing that the Python tools are to make.
 struct Drawing {
-  std::vector<std::string> words;  ///< of their command line
+  std::vector<std::string> words;  ///< the words of their command line
   std::vector<std::string> later;  ///< the same for who draws it another time
   std::filesystem::path place;     ///< what messages name
 };

@@ -100,7 +100,7 @@ class RunningChildren
 
   void add(std::size_t index, const Child& child) { running_.push_back({index, start(child)}); }
 
-  /// One that has ended, if there is one.
+  /// Takes out a child that has ended, if there is one.
   std::optional<std::pair<std::size_t, ChildEnd>> take_ended()
   {
     for (auto one = running_.begin(); one != running_.end(); ++one) {

@@ -20,7 +20,7 @@ struct ChildEnd {
   double user_s = 0;
 
   bool done() const { return exit_code == 0; }
-  /// Such as "signal 9" or "exit code 127".
+  /// The end in words, such as "signal 9" or "exit code 127".
   std::string description() const;
 };
 

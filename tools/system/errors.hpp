@@ -35,7 +35,7 @@ auto with_resources_for(const std::string& purpose, const Work& work)
   }
 }
 
-/// One thing that is wrong with what a person gave the program.
+/// A problem with what a person gave the program.
 struct Problem {
   /// FILE#/json/pointer, FILE:ROW of a table, or the command line's argument.
   std::string place;

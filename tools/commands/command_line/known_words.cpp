@@ -31,7 +31,7 @@ const CLI::App* find_command(const CLI::App& app, const std::string& name)
   return nullptr;
 }
 
-/// Of those below another command.
+/// Finds a command below another one.
 const CLI::App& command_below(const CLI::App& above, const std::string& name)
 {
   if (const CLI::App* command = find_command(above, name)) return *command;

@@ -16,12 +16,12 @@ struct OptionWords {
   bool is_repeated = false;
   bool is_required = false;
   std::string meaning;
-  /// Range, default and what it does not go with: "1 to 1024; by default its share of the cores". May be empty.
+  /// Range, default, and the options that exclude it: "1 to 1024; by default its share of the cores". May be empty.
   std::string details;
-  /// Where only these may be given.
+  /// The only values that may be given; empty where any may.
   std::vector<std::string> choices;
 
-  /// With what stands for its value: "--threads N", "SCENE", "[NAME...]".
+  /// The option with the placeholder of its value: "--threads N", "SCENE", "[NAME...]".
   std::string usage() const;
   /// The meaning, with the details.
   std::string description() const { return details.empty() ? meaning : meaning + " (" + details + ")"; }
@@ -31,7 +31,7 @@ struct OptionWords {
 /// Whether it takes no value.
 bool is_flag(const CLI::Option& option);
 
-/// Those of a command, positional arguments first.
+/// The options of a command, positional arguments first.
 std::vector<OptionWords> options_of(const CLI::App& command);
 
 /// The commands of the program, or of a command, in the order in which they were added.

@@ -12,7 +12,7 @@ namespace tamp::tools
 /// std::invalid_argument with what was found and expected.
 runtime::TraceChoice trace_choice(const std::string& text);
 
-/// That it is one.
+/// Accepts texts that are such a choice.
 CLI::Validator is_trace_choice();
 
 }  // namespace tamp::tools

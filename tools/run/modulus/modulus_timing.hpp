@@ -33,7 +33,7 @@ class ModulusTiming
 /// The states of a simulation's sands now; of many particles some thousands, evenly chosen.
 std::vector<ModulusTiming> modulus_timings(tasks::Simulation& simulation);
 
-/// One evaluation, the mean over all states [ns].
+/// Time of one evaluation, the mean over all states [ns].
 double nanoseconds_each(std::vector<ModulusTiming>& timings);
 
 }  // namespace tamp::tools::compare

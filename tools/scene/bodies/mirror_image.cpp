@@ -14,7 +14,7 @@ namespace
 template <int D>
 components::CellRange<D> cells_around(const components::Solid<D>& solid, const components::ParticleLattice<D>& lattice)
 {
-  // What lies further away than that is no body of a scene.
+  // No body of a scene lies further away than that [cells].
   constexpr double most = 1e8;
   const components::Box<D> box = solid.bounding_box();
   const auto cell = [&](double x, int axis) {

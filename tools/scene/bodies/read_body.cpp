@@ -120,7 +120,7 @@ std::vector<components::PrescribedMotion::Point> read_points(JsonReader& reader,
   return points;
 }
 
-/// One of the keys by which the motion of a driven body is given.
+/// Reads the key by which the motion of a driven body is given, one of several.
 template <int D>
 std::optional<components::PrescribedMotion> read_motion(JsonReader& reader)
 {

@@ -15,7 +15,7 @@ namespace tamp::tools
 namespace
 {
 
-/// One of the keys by which a pressure is given.
+/// Reads the key by which a pressure is given, one of several.
 std::optional<components::PressureCurve> read_curve(JsonReader& reader)
 {
   const std::size_t n_before = reader.document().problems.size();

@@ -35,7 +35,7 @@ using components::Solid;
 template <int D>
 using Make = std::function<Solid<D>()>;
 
-/// One value of "type". `rows` is the key that the rows of a BadValue are rows of.
+/// A value of "type". `rows` is the key whose rows a BadValue numbers.
 template <int D>
 struct Kind {
   std::string type;
@@ -178,7 +178,7 @@ Make<D> read_difference(JsonReader& reader)
   };
 }
 
-/// About the origin; in space about the axis that stands at "axis".
+/// Makes rotations about the origin; in space about the axis that stands at "axis".
 template <int D>
 std::function<Matrix<D>(double)> rotation_about(JsonReader& reader)
 {
@@ -217,8 +217,8 @@ Make<D> read_ring(JsonReader& reader)
   };
 }
 
-/// Turned about the axis of its scene, the section of what is round about that makes it again. Anything else has
-/// another mass there than it has.
+/// Warns of a solid that is not round about the axis of its scene: its section turned about the axis then has another
+/// volume than the solid, and so another mass.
 void expect_round(const Solid<3>& solid, const std::string& pointer, std::vector<std::string>& warnings)
 {
   // The many facets of a mesh count as round. Equal volumes alone do not: a cylinder across the line may have them.

@@ -32,7 +32,8 @@ tasks::Sides planes_of_symmetry(const tasks::Scene& scene);
 /// tell: half the scene gives all of it.
 std::vector<std::size_t> symmetric_axes(const tasks::Scene& scene);
 
-/// What half or a quarter of the scene is written as, and what its steps cost; nothing where it is not symmetric.
+/// Advice to run half or a quarter of the scene, with how that is written and what its steps cost; empty where it is
+/// not symmetric.
 std::optional<std::string> advice_to_halve(const tasks::Scene& scene);
 
 }  // namespace tamp::tools

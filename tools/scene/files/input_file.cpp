@@ -24,8 +24,8 @@ namespace
 
 using Identity = std::pair<dev_t, ino_t>;
 
-/// Those that the program has read, each with a name of it. A reader is so free to be called from anywhere, and none
-/// can be forgotten.
+/// The files that the program has read, each with a name of it. They are kept here so that readers may be called from
+/// anywhere, and no file can be forgotten.
 struct FilesRead {
   std::mutex mutex;
   std::map<Identity, std::filesystem::path> names;

@@ -14,13 +14,13 @@ namespace
 
 namespace fs = std::filesystem;
 
-/// One path for all names of a file that may not be there yet.
+/// The same path for all names of a file that may not be there yet.
 fs::path place_of(const OutputFile& output)
 {
   return fs::weakly_canonical(fs::absolute(output.file));
 }
 
-/// As the user knows it; what no option asks for by its name alone.
+/// The output as the user knows it; one that no option asks for by its name alone.
 std::string text_of(const OutputFile& output)
 {
   return output.option.empty() ? output.file.string() : output.option + " " + output.file.string();

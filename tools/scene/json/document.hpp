@@ -42,13 +42,13 @@ class Document
   /// The folder that a relative path at `pointer` starts from.
   std::filesystem::path folder(const JsonPointer& pointer) const;
 
-  /// A "type" of a file that the object which names the file has another of.
+  /// A "type" in a file where the object that names the file has another "type".
   struct OverriddenType {
     std::string pointer;  ///< of the object
     std::string type;     ///< the file's
     std::string file;
   };
-  /// That of the object at `pointer`; null where there is none.
+  /// The overridden type of the object at `pointer`; null where there is none.
   const OverriddenType* overridden_type(const JsonPointer& pointer) const;
 
   void add_problem(const JsonPointer& pointer, std::string found, std::string expected);
@@ -64,9 +64,9 @@ class Document
   std::vector<Problem> problems;
   /// The old words that were replaced, a line each, with its place.
   std::vector<std::string> notes;
-  /// What may be so and is hardly ever meant, a line each, with its pointer.
+  /// Warnings of what is allowed and hardly ever meant, a line each, with its pointer.
   std::vector<std::string> warnings;
-  /// What is worth knowing of its files, a line each, with its pointer: `tamp check` says it.
+  /// Remarks on its files, a line each, with its pointer, which `tamp check` prints.
   std::vector<std::string> remarks;
   /// Every file that has been read for it, in the order in which they were named.
   std::vector<InputFile> inputs;

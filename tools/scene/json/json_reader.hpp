@@ -39,11 +39,11 @@ class JsonReader
   std::vector<std::vector<double>> rows(const std::string& key);
   bool flag(const std::string& key);
   std::string text(const std::string& key, const std::string& default_value);
-  /// Whether the word stands there that a number may have instead.
+  /// Whether the word stands at the key that is allowed in place of a number.
   bool has_word(const std::string& key) const;
   /// Whether an object stands there, which `object` then reads.
   bool is_object(const std::string& key) const;
-  /// One of the words of a choice, or empty if it is none.
+  /// The word of a choice at a key, or empty if it is none of the choice's words.
   std::string word(const std::string& key);
   /// The value of the word at a key, or of the object in its place; that of the first word if it is neither.
   template <class Enum>
@@ -57,7 +57,7 @@ class JsonReader
   /// The value of the object that stands at the key in place of a word or a name; none where it is no object, or none
   /// may stand there.
   std::optional<int> value_of_object(const std::string& key) const;
-  /// One of `names`, or of the words that may stand there instead; empty if it is none.
+  /// The name at a key, one of `names` or of the words that may stand there instead; empty if it is neither.
   std::string name(const std::string& key, const std::vector<std::string>& names);
   /// With a default that only the reader knows.
   std::string name(const std::string& key, const std::vector<std::string>& names, const std::string& default_value);
@@ -97,10 +97,10 @@ class JsonReader
   std::vector<const std::vector<Key>*> declared() const;
   const std::vector<Instead>& instead(const std::string& key) const;
   std::string shown_instead(const std::string& key) const;
-  /// Which of those that may stand there: the first that has a key of the one that does.
+  /// The kind of object that stands at a key, among those that may: the first that has one of its keys.
   const Instead& object_instead(const std::string& key) const;
   const Key& declared(const std::string& key) const;
-  /// Notes a type that is not that of the file from which keys come; whether there is one.
+  /// Notes a type that differs from that of the file from which keys come. Returns whether it does.
   bool is_over_type_of_file(const std::string& type) const;
   template <class Kind>
   const Kind& declared_as(const std::string& key) const
@@ -114,10 +114,10 @@ class JsonReader
   /// As `find`, but the key must be there.
   const Json* require(const std::string& key, const std::string& expected) const;
   void write(const std::string& key, Json value);
-  /// Writes what holds where the key is left out, and notes that it was.
+  /// Writes the value that a key has where it is left out, and notes that it was.
   void fill_in(const std::string& key, Json value);
   void write_default(const std::string& key, std::size_t n_entries = 0);
-  /// `also` is what else a message names.
+  /// `also` is named in the message beside the words.
   std::string one_of(const std::string& key, const std::vector<std::string>& words, const std::string& also = "") const;
   int value_of_choice(const std::string& key);
   template <class T>
@@ -130,7 +130,7 @@ class JsonReader
   Document* document_;
   JsonPointer pointer_;
   const ObjectKeys* object_;
-  /// Those of the type, when it is known.
+  /// The keys of the type, when it is known.
   const TypeKeys* type_ = nullptr;
   /// False where a problem with this whole object has been noted already.
   bool exists_ = true;

@@ -92,7 +92,7 @@ struct Choice {
   std::vector<Instead> instead{};
   /// Words of earlier versions that are still read, each with the word of now.
   std::map<std::string, std::string> old_words{};
-  /// That of each word, in Markdown; empty where the meaning of the key says it all.
+  /// The meaning of each word, in Markdown; empty where the meaning of the key says it all.
   std::vector<std::string> meanings{};
 };
 struct Object {
@@ -133,7 +133,7 @@ struct Key {
   std::string old_name{};
 };
 
-/// One word of the key "type", and the keys that go with it.
+/// A word of the key "type", and the keys that go with it.
 struct TypeKeys {
   std::string word;
   std::vector<Key> keys;

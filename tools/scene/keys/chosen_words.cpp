@@ -13,7 +13,7 @@ namespace
 class WordFinder
 {
  public:
-  /// All in an object that has these keys.
+  /// Looks at all words in an object that has these keys.
   void look_at(const Json& object, const ObjectKeys& keys, const JsonPointer& pointer)
   {
     look_at(object, keys.keys, pointer);
@@ -56,7 +56,7 @@ class WordFinder
         {{"key", pointer.to_string()}, {"word", word}, {"about", about(key, meaning)}, {"meaning", meaning}});
   }
 
-  /// What stands before the words of a key, or all where they have no meanings of their own.
+  /// The meaning of a key before its list of words, or all of it where words have no meanings of their own.
   static std::string about(const Key& key, const std::string& meaning)
   {
     if (meaning.empty()) return key.meaning;

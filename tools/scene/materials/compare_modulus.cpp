@@ -24,7 +24,7 @@ struct State {
   double elastic, plastic, tabulated, modelled = 0;
 
   double ratio() const { return std::max(1e-99, modelled / tabulated); }
-  /// By how many times it is off, 1 or more.
+  /// The factor by which the modelled pressure is off, 1 or more.
   double off() const { return std::max(ratio(), 1 / ratio()); }
 };
 
@@ -57,7 +57,7 @@ std::optional<double> total_strain_at(double pressure, const PiecewiseLinear& hy
   return std::lerp(hydrostat.x()[i - 1], hydrostat.x()[i], part);
 }
 
-/// One curve, along the loading.
+/// The states along the loading, as one curve.
 Tabulated loading_states(const PiecewiseLinear& crush_curve, const PiecewiseLinear& hydrostat)
 {
   constexpr int n_states = 32;
@@ -73,7 +73,7 @@ Tabulated loading_states(const PiecewiseLinear& crush_curve, const PiecewiseLine
   return loading;
 }
 
-/// What the tables beside the modulus hold; a remark where they cannot be read.
+/// The states in the tables beside the modulus; where these cannot be read, a remark is made.
 Tabulated tabulated(JsonReader& material, StrainMeasure measure, const LoadingCurves& loading)
 {
   Document& document = material.document();
@@ -91,7 +91,7 @@ Tabulated tabulated(JsonReader& material, StrainMeasure measure, const LoadingCu
   return {};
 }
 
-/// The state whose pressure is off as its curve is: more than by half of the others, and less than by half.
+/// The state with the median error of its curve: half of the others are off by less.
 State median(std::vector<State> curve, const components::Modulus& modulus)
 {
   for (State& s : curve) {
@@ -103,7 +103,7 @@ State median(std::vector<State> curve, const components::Modulus& modulus)
   return *middle;
 }
 
-/// Of a fit that is off by that many times.
+/// The likely cause of a fit that is off by this factor, in words.
 std::string likely_cause(const std::string& type, double ratio)
 {
   const double decades = std::abs(std::log10(ratio));

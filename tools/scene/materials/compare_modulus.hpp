@@ -10,7 +10,7 @@
 namespace tamp::tools
 {
 
-/// What a material's tables say of its pressure, by their logarithmic strains, compression positive.
+/// The pressures in a material's tables, by their logarithmic strains, compression positive.
 struct LoadingCurves {
   std::optional<components::PiecewiseLinear> hydrostat;    ///< pressure of total strain
   std::optional<components::PiecewiseLinear> crush_curve;  ///< as tabulated: X of plastic strain

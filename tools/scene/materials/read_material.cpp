@@ -155,7 +155,7 @@ std::optional<tasks::MaterialModel> read_tabular_cap(JsonReader& reader)
   }
 }
 
-/// What a model has to know of the scene and the rest of its material.
+/// Facts that a model needs about the scene and the rest of its material.
 struct Surroundings {
   double density;
   bool in_plane_strain;

@@ -22,7 +22,7 @@ struct CheckedMaterial {
   Json resolved;
   /// Old words in it, a line each, with its place and the word of now.
   std::vector<std::string> notes;
-  /// What reading it has found to be hardly meant, a line each.
+  /// Warnings of what is allowed and hardly ever meant, a line each.
   std::vector<std::string> warnings;
 };
 

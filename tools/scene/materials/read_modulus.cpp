@@ -87,7 +87,7 @@ class ModulusReader
     reader_.finish();
   }
 
-  /// Those of the model that is chosen, from which `make_` then makes it.
+  /// Reads the keys of the model that is chosen, from which `make_` then makes it.
   template <class Model>
   void read_keys_of()
   {

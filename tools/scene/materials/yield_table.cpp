@@ -21,7 +21,7 @@ void convert_to_sqrt_j2(Table& table, YieldMeasure measure)
   for (double& strength : table.columns[1]) strength /= std::sqrt(3.0);
 }
 
-/// What is multiplied with sqrt(J2).
+/// The factor of sqrt(J2) in the measure.
 double unit_of(YieldMeasure measure)
 {
   return measure == YieldMeasure::q ? std::sqrt(3.0) : 1;

@@ -13,13 +13,13 @@
 namespace tamp::tools::compare
 {
 
-/// How far every model goes.
+/// The length of every model's run.
 struct Extent {
   double end;  ///< [s]
   long max_steps;
 };
 
-/// One model of a comparison, in time: its simulation, and what is kept of it. A simulation that goes wrong ends there.
+/// A model of a comparison, in time: its simulation, and what is kept of it. A simulation that goes wrong ends there.
 class ModelRun
 {
  public:
@@ -28,7 +28,7 @@ class ModelRun
   ModelRun(const ModelScene& scene, const Extent& extent, const std::filesystem::path& folder,
            std::shared_ptr<runtime::Executor> executor);
 
-  /// A round of so many steps, or to a simulated time; both end early where the run does.
+  /// Runs so many steps, or to a simulated time; both end early where the run does.
   void advance_steps(int n_steps);
   void advance_to(double until);
 
@@ -38,7 +38,7 @@ class ModelRun
   const tasks::Simulation& simulation() const { return *simulation_; }
   const RunHistory& history() const { return history_; }
 
-  /// The states of the sand now; of a run that went wrong the last good ones.
+  /// The states of the sand now; the last good ones of a run that went wrong.
   std::vector<ModulusTiming> modulus_timings() { return compare::modulus_timings(*simulation_); }
   void add_modulus_ns(double ns) { modulus_ns_.push_back(ns); }
 

@@ -56,7 +56,8 @@ bool sweeps(const Method& method, const std::string& pointer)
                      [&](const Axis& axis) { return axis.pointer == pointer; });
 }
 
-/// Of methods that sweep the setting all other combinations; where there are none, the first point of each method.
+/// The points that a limit is found for: all other combinations of the methods that sweep the setting; where none does,
+/// the first point of each method.
 std::vector<Point> points_with_a_limit(Study study, const std::string& pointer)
 {
   const auto does = [&](const Method& method) { return sweeps(method, pointer); };
@@ -74,7 +75,7 @@ std::vector<Point> points_with_a_limit(Study study, const std::string& pointer)
   return points;
 }
 
-/// With every default filled in.
+/// The value of the setting in the scene, with every default filled in.
 double value_as_written(const Study& study, const Point& point, const std::string& pointer)
 {
   const Json scene = resolved(study.measure, point.settings);
@@ -93,7 +94,7 @@ Point with_value(Point point, const std::string& pointer, double value)
   return point;
 }
 
-/// What would be refused, before anything runs.
+/// Throws for settings that would be refused, before anything runs.
 void expect_accepted(const Study& study, const std::vector<Point>& points, const LimitOptions& limit)
 {
   if (!limit.search.between) return;
@@ -132,7 +133,7 @@ class Prober
   }
 
  private:
-  /// Of a run that came to its end.
+  /// Judges a run that came to its end.
   void judge(const PointResult& result, Probe& probe) const
   {
     const StableIf& stable = study_.stable_if;

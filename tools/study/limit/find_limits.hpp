@@ -9,12 +9,12 @@
 namespace tamp::tools::study
 {
 
-/// Of `tamp study --limit`.
+/// Options of `tamp study --limit`.
 struct LimitOptions {
   /// The setting, a JSON pointer to a number of the scene; empty where no limit is asked for.
   std::string pointer;
   LimitSearch search;
-  /// Over what the study says.
+  /// Overrides that of the study.
   std::optional<double> energy_error{};
 };
 

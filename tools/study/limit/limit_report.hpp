@@ -17,9 +17,9 @@ struct LimitResults {
   std::vector<Limit> limits;
 };
 
-/// What limit.json holds: each method with all its runs.
+/// The content of limit.json: each method with all its runs.
 Json to_json(const LimitResults& results);
-/// A row a method.
+/// The results as CSV, a row for each method.
 std::string to_csv(const LimitResults& results);
 /// The same for people.
 std::string to_text(const LimitResults& results);

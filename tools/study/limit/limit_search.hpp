@@ -42,7 +42,7 @@ struct Edge {
   Probe stable, unstable;
 };
 
-/// What was found with one method.
+/// The limit that was found with one method.
 struct Limit {
   std::string method;
   double written = 0;

@@ -9,7 +9,7 @@ namespace tamp::tools::study
 
 void read_measure(StudyReader& in);
 void read_methods(StudyReader& in);
-/// Those that methods have besides.
+/// Reads the points that methods list besides their sweeps.
 void read_points(StudyReader& in);
 void read_quantities(StudyReader& in);
 void read_reference(StudyReader& in);
@@ -19,7 +19,7 @@ void read_stability(StudyReader& in);
 void read_stable_if(StudyReader& in);
 void read_map(StudyReader& in);
 
-/// Once all is read: that each quantity has an answer, and that points are not too many.
+/// Checks, once all is read, that each quantity has an answer, and that points are not too many.
 void expect_answers(StudyReader& in);
 void expect_few_points(StudyReader& in);
 

@@ -10,7 +10,7 @@ namespace tamp::tools::study
 namespace
 {
 
-/// One of the keys that say what has to hold.
+/// Reads the key that says what has to hold, one of several.
 void read_bar(StudyReader& in, JsonReader& reader, Expectation& expected)
 {
   using Kind = Expectation::Kind;
@@ -43,7 +43,7 @@ void read_bar(StudyReader& in, JsonReader& reader, Expectation& expected)
   }
 }
 
-/// The keys that go with some of them alone.
+/// Reads the keys that go with some of these alone.
 void read_terms(StudyReader& in, JsonReader& reader, Expectation& expected)
 {
   using Kind = Expectation::Kind;

@@ -8,7 +8,7 @@ namespace tamp::tools::study
 namespace
 {
 
-/// One number is judged.
+/// Reads the name of a method, which must have a single point, as one number is judged.
 std::string method_with_one_point(StudyReader& in, JsonReader& reader, const std::string& key)
 {
   std::string name = in.needed_text(reader, key);

@@ -17,12 +17,12 @@ struct StudyReader {
   explicit StudyReader(Document& file) : document(file), root(file, study_keys()) {}
 
   std::string pointer(JsonReader& reader, const std::string& key);
-  /// One that is not empty.
+  /// The text at a key, which must not be empty.
   static std::string needed_text(JsonReader& reader, const std::string& key);
   std::vector<std::string> names(JsonReader& reader, const std::string& key);
   std::vector<Json> list(JsonReader& reader, const std::string& key);
   Settings settings(JsonReader& reader, const std::string& key);
-  /// Those of an object that stands somewhere below the key.
+  /// The settings in an object that stands somewhere below the key.
   Settings settings_of(const Json& object, JsonReader& reader, const std::string& key);
   std::vector<Axis> axes(JsonReader& reader, const std::string& key);
   /// Files are named from the study's folder; commands name them from the current one.

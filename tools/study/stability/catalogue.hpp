@@ -12,18 +12,19 @@
 namespace tamp::tools::stability
 {
 
-/// How far errors have to be from the threshold, on either side: what is near it is neither failure nor cure.
+/// Factor by which errors have to be away from the threshold, on either side: errors near it are neither failure nor
+/// cure.
 inline constexpr double clearly = 3;
 
 /// How a method ended, and how far it was off.
 struct Outcome {
   /// As the study has it: "done", "unstable", "limit", "refused".
   std::string ended;
-  /// Empty where it came to none.
+  /// Its error; empty where it has none.
   std::optional<double> error;
   /// The command line that remakes it.
   std::string command;
-  /// What the run says of itself, where it is one of a scene: shares over their limits, by the monitors' names.
+  /// The monitors' shares over their limits, by name, where it is the run of a scene.
   std::map<std::string, double> shares_of_limits{};
 };
 
@@ -52,7 +53,7 @@ std::string to_markdown(const std::vector<Entry>& entries);
 /// does not, those whose shares are next to its limit.
 std::string monitors_to_markdown(const std::vector<Entry>& entries);
 
-/// All that is known of each, with titles and commands.
+/// All data of each entry, with titles and commands.
 Json to_json(const std::vector<Entry>& entries);
 
 /// For each entry `{name, failing_method, symptom, failed, surviving_method, survived, monitor, first_count}`, the

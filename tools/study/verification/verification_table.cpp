@@ -31,7 +31,7 @@ bool is_known_miss(const Json& result)
   return result["holds"] == false && is_known_to_miss(result);
 }
 
-/// One line for each chosen result: found, expected, and the reason under a key.
+/// A line for each chosen result: found, expected, and the reason under a key.
 template <class IsAskedFor>
 std::vector<std::string> lines_of(const Json& study, const IsAskedFor& is_asked_for, const char* key_of_reason)
 {
