@@ -1,4 +1,4 @@
-# What TAMP borrows. Each find is followed by a line for the summary that ends the configure step.
+# Libraries that TAMP uses. Each find is followed by a line for the summary that ends the configure step.
 
 function(tamp_uses name version purpose)
   set_property(GLOBAL APPEND_STRING PROPERTY tamp_summary "  ${name} ${version}: ${purpose}\n")

@@ -101,7 +101,7 @@ function(tamp_compile_alone)
   set_source_files_properties(${ARGN} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
 endfunction()
 
-# What is not worth more of the compiler's time: it is no part of a time step.
+# Compiles a target that is no part of a time step, and so not worth more of the compiler's time.
 function(tamp_compile_fast target)
   target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O1>)
 endfunction()

@@ -48,7 +48,7 @@ class TraceReader
     look_at_arrows();
   }
 
-  /// What the format does not allow; at most the first of each kind and event.
+  /// Violations of the format; at most the first of each kind and event.
   const std::vector<std::string>& problems() const { return problems_; }
   const nlohmann::json& file() const { return file_; }
   const std::vector<Slice>& slices() const { return slices_; }

@@ -297,7 +297,7 @@ TEST_CASE("a step that refuses itself moves no particle and leaves the state, on
     const std::vector<double> sums = ranks.gather_value(sum);
     return std::pair{ranks.sum(n), std::accumulate(sums.begin(), sums.end(), 0.0)};
   };
-  // Those of the last patches along x have left the grid.
+  // The particles of the last patches along x have left the grid.
   CHECK(places().first == 6);
   CHECK(places().second == Approx(2 * (0.5 + 2.5 + 4.5) + 6 * 1.8));
 

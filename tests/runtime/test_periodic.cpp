@@ -40,7 +40,7 @@ std::vector<TaskDeclaration> adding(int halo)
   return {task("add").over_patches_and_groups().accumulates(node_sum.halo(halo)).body([](const TaskContext&, auto) {})};
 }
 
-/// Such numbers that another order of their sum shows.
+/// Numbers whose sum differs if they are added in another order.
 double part_of(int patch, const Index& i)
 {
   return 0.1 * patch + std::sqrt(200.0 + i[0] + 10 * i[1] + 100 * i[2]);

@@ -22,7 +22,7 @@ using namespace tamp::test;
 namespace
 {
 
-/// What steps that write nothing asked of the system, after the first ten, where no patch outgrew its storage.
+/// Allocations and page faults of steps that write nothing, after the first ten, where no patch outgrew its storage.
 struct Requests {
   std::vector<long> allocations;
   std::vector<long> page_faults;

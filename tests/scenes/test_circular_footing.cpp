@@ -21,9 +21,9 @@ using namespace tamp::test;
 namespace
 {
 
-/// What the clay of the scene bears on a circle of 1 m, which is between these: Tresca's clay whose hexagon is
-/// inscribed in von Mises' circle bears 5.69 c for each area (G. Eason and R. T. Shield, Z. angew. Math. Phys. 11,
-/// 1960), and the one whose hexagon is circumscribed 2 / sqrt(3) times that [N].
+/// Bounds of the load that the clay of the scene bears on a circle of 1 m [N]: Tresca's clay whose hexagon is inscribed
+/// in von Mises' circle bears 5.69 c for each area (G. Eason and R. T. Shield, Z. angew. Math. Phys. 11, 1960), and the
+/// one whose hexagon is circumscribed 2 / sqrt(3) times that.
 constexpr double least_load = 5.69 * 10e3 * std::numbers::pi / 4;
 const double greatest_load = 2 / std::sqrt(3) * least_load;
 

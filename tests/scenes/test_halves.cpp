@@ -41,7 +41,7 @@ const Assignments straight_down{"/centrifuge=null",
                                 "/bodies/projectile/tail=[0.075,0.05,0.1495]",
                                 "/bodies/projectile/velocity=[0,0,-283]"};
 
-/// One that goes down at 45 degrees within the plane y = 0.05 m, and turns there.
+/// A projectile that goes down at 45 degrees within the plane y = 0.05 m, and turns there.
 const Assignments inclined{"/centrifuge=null", "/gravity=[0,0,-196.2]", "/grid/cell_size=0.0125",
                            "/grid/patches=[1,1,4]", "/materials/projectile/particles_per_axis=14",
                            "/bodies/projectile/angular_velocity=[0,150,0]",

@@ -249,7 +249,7 @@ TEST_CASE("rings that share the stress of their cell with its change of volume k
   const double plain = greatest_error(AntiLocking::none, 0.2), shared = greatest_error(AntiLocking::cell_average, 0.2),
                finer = greatest_error(AntiLocking::cell_average, 0.1), f_bar = greatest_error(AntiLocking::f_bar, 0.2);
   CAPTURE(scene.deformation_update.word(), plain, shared, finer, f_bar);
-  // What is left is that of finite steps; work that is not that of the forces would stay.
+  // The remaining error is that of finite steps; an error in the work of the forces would stay as it is.
   CHECK(shared < 1.5 * plain);
   CHECK(finer < 0.4 * shared);
   CHECK(f_bar > 50 * shared);

@@ -154,7 +154,7 @@ TEST_CASE("matter that has swollen by a fifth, and yet bears load, is told with 
 {
   const auto swelling = Simulation::make(thrown_layer(friction_alone), 1),
              rubber = Simulation::make(thrown_layer(components::Hypoelastic{1e6, 6e5}), 1);
-  // What shows in the particles is what the monitor sums up.
+  // The monitor has the sum of the flaws that the fields of the particles show.
   double most = 0, greatest_load = 0;
   while (swelling->time() < 0.4) {
     swelling->advance(0.4);

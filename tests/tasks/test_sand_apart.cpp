@@ -60,7 +60,7 @@ TEST_CASE("sand that is thrown apart keeps its momentum and accounts for its ene
     REQUIRE(p[i] == 0);
     REQUIRE(q[i] == 0);
   }
-  // Nearly nothing is stiff any more.
+  // Hardly any particle has stiffness any more.
   CHECK(simulation->stable_step() > 1.5 * stable_step);
 }
 

@@ -47,7 +47,7 @@ Eigen::Vector3d shown_by_nodes(Simulation& simulation)
   return sum;
 }
 
-/// What this rank's ledger knows of fields, once all graphs have been run.
+/// Bytes of fields in this rank's ledger, once all graphs have been run.
 std::size_t of_fields(Simulation& simulation)
 {
   runtime::Engine& engine = simulation.engine();
@@ -72,7 +72,7 @@ TEST_CASE("node fields are stored where there is matter, as forecast, and given 
 
   simulation->advance(1);
 
-  // Of 48 patches the disk and what it gives to take up to nine.
+  // The disk, with the nodes that it gives to, takes up to nine of 48 patches.
   const std::size_t of_first_step = sums.current();
   const double of_a_patch = 7 * 7 * 2.0 * sizeof(components::NodeSums<2>);
   CHECK(static_cast<double>(of_first_step) > 4 * of_a_patch);

@@ -45,7 +45,7 @@ const std::vector<Filter> filters{{"flip", Transfer("flip"), 0, 1},   {"tflip", 
                                   {"xpic 1", Transfer("xpic"), 0, 1}, {"xpic 2", Transfer("xpic"), 0, 2},
                                   {"xpic 5", Transfer("xpic"), 0, 5}, {"fmpm 1", Transfer("fmpm"), 0, 1},
                                   {"fmpm 2", Transfer("fmpm"), 0, 2}, {"fmpm 8", Transfer("fmpm"), 0, 8}};
-/// That forget what the nodes cannot tell, as PIC, but bring gradients.
+/// Transfers that, like PIC, forget what the nodes do not hold, but bring gradients.
 const std::vector<Filter> with_gradients{{"apic", Transfer("apic"), 0, 1}, {"tpic", Transfer("tpic"), 0, 1}};
 
 /// The weight of a node for a particle `x` cells away, of two an axis in a full cell.
@@ -160,7 +160,7 @@ Scene turning_rod(int dimension, Transfer transfer, Interpolator interpolator)
   return scene;
 }
 
-/// That of the nodes about z, after contact and walls [kg m^2/s].
+/// Angular momentum of the nodes about z, after contact and walls [kg m^2/s].
 double angular_momentum_of_nodes(Simulation& simulation)
 {
   const runtime::FieldCopy copy = simulation.fields({}, true);

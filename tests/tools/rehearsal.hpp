@@ -8,12 +8,12 @@ namespace tamp::test
 inline constexpr bool is_rehearsal = TAMP_SANITIZED;
 /// For `tamp study`, `tamp verify` and `tamp stability`.
 inline constexpr const char* rehearsed = is_rehearsal ? " --steps 20" : "";
-/// Of a test that takes so many steps by itself.
+/// Steps of a test that takes `whole` steps when it is not a rehearsal.
 constexpr int n_steps_of(int whole)
 {
   return is_rehearsal ? (whole + 9) / 10 : whole;
 }
-/// Of one that runs a scene to a time of its own [s].
+/// End of a test that runs a scene to the time `whole` when it is not a rehearsal [s].
 constexpr double end_of(double whole)
 {
   return is_rehearsal ? whole / 10 : whole;

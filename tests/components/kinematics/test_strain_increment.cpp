@@ -232,7 +232,7 @@ struct ShearErrors {
 struct TurnedShear {
   static Matrix<2> turn(double angle) { return Eigen::Rotation2Dd(angle).toRotationMatrix(); }
   static Matrix<2> deformation(double t) { return turn(2 * t) * (Matrix<2>() << 1, t, 0, 1).finished(); }
-  /// That of F: the turn, and tan(angle) = -t / 2 of the shear.
+  /// The rotation of F: the turn, and tan(angle) = -t / 2 of the shear.
   static Matrix<2> rotation(double t) { return turn(2 * t - std::atan(t / 2)); }
   static Matrix<2> rate(double t)
   {

@@ -8,7 +8,7 @@
 namespace tamp::test
 {
 
-/// One particle of a model, and its update.
+/// A particle of a model, and its update.
 template <int D, class Model>
 struct OneParticle {
   Matrix<D> deformation_gradient = Matrix<D>::Identity();

@@ -20,7 +20,7 @@ using Sample = test::OneParticle<3, BoltonSand>;
 
 constexpr double grains = 2650, e_min = 0.6, e_max = 1.0, critical = 32;
 
-/// Of a relative density; `stiffness` 100 is next to rigid, so that all strain is plastic.
+/// Sand of a relative density; with `stiffness` 100 it is next to rigid, so that all strain is plastic.
 BoltonSand sand(double relative_density, double stiffness = 1)
 {
   BoltonSand made{.grain_density = grains,

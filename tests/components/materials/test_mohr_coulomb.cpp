@@ -45,7 +45,7 @@ double ratio_at_failure(double friction)
   return (1 + std::sin(friction * degree)) / (1 - std::sin(friction * degree));
 }
 
-/// Of a random stress and strain.
+/// The trial stress of a random stress and strain.
 struct Trial {
   Sample<3> before;
   SymmetricTensor<3> strain;

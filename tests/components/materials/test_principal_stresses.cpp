@@ -30,7 +30,7 @@ std::vector<SymmetricTensor<D>> some_tensors()
     for (int k = 0; k < n_symmetric<D>; ++k) a[k] = any(random);
     all.push_back(a);
     all.push_back(a + isotropic<n_symmetric<D>>(-1e6));
-    // Of two equal values: all but a multiple of the projection on a direction.
+    // A tensor with two equal principal values: isotropic, plus a multiple of the projection on a direction.
     Vector<D> n;
     for (int k = 0; k < D; ++k) n[k] = any(random);
     n.normalize();

@@ -28,7 +28,7 @@ const TabularCap& rate_sand()
   return sand;
 }
 
-/// One of the two, whose dilation ends.
+/// A copy of a sand whose dilation has a limit.
 TabularCap limited_sand(const TabularCap& sand, double dilation_limit)
 {
   TabularCapParameters parameters = sand.parameters();

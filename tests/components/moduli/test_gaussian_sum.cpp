@@ -29,7 +29,7 @@ GaussianSum::Values<double> plain(const Gaussians& gaussians, double x, double y
   return {rounded(f), rounded(by_x), rounded(by_y), rounded(by_xx), rounded(by_xy)};
 }
 
-// One in the rectangle (1 to 3, 0 to 2), one at its corner, one far away.
+// A peak in the rectangle (1 to 3, 0 to 2), one at its corner, one far away.
 const Gaussians three_peaks{5, 2, {{1.7, 0.4, 3}, {3, 2, -1}, {-4, 1, 1000}}};
 
 }  // namespace

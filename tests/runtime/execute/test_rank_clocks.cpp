@@ -33,7 +33,7 @@ PatchLayout patch_on_each(int n_ranks)
   return layout;
 }
 
-/// What messages of a few steps were on their way, with these clocks.
+/// Traffic of the messages of a few steps, with these clocks.
 Traffic traffic_with(const RankClocks& clocks, const Communicator& ranks)
 {
   const PatchLayout layout = patch_on_each(ranks.size());
@@ -49,7 +49,7 @@ Traffic traffic_with(const RankClocks& clocks, const Communicator& ranks)
   return bound.traffic();
 }
 
-/// Of ranks whose clocks are each a second behind that of the rank before.
+/// Clocks of ranks, each a second behind that of the rank before.
 constexpr std::uint64_t second = 3'000'000'000;
 std::vector<ClockLine> each_behind_the_one_before(int n_ranks)
 {

@@ -267,7 +267,7 @@ TEST_CASE("the dump has every instance and every edge", "[graph]")
   CHECK(dump["edges"].size() == graph.edges().size());
   CHECK(dump["memory"]["forecast_peak_bytes"] == 123);
   for (const auto& edge : dump["edges"]) CHECK(edge["from"] < edge["to"]);
-  // Of patch 1: a gathering, its sum and a move; and the neighbours' gatherings and sums.
+  // The drawing of patch 1 has its gathering, its sum and its move, and the neighbours' gatherings and sums.
   for (const char* patch : {"patch 0", "patch 1", "patch 2"}) CHECK_THAT(dot, Catch::Contains(patch));
   CHECK_THAT(dot, !Catch::Contains("patch 3"));
 }

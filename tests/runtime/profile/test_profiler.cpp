@@ -109,7 +109,7 @@ TEST_CASE("a step and what lies between two are those of one rank, so that they 
   for (std::size_t p = 0; p < owners.size(); ++p) owners[p] = static_cast<int>(p) % world.size();
   heat.engine.deal(owners);
   heat.run(1, 1e-4);
-  // What is asked of the profile, and of the others, lies between two steps, too.
+  // Making the profile, and waiting for the other ranks, counts as time between two steps, too.
   const auto start = std::chrono::steady_clock::now();
   const Profile before = heat.engine.profile();
 

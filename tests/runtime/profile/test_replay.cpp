@@ -104,7 +104,7 @@ TEST_CASE("what waits for a neighbour waits for its message too", "[profile]")
   CHECK(chain.message_s.size() == chain.instances.size());
 }
 
-/// Of all links, with the messages before them.
+/// Time of all links of a chain, with the messages before them [s].
 double length_of(const std::vector<ChainLink>& chain)
 {
   double sum = 0;

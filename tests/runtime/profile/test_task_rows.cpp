@@ -30,7 +30,7 @@ TEST_CASE("how uneven a task is on a rank is told by the patches of that rank, i
 {
   CHECK(imbalance(row_with({0, 0, 0, 4, 4, 4}), 1) == 1);
   CHECK(imbalance(row_with({0, 0, 0, 6, 6, 0}), 1) == 1.5);
-  // One that it worked on before it was dealt away.
+  // The rank worked on patch 0 before that was dealt to another rank.
   CHECK(imbalance(row_with({3, 0, 0, 3, 3, 3}), 1) == 1);
   CHECK(imbalance(row_with({0, 0, 0, 4, 4, 4}), -1) == 2);
 }

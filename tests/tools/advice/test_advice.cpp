@@ -5,7 +5,7 @@
 
 #include "tests/tools/program.hpp"
 
-/// What `tamp check` advises on shipped scenes. Steps and times are those of trial runs, which tell two machines apart.
+/// Advice of `tamp check` on shipped scenes. Steps and times are those of trial runs, which differ between machines.
 namespace test_advice
 {
 

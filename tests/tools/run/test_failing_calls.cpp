@@ -19,7 +19,7 @@ namespace
 
 namespace fs = std::filesystem;
 
-/// One call that fails, see tests/faults/failing_calls.cpp, and what the message names.
+/// A call that fails, see tests/faults/failing_calls.cpp, and what the message names.
 struct Fault {
   std::string call;
   int at = 1;

@@ -90,7 +90,7 @@ TEST_CASE("a pipe that comes to stand for a file of a run while it goes on ends 
                  "--quiet --steps 3000 --set /output/fields_interval=1e-5 --set /output/history_interval=1e-5 --out " +
                  run + " & run=$!; while [ $(cat " + run +
                  "/history.csv 2>/dev/null | wc -l) -lt 3 ]; do sleep 0.01; done; "
-                 // One that comes between the look at a file and its replacement is replaced.
+                 // A pipe that comes between the look at a file and its replacement is replaced.
                  "for i in 1 2 3 4 5 6 7 8 9; do kill -0 $run 2>/dev/null || break; mkfifo " +
                  run + "/pipe; mv -f " + run + "/pipe " + file + "; sleep 0.2; done; wait $run'");
 

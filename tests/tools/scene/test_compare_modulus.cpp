@@ -20,7 +20,7 @@ using nlohmann::json;
 namespace
 {
 
-/// What is said of a sand of K = 1 GPa by its tables, with a network of a K of its own everywhere.
+/// Runs the check of a sand whose tables have K = 1 GPa, with a network that has another K everywhere.
 class SandWithNetwork
 {
  public:

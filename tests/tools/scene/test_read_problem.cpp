@@ -62,7 +62,7 @@ TEST_CASE("a body whose problem lays out its particles has those")
   const auto scene =
       tools::read_scene(folder.write("small.json", small_scene), with_problem(disk, {ring_of_disk})).scene;
 
-  // One ring of the half metre between the radii, 0.65 from the centre: 8.2 particles of half a metre.
+  // A single ring in the half metre between the radii, 0.65 from the centre: 8.2 particles of half a metre.
   CHECK(scene.bodies.at(0).n_particles == 8);
 }
 

@@ -24,7 +24,7 @@ std::vector<std::byte> as_bytes(const std::string& text)
   return {first, first + text.size()};
 }
 
-/// One of a scene that is filled by `variant`.
+/// Writes a checkpoint of a scene that is filled by `variant`.
 void write(const fs::path& folder, std::int64_t step, int variant, int keep = 2, const Communicator& communicator = {})
 {
   StateScene scene(communicator);

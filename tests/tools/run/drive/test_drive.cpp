@@ -44,7 +44,7 @@ const tasks::SceneMaterial& state_sand()
   return sand;
 }
 
-/// One row a unit of time.
+/// A path with a row for each unit of time.
 DeformationPath path_through(const std::vector<Matrix<3>>& deformations)
 {
   std::vector<PathRow> rows;

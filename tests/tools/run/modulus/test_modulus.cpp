@@ -163,7 +163,7 @@ TEST_CASE("files that are no model, or are not there, end with 2 and their place
   };
 
   CHECK_THAT(problem("n.h5"), Catch::Contains("a network without the attribute scaling; expected --scaling"));
-  // One line: nothing of HDF5's own account.
+  // The message is a single line, without HDF5's own account.
   CHECK_THAT(problem("cut.h5"), Catch::EndsWith("cut.h5: a damaged or truncated HDF5 file; expected an HDF5 file\n"));
   CHECK_THAT(problem("empty.json"), Catch::Contains("expected Vaango_tabular_data, support_vectors or a material"));
   CHECK_THAT(problem("half.json"), Catch::Contains("#/support_vectors: missing"));
