@@ -54,7 +54,7 @@ def listed(title, names):
 
 
 def overview(words):
-    """What commands there are; ends with it, or with what is wrong about the words."""
+    """Print the commands; exits with them, or with the fault of the words."""
     text = listed("commands", FOR_USERS)
     if "--all" in words:
         text += "\n" + listed("what remakes figures, tables and shipped data", RESEARCH)

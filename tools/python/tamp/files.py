@@ -26,7 +26,7 @@ def number(text):
 
 
 def check_file(path):
-    """That a file is there and can be read. Returns its size."""
+    """Check that a file is there and can be read. Returns its size."""
     try:
         status = os.stat(path)
         if not stat.S_ISREG(status.st_mode):
@@ -125,7 +125,7 @@ def written_table(path):
 
 
 def document(path):
-    """What a JSON file holds."""
+    """The content of a JSON file."""
     try:
         return json.loads(text(path))
     except json.JSONDecodeError as error:
@@ -135,11 +135,11 @@ def document(path):
 
 
 class Damage(ValueError):
-    """What is wrong with a file of TAMP's own, in words."""
+    """A fault of a file of TAMP's own, in words."""
 
 
 def words_of(error):
-    """What is wrong with a file, by what went wrong in reading it: Python's words are of no help to a reader."""
+    """The fault of a file in words, from the error in reading it: Python's own words are of no help to a reader."""
     if isinstance(error, Damage):
         return str(error)
     if isinstance(error, KeyError):
@@ -151,7 +151,7 @@ def words_of(error):
 
 @contextlib.contextmanager
 def written_by_tamp(path):
-    """What is done with a file of TAMP's own, which may be damaged."""
+    """A context for work with a file of TAMP's own, which may be damaged."""
     try:
         yield
     except Failure:

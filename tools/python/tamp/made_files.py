@@ -25,7 +25,7 @@ def found(program):
 
 
 def objection(program, file, states):
-    """What TAMP objects to in a material or a model, asked at (elastic, plastic) strains; empty if it takes it."""
+    """TAMP's objection to a material or a model, asked at (elastic, plastic) strains; empty if it takes it."""
     asked = [word for elastic, plastic in states for word in ("--at", f"{elastic!r},{plastic!r}")]
     said = answer(program.resolve(), "modulus", file, *asked)
     if said.returncode == 0:
@@ -34,7 +34,7 @@ def objection(program, file, states):
 
 
 def objection_to_curves(program, hydrostat, unloading, states):
-    """What TAMP objects to in curves, asked by a material made for the question."""
+    """TAMP's objection to curves, asked by a material made for the question."""
     with tempfile.TemporaryDirectory() as folder:
         material = pathlib.Path(folder, "material.json")
         modulus = {"type": "table", "table": str(unloading.resolve())}

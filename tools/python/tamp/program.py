@@ -32,7 +32,7 @@ def changes(settings):
 
 
 def command(tamp, *words, ranks=1):
-    """One rank needs no launcher."""
+    """The words of a call; a single rank needs no launcher."""
     launcher = [] if ranks == 1 else ["mpiexec", "-n", str(ranks)]
     return [*launcher, str(tamp), *map(str, words)]
 

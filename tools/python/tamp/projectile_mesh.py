@@ -27,7 +27,7 @@ def end_slope(h0, h1, chord0, chord1):
 
 
 def slopes(x, y):
-    """Those of the monotone cubic of components/curves/monotone_cubic.cpp."""
+    """Slopes of the monotone cubic of components/curves/monotone_cubic.cpp."""
     h = [b - a for a, b in zip(x, x[1:])]
     chord = [(b - a) / w for a, b, w in zip(y, y[1:], h)]
     inner = []

@@ -81,7 +81,7 @@ def particles(folder, material, time):
 
 
 def exceeded(values, shares=SHARES):
-    """What some shares of all values are above."""
+    """The levels that some shares of all values are above."""
     return tuple(float(value) for value in np.quantile(values, [1 - share for share in shares]))
 
 

@@ -89,7 +89,7 @@ def is_wrong_sand(folder):
 
 
 def judged(answer):
-    """What is wrong with an answer; empty if nothing is."""
+    """The fault of an answer; empty if it has none."""
     if "Traceback" in answer.err or "Traceback" in answer.out:
         return "traceback"
     if answer.code == NO_PACKAGE:

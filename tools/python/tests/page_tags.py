@@ -31,5 +31,5 @@ class Tags(html.parser.HTMLParser):
         return [a for tag, a in self.found if tag == name and all(a.get(key) == value for key, value in wanted.items())]
 
     def sources(self):
-        """What the page would load or lead to."""
+        """Targets that the page would load or lead to."""
         return [value for _, a in self.found for key, value in a.items() if key in ("src", "href", "xlink:href")]

@@ -32,7 +32,7 @@ def made(*words):
 
 
 class Opened:
-    """What a browser made of a page: its elements after the scripts have run, and what the console said."""
+    """A page as a browser has it: its elements after the scripts have run, and what the console said."""
 
     def __init__(self, page, part="", flags=()):
         with tempfile.TemporaryDirectory() as folder:

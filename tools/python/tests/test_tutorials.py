@@ -45,7 +45,7 @@ class Scratch:
         self.remembered = []
 
     def run(self, command):
-        """What it prints, and its exit code."""
+        """The output of a command, and its exit code."""
         if REMEMBERED.match(command):
             self.remembered.append(command)
         script = "\n".join([*self.remembered, command])
@@ -99,7 +99,7 @@ def begins_with(line, beginning):
 
 
 def figures(folder):
-    """What a table has of a run: [particles, steps, and so on] by the names of columns."""
+    """The entries of a run in a table: [particles, steps, and so on] by the names of columns."""
     names, rows = files.written_table(folder / "history.csv")
     summary = files.document(folder / "summary.json")
     column = {re.sub(r"\[.*", "", name): k for k, name in enumerate(names)}

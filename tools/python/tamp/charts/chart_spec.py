@@ -7,7 +7,7 @@ from tamp.charts.axes import log_limits
 
 
 class Across(NamedTuple):
-    """What is on the x axis."""
+    """The quantity on the x axis."""
 
     name: str
     of: Callable  # of a point; None where it has none

@@ -39,7 +39,7 @@ def word_rows(words, left_out):
 
 
 def place(pointer):
-    """What is chosen, and whose it is: "elastic update" and "sand", "boundaries" and "x-", "time rule" and nothing."""
+    """The choice, and whose it is: "elastic update" and "sand", "boundaries" and "x-", "time rule" and nothing."""
     first, *rest = pointer.strip("/").split("/")
     if first == "boundaries":
         return first, rest[0]

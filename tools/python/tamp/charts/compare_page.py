@@ -121,7 +121,7 @@ def table_of_models(comparison):
 
 
 def changes(comparison):
-    """Of what all models have at the last time that they have all reached."""
+    """Changes between the models at the last time that all have reached."""
     first, *others = comparison["models"]
     coarser = comparison.get("coarser")
     if not others:

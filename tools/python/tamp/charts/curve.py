@@ -42,7 +42,7 @@ def draw(x, y, layout):
 
 
 def limits(quantity):
-    """What is constant but for round-off, such as the volume of an undrained test, is shown from zero on."""
+    """Limits of an axis; a quantity that is constant but for round-off, such as an undrained volume, begins at zero."""
     low, high = min(quantity.values), max(quantity.values)
     if not is_constant(quantity):
         return round_limits(low, high)

@@ -32,7 +32,7 @@ class Plot(NamedTuple):
 
 
 def content(plot, suffix):
-    """Of the file, .svg or .png."""
+    """The content of the file, .svg or .png."""
     drawn = picture.as_picture(draw(plot).figure, "plot", title(plot), describe(plot), png=suffix == ".png")
     return drawn.png or picture.file_text(drawn).encode()
 
@@ -81,7 +81,7 @@ def draw_curve(axis, gid, curve, its_style):
 
 
 def describe(plot):
-    """What is to be seen, in numbers, for who cannot see it."""
+    """The plot in words and numbers, for readers who cannot see it."""
     def between(name, unit, values):
         return f"{name} between {si_text(min(values), unit)} and {si_text(max(values), unit)}"
 

@@ -6,7 +6,7 @@ from tamp.charts.formatting import NO_NUMBER, counted
 
 
 def describe(spec):
-    """What is to be seen, in numbers, for who cannot see it."""
+    """The chart in words and numbers, for readers who cannot see it."""
     drawn, across = drawable(spec), spec.across
     n_methods = len({p.method for p in drawn.points})
     sentences = [f"{counted(len(drawn.points), 'point')} of {counted(n_methods, 'method')}."]

@@ -31,7 +31,7 @@ def main(options):
 
 
 def check_places(folder):
-    """That pages and charts are no links to what they are drawn from, and no pipes, which would wait for a reader."""
+    """Check that pages and charts are no links to what they are drawn from, nor pipes, which wait for a reader."""
     pages = [folder / "index.html", folder / "report.html"]
     keep_inputs([path for path in folder.iterdir() if path not in pages], [*pages, *(folder / "charts").glob("*")])
     for page in pages:

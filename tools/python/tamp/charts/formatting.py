@@ -17,7 +17,7 @@ def is_number(value):
 
 
 def number_text(value, digits=3):
-    """Such as 0.0312, 48 200 or 1.2×10⁻⁷."""
+    """A number as text, such as 0.0312, 48 200 or 1.2×10⁻⁷."""
     if not is_number(value):
         return NO_NUMBER
     if value == 0:
@@ -37,7 +37,7 @@ def without_zeros(text):
 
 
 def si_text(value, unit, digits=3):
-    """Such as 312 µs; units that take no prefix, such as deg, stand behind the plain number."""
+    """A quantity as text, such as 312 µs; units that take no prefix, such as deg, stand behind the plain number."""
     if not is_number(value):
         return NO_NUMBER
     unit = "" if unit == "-" else unit

@@ -22,7 +22,7 @@ def drawing(sheet, name, title, description, kind, source=""):
 
 
 def fitted(shown, scales, most_bytes, share=1.0):
-    """Of lists of squares by names, in the colours of scales of these names: the pictures as texts, together at most as
+    """Pictures, as texts, of lists of squares by names, in the colours of scales of these names, together at most as
     large as they may be, and the share of their squares along a side that is left."""
     some = {name: squares[:: -(-len(squares) // SAMPLE)] for name, squares in shown.items()}
     n, n_some = (sum(map(len, lists.values())) for lists in (shown, some))

@@ -125,7 +125,7 @@ def write_above(sheet, plot, x, y):
 
 
 def caption(plot):
-    """What the axis does not show."""
+    """Values beyond the axis, in words."""
     return " ".join(f"{name} goes beyond the axis, up to {si_text(y, plot.y_unit)} at a {plot.x_name} of "
                     f"{si_text(x, plot.x_unit)}." for name, x, y in blows(plot))
 

@@ -31,7 +31,7 @@ class View(NamedTuple):
 
 
 def views(data):
-    """Of the first output, of the last one, and how fast particles are there, where that is known."""
+    """Pictures of the first output and of the last one, and of the speeds in the last, where these are known."""
     pictures = data["pictures"]
     made = [of_materials(picture, data["materials"]) for picture in pictures]
     speeds = of_speeds(pictures[-1]) if pictures else None
@@ -166,7 +166,7 @@ def ranges(view, kind):
 
 
 def round_to(value, size):
-    """What is less than a square from 0 is 0."""
+    """Rounds to 0 what is less than half a square from 0."""
     return 0 if abs(value) < size / 2 or not math.isfinite(value) else float(value)
 
 

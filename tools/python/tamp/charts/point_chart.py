@@ -41,7 +41,7 @@ def draw(spec, title, layout):
 
 
 def distance_of(quantity):
-    """What a title calls the distances from a quantity's reference."""
+    """The name, in a title, of the distances from a quantity's reference."""
     return f"Error of {quantity.name}" if quantity.has_bound else f"Difference in {quantity.name}"
 
 

@@ -7,7 +7,7 @@ MOST_AT_ONCE = 2**20  # pairs of a particle and a square
 
 
 class Raster:
-    """Of a box, with `most` squares along its longer side; rows from below. A square has the kind of its particle, and
+    """Squares over a box, `most` along its longer side; rows from below. A square has the kind of its particle, and
     its values by names, nan where that has none."""
 
     def __init__(self, lower, upper, most, names):
@@ -54,7 +54,7 @@ class Raster:
 
 
 def reached(at, r, n_each, n):
-    """Of particles along an axis the squares that they reach, and how far away these are, squared: inf of what is none
+    """Squares that particles reach along an axis, and how far away these are, squared: inf for a square that is none
     of theirs."""
     square = np.ceil(at - r - 0.5)[:, None] + np.arange(n_each)
     aside = np.abs(square + 0.5 - at[:, None])

@@ -23,7 +23,7 @@ class History:
         self.columns = dict(zip(self.units, map(list, zip(*rows)))) if rows else {name: [] for name in self.units}
 
     def ending(self, ending):
-        """What stands before an ending, of the columns that have it: `depth` of `punch.depth`."""
+        """Beginnings of the names of columns with an ending: `punch` of `punch.depth` for `depth`."""
         return [name[: -len(ending) - 1] for name in self.columns if name.endswith("." + ending)]
 
     def line(self, label, y, x="time"):

@@ -15,7 +15,7 @@ MOST_BYTES = 4_900_000  # of a page
 
 
 def read_run(folder):
-    """What a run has left. `page` and `scene` are None where the program has not prepared the page, `step` where none
+    """The files of a run. `page` and `scene` are None where the program has not prepared the page, `step` where none
     was traced."""
     run = {name: read(folder / f"{name}.json", plain_document) for name in ("summary", "profile")}
     for name in ("history", "machine"):
@@ -71,7 +71,7 @@ def below_sand(run):
 
 
 def of(run, name, make):
-    """What is made of a file of the run, which is named where it is damaged."""
+    """The result of `make` from a file of the run, which is named where it is damaged."""
     with files.written_by_tamp(run["folder"] / name):
         return make()
 
@@ -157,7 +157,7 @@ def warnings(summary):
 
 
 def monitors(summary):
-    """Those with a limit, the worst first."""
+    """The monitors with a limit, the worst first."""
     watched = {name: m for name, m in summary["monitors"].items() if isinstance(m, dict) and m.get("limit")}
     rows = [[name.replace("_", " "), percent_text(m["share"]), percent_text(m["limit"]), first_seen(m["first"])]
             for name, m in sorted(watched.items(), key=lambda item: -item[1]["share"] / item[1]["limit"])]
@@ -282,7 +282,7 @@ def memory_levels(summary):
 
 
 def memory_plots(machine, levels):
-    """What the processes hold, beside what the fields take at most and what was expected of all."""
+    """Memory of the processes, beside the most that the fields take and the forecast of all."""
     if machine is None or not machine.columns["time"]:
         return []
     held = machine.line("resident, all ranks", "rss")

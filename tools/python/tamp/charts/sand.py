@@ -34,7 +34,7 @@ QUANTITIES = [Quantity("p", "Pressure p", "p", "compression positive", "Pa"),
 
 
 class Plane(NamedTuple):
-    """What pictures show: two axes, {"name", "lower", "upper"} each, and in space a slab across the third."""
+    """The plane that pictures show: two axes, {"name", "lower", "upper"} each, and in space a slab across the third."""
 
     axes: list
     slab: dict
@@ -45,7 +45,7 @@ class Plane(NamedTuple):
 
 
 class Wanted(NamedTuple):
-    """What to read; `reach` of each material, and the `moment` of the greatest force, which may not be known."""
+    """The data to read; `reach` of each material, and the `moment` of the greatest force, which may not be known."""
 
     path: object
     plane: Plane
@@ -174,7 +174,7 @@ def chosen_outputs(n_outputs, peak, n_each):
 
 
 def n_particles(group):
-    """Of a material, all of whose values must be there."""
+    """Number of particles of a material, all of whose values must be there."""
     shape = group["position"].shape
     if len(shape) != 2 or shape[1] != 3:
         raise files.Damage("positions that are no vectors")

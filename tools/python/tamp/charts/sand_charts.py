@@ -34,7 +34,7 @@ def heading(sand):
 
 
 def figures(sand):
-    """Of each quantity that fields.h5 holds."""
+    """A figure of each quantity that fields.h5 holds."""
     scales = {one.field: shades.scale_of(one, main_values(sand, [sand.still], one.field)) for one in sand.shown}
     shown = {field: list(shown_of(sand, [sand.still], field, scale)) for field, scale in scales.items()}
     wide, share = laid_over.fitted(shown, scales, MOST_BYTES)
@@ -70,7 +70,7 @@ def sheet_of(layout, sand, quantity, title, scale):
 
 
 def grey_here(sand, quantity):
-    """What is drawn, but not in the colours of the bar."""
+    """Materials that are drawn, but not in the colours of the bar."""
     for k, name in enumerate(sand.wanted.names):
         values = sand.still.value[quantity.field][sand.still.kind == k]
         if len(values) and not np.any(np.isfinite(values)):
@@ -78,7 +78,7 @@ def grey_here(sand, quantity):
 
 
 def main_values(sand, frames, field):
-    """Of the material that there is most of: one much stiffer or heavier beside it would leave it a single colour."""
+    """Values of the commonest material: one much stiffer or heavier beside it would leave it a single colour."""
     found = [values_of(sand, frame, field) for frame in frames]
     numbers = {k for one in found for k in one}
     parts = {k: np.concatenate([one[k] for one in found if k in one]) for k in numbers}
@@ -108,7 +108,7 @@ def describe(sand, quantity, values):
 
 
 def beyond(values, scale):
-    """What the ends of the scale do not say."""
+    """Values beyond the ends of the scale, in words."""
     if not len(values):
         return ""
     low, high = float(values.min()), float(values.max())

@@ -67,7 +67,7 @@ def scale_of(quantity, values):
 
 
 def indices(frame, field, scale, rigid=()):
-    """Of the palette; rows from above, as files of pictures have them. `rigid` are the numbers of such materials."""
+    """Indices into the palette; rows from above, as in picture files. `rigid` are the numbers of such materials."""
     values = frame.value[field]
     level = np.where(np.isfinite(values), scale.levels(np.nan_to_num(values)) + BORDER + 1, BODY)
     shown = np.where(frame.kind == NOBODY, VOID, level).astype(np.uint8)

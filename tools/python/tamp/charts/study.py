@@ -26,7 +26,7 @@ class Quantity(NamedTuple):
 
     @property
     def distance_name(self):
-        """What distances from the reference are called."""
+        """The name of distances from the reference."""
         return "error" if self.has_bound else "difference"
 
     @property

@@ -31,7 +31,7 @@ def write(study, folder):
 
 
 def make_charts(study, quantity, prefix):
-    # Of a map's many methods lines of cost and error would be a tangle.
+    # A map has so many methods that lines of cost and error would be a tangle.
     makers = [stability_map] if study.document.get("map") else [work_precision, convergence, step_cost, budget]
     return [chart for maker in makers for chart in maker.charts(study, quantity, prefix)]
 
@@ -87,7 +87,7 @@ def threads_text(study):
 
 
 def overview(study):
-    """What each quantity is compared with; links where there are many."""
+    """The head of the page: what each quantity is compared with, and links where there are many."""
     failed = study.failed()
     text = f"<p>{counted(len(study.points), 'run')} of {counted(len(study.methods), 'method')}"
     text += f", of which {len(failed)} gave no result (<a href=\"#failed\">why</a>).</p>\n" if failed else ".</p>\n"

@@ -29,7 +29,7 @@ HUES = [
     ("#5a98e8", "#c3d8ff"), ("#4d4000", "#f0e08a"),
 ]
 N_SHADES = 2
-# Of a quantity, from little to much: ends of a scale of one hue.
+# Ends of a scale of one hue for a quantity, from little to much.
 LEVELS = ("#cfe0f5", "#08306b"), ("#27384f", "#cfe4ff")
 N_LEVELS = 7
 MARKERS = "os^DvPhd<*>p"

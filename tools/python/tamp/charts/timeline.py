@@ -130,7 +130,7 @@ def shares(step):
 
 
 def colours(step):
-    """Those of the longest phases differ most; messages are in the colour of text."""
+    """Colours of the phases; those of the longest differ most, and messages are in the colour of text."""
     there_are = [hue(k, k // len(HUES)) for k in range(len(HUES) * N_SHADES)]
     found = {phase: there_are[k] if k < len(there_are) else LIGHT["front"] for k, phase in enumerate(shares(step))}
     return {**found, MESSAGES: LIGHT["faint"]}

@@ -30,7 +30,7 @@ def charts(study, quantity, prefix):
 
 
 def marked_front(study, quantity):
-    """That of error and first cost, as the study found it."""
+    """The front of error and first cost, as the study found it."""
     return [p for p in study.charted if quantity.name in p.front]
 
 

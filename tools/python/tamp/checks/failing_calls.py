@@ -70,7 +70,7 @@ EXPECT = {".json": expect_json, ".csv": expect_csv, ".h5": expect_hdf5, ".xdmf":
 
 
 def contents(folder):
-    """What is at the final names in a folder; locks and what is not finished are not."""
+    """Files with final names in a folder: no locks, and no files that are not finished."""
     return {file.relative_to(folder): file.read_bytes() for file in folder.rglob("*")
             if file.is_file() and file.suffix not in [".part", ".lock"]}
 
@@ -84,7 +84,7 @@ def what_is_not_whole(kept):
 
 
 def what_is_said_wrong(code, text):
-    """Of an exit code and what stands on stderr."""
+    """Faults of an exit code and the text on stderr."""
     if code not in [0, 4]:
         yield f"exit code {code}"
     if code != 0 and not text.startswith("tamp: "):
@@ -109,10 +109,10 @@ class Work:
         self.prepare()
 
     def prepare(self):
-        """What there has to be before the first call."""
+        """Make what there has to be before the first call."""
 
     def begin(self, folder):
-        """What there is in the folder before the call."""
+        """Make what there is in the folder before a call."""
 
     def run(self, *words, environment=None):
         command = [str(word) for word in [self.tamp, *words]]
@@ -162,7 +162,7 @@ class Run(Work):
 
 
 class Restart(Run):
-    """Of a run that was stopped after its first checkpoint."""
+    """The restart of a run that was stopped after its first checkpoint."""
 
     def prepare(self):
         super().prepare()
@@ -181,7 +181,7 @@ class Restart(Run):
 
 
 class Study(Work):
-    """Of two points, one of which is kept."""
+    """A study of two points, one of which is kept."""
 
     def prepare(self):
         self.file = self.place / "study.json"
@@ -233,7 +233,7 @@ class Sweep:
         return {"LD_PRELOAD": str(self.options.library), "TAMP_FAIL_CALL": self.call, **path, **more}
 
     def numbers(self):
-        """Of the calls that fail."""
+        """Numbers of the calls that fail."""
         if not self.options.places:
             return itertools.count(self.options.begin, self.options.every)
         listed = self.place / f"{self.name}-{self.call}"

@@ -21,7 +21,7 @@ SHA256 = re.compile(r"[0-9a-f]{64}")
 
 
 def faults_of_entry(entry):
-    """What is wrong with an entry of the index, in words."""
+    """Faults of an entry of the index, in words."""
     if not isinstance(entry, dict):
         return ["no object"]
     found = [f'no "{key}"' for key in [*TEXTS, "inputs"] if key not in entry]
@@ -37,7 +37,7 @@ def faults_of_entry(entry):
 
 
 def faults_of_table(path):
-    """What is wrong with a CSV, in words."""
+    """Faults of a CSV, in words."""
     try:
         with open(path, encoding="utf-8", newline="") as file:
             rows = list(csv.reader(file, strict=True))
@@ -52,7 +52,7 @@ def faults_of_table(path):
 
 
 def faults(folder):
-    """What is wrong with a folder of results: (file, what) of each fault."""
+    """Faults of a folder of results: (file, what) of each."""
     entries = files.document(folder / "index.json")
     if not isinstance(entries, list):
         return [("index.json", "no list of results")]
@@ -76,7 +76,7 @@ def faults(folder):
 
 
 def changed_inputs(entry, root):
-    """Those inputs of a result that are not any more what it was made from."""
+    """Inputs of a result that have changed since it was made."""
     def now(path):
         file = root / path
         return hashlib.sha256(file.read_bytes()).hexdigest() if file.is_file() else None

@@ -64,7 +64,7 @@ def chromium(program, folder, page, flags):
 
 
 def complaints(*outcomes):
-    """What the console said, each line once."""
+    """The lines of the console, each once."""
     said = [line for outcome in outcomes for line in outcome.stderr.splitlines() if "CONSOLE" in line]
     return list(dict.fromkeys(said))
 

@@ -26,7 +26,7 @@ def scenes():
 
 
 def words(tamp, key):
-    """Those that a scene may have there, as the program describes them: old ones are not described."""
+    """The words that a scene may have at a key, as the program describes them: old ones are not described."""
     schema = json.loads(program.call(tamp, "schema").stdout)
     return re.findall(r'`"(\w+)"`:', schema["definitions"]["part_of_scene"]["properties"][key]["description"])
 

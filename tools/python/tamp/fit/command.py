@@ -41,7 +41,7 @@ def add_arguments(parser):
 
 
 def check_with_tamp(tamp, made, curves):
-    """That TAMP takes the files: asked where the curves end."""
+    """Check that TAMP accepts the files: it is asked for states where the curves end."""
     ends = [(float(curve.end), float(curve.plastic)) for curve in curves]
     for file in made if tamp else []:
         objection = made_files.objection(tamp, file, ends)

@@ -17,7 +17,7 @@ N_PRESSURES = 4001  # where curves are inverted
 
 @dataclasses.dataclass
 class Curve:
-    """One unloading curve: a monotone cubic through the measured rows."""
+    """An unloading curve: a monotone cubic through the measured rows."""
 
     plastic: float
     elastic: np.ndarray

@@ -21,7 +21,7 @@ STIFFEST_GRAINS = 150e9
 
 
 def check_test(test):
-    """One test by itself."""
+    """Check a test by itself."""
     turn = turning_point(test.rows)
     strain, pressure = test.rows[turn]
     if pressure <= 0 or strain <= 0:
@@ -96,7 +96,7 @@ def check_branches(test, turn):
 
 
 def check_stiffness(place, elastic, pressure):
-    """That the mean bulk modulus of an unloading, from a pressure over an elastic strain, is one of sand."""
+    """Check that the mean bulk modulus of an unloading, from a pressure over an elastic strain, is one of sand."""
     modulus, root = pressure / elastic, (pressure / AT_PRESSURE) ** 0.5
     softest, stiffest = SOFTEST * root, min(STIFFEST * root, STIFFEST_GRAINS)
     if not softest <= modulus <= stiffest:

@@ -64,7 +64,7 @@ def write(path, remarks, header, rows):
 
 
 def check_with_tamp(tamp, hydrostat, unloading, tests):
-    """That TAMP takes the files, as the curves of a sand. Where it does not, they are left aside."""
+    """Check that TAMP accepts the files as the curves of a sand. Where it does not, they are left aside."""
     if tamp is None:
         return
     ends = [(points[-1][0], plastic) for plastic, points in (unloading_curve(test.rows) for test in tests)]

@@ -56,7 +56,7 @@ def values(place, cells, first):
 
 
 def check_names(path, headings, first, strain_unit, pressure_unit):
-    """What the headings say has to go with the numbers below them, and with the units asked for."""
+    """Check that the headings agree with the numbers below them, and with the units asked for."""
     named = [(line, cells) for line, cells in headings if len(cells) > 1]
     if named and len(first[1]) not in [len(cells) for _, cells in named]:
         raise Refusal(f"{path}:{first[0]}", f"{len(first[1])} values (decimal commas?)",

@@ -67,7 +67,7 @@ def known(run, x, y):
 
 
 def check_out(options, its_runs):
-    """That a picture may be put there: over nothing that is read, and over nothing but a picture."""
+    """Check that the picture replaces no file that is read, and no file but a picture."""
     read = [options.measured] if options.measured else []
     for run in its_runs:
         read += [run.history.path, run.folder / "machine.csv", run.folder / "summary.json"]

@@ -25,7 +25,7 @@ def read(path, wanted):
 
 
 def chosen_columns(place, heading, wanted):
-    """Those that have the names of the runs' columns, or else the first two."""
+    """Indices of the columns with the names of the runs' columns, or else of the first two."""
     if len(heading) < 2:
         raise Refusal(place, f'"{",".join(heading)}" alone', f"two columns, {EXAMPLE}")
     plain = [parts(name)[0] for name in heading]

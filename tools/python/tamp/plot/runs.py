@@ -10,7 +10,7 @@ from tamp import files
 from tamp.failure import Failure, Refusal, say
 
 N_NEAR = 3
-# What half a scene has half of (docs/reference/output.md).
+# Units of the quantities of which half a scene has half (docs/reference/output.md).
 OF_THE_PART = {"N", "N m", "N s", "J", "kg", "particles"}
 
 
@@ -64,7 +64,7 @@ def read_run(name, folder, words):
 
 
 def read_table(path):
-    """What a run has written so far. A line that has no end is being written, or was when the run was killed."""
+    """The table of a run so far. A line that has no end is being written, or was when the run was killed."""
     files.check_file(path)
     with files.written_by_tamp(path):
         text = files.text(path)

@@ -49,7 +49,7 @@ def print_path(point, figures, path, file):
 
 
 def print_measured(figures, path):
-    """What the companion shows as measured, beside the last row of our measured hydrostat."""
+    """Print the pressure that the companion shows as measured, beside the last row of our measured hydrostat."""
     strain, pressure = (column[-1] for column in results.columns(SAND / "hydrostat.csv").values())
     for figure in figures:
         if (figure["path"], figure["model"]) == (path, "measured"):

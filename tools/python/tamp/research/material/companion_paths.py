@@ -104,7 +104,7 @@ def first_leg_apart(rows):
 
 
 def answer(rows, at, quantity):
-    """What a row of figures.csv asks for."""
+    """The value that a row of figures.csv asks for."""
     if at == "peak of s11":
         return max(first_leg_apart(rows), key=lambda row: row["s11"])[quantity]
     if at == "least after 1 s":

@@ -27,7 +27,7 @@ AXIS = (1, 2, 2)
 
 
 def write_path(path, deformations, turn=0.0):
-    """One row of F (nine numbers, row by row) a unit of time, and an angle that grows evenly to `turn` degrees."""
+    """A row of F (nine numbers, row by row) for each unit of time, and an angle that grows evenly to `turn` degrees."""
     with open(path, "w") as file:
         for i, deformation in enumerate(deformations):
             numbers = [i, *deformation, turn * i / (len(deformations) - 1), *AXIS]

@@ -62,7 +62,7 @@ class Album:
         self.captions[name] = caption
 
     def write_captions(self):
-        """Those of pictures that an earlier call drew are kept."""
+        """Write captions.md; captions of pictures that an earlier call drew are kept."""
         path = self.folder / "captions.md"
         lines = path.read_text().splitlines() if path.exists() else []
         known = dict(line[3:].split(". ", 1) for line in lines if line.startswith("## "))

@@ -29,7 +29,7 @@ class Number(NamedTuple):
 
 
 def of(run=None, time=""):
-    """What makes numbers of one run at one time; of the sand itself without a run."""
+    """A function that makes numbers of one run at one time; of the sand itself without a run."""
 
     def number(figure, what, unit, ours, report="", exceeded=()):
         return Number(figure, what, run.name if run else "", time, unit, report, ours, exceeded)
