@@ -9,7 +9,7 @@
 namespace tamp::tasks
 {
 
-/// A simulation that has become invalid: which particle, where, and why. Step and time are added by who runs it.
+/// A simulation that has become invalid: which particle, where, and why. Whoever runs it adds step and time.
 struct SimulationError : runtime::StepError {
   SimulationError(const std::string& reason, std::string material_, std::int64_t particle_,
                   std::vector<double> position_);

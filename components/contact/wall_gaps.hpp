@@ -16,7 +16,7 @@ namespace tamp::components
 struct PlaneWall {
   int axis;
   int outside;   ///< -1: matter lies above the wall, +1: below
-  double place;  ///< of the wall on the axis [m]
+  double place;  ///< coordinate of the wall on the axis [m]
 
   /// The place of the wall among those of a grid.
   std::size_t number() const { return 2 * static_cast<std::size_t>(axis) + (outside > 0 ? 1 : 0); }

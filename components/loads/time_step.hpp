@@ -35,7 +35,7 @@ struct StiffParticle {
   Number bulk_modulus, shear_modulus;  ///< Pa
   Vector<D, Number> velocity;          ///< m/s
   Number volume_rate;                  ///< tr D [1/s], expansion positive
-  Number own_stiffness;                ///< of components::own_stiffness, a pure number
+  Number own_stiffness;                ///< see components::own_stiffness, a pure number
 };
 
 /// The part k0 in the bound below that does not come from a particle's own stiffness.

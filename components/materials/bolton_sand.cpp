@@ -52,7 +52,7 @@ class PressureLaw
   Number bulk_modulus(const Number& pressure) const { return k_ * sqrt(greater_of<Number>(pressure, least_)); }
 
   /// The pressure after a volumetric compaction without plastic strain: that integral of K, to the bit the same without
-  /// compaction, lest sand without pressure is torn by round-off.
+  /// compaction, so that round-off does not tear sand without pressure.
   Number pressure_after(const Number& pressure, const Number& compaction) const
   {
     const Number root = sqrt(greater_of<Number>(pressure, least_)), rise = k_ * compaction;

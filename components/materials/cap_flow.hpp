@@ -16,17 +16,17 @@ namespace tamp::components
 /// the rate it starts with.
 template <class Number>
 struct FlowStartOf {
-  Number fraction = 0;  ///< of the step, elastic
-  Number pressure = 0;  ///< there
-  Number sqrt_j2 = 0;   ///< there
+  Number fraction = 0;  ///< elastic part of the step
+  Number pressure = 0;  ///< where the flow starts
+  Number sqrt_j2 = 0;   ///< where the flow starts
   SurfaceNormalOf<Number> normal{};
   Number multiplier = 0;          ///< half the flow: dl; zero where it does not load
   Number plastic_volumetric = 0;  ///< half the flow: d
-  ReturnGuessOf<Number> guess{};  ///< of the other half
+  ReturnGuessOf<Number> guess{};  ///< guess of the other half of the flow
   /// Whether it is on a kink of the envelope, where round-off decides which of two normals counts.
   Mask<Number> on_kink = Mask<Number>(false);
 
-  /// The stress deviator there.
+  /// The stress deviator where the flow starts.
   CombinationOf<Number> along(const Number& shear_modulus) const { return {1.0, 2.0 * shear_modulus * fraction}; }
   /// Strain deviator that is left after half the flow.
   CombinationOf<Number> left(const CombinationOf<Number>& direction) const

@@ -33,7 +33,7 @@ class CapLanes
   struct Outcome {
     CapOutcomeOf<Lanes> end;
     Some left;
-    Lanes n_evaluations;  ///< of the elastic model, where it was not left
+    Lanes n_evaluations;  ///< evaluations of the elastic model, for particles that were not left
   };
   [[gnu::flatten]] Outcome substep(const Particles& old, const Strains& strain, const Lanes& size) const
   {

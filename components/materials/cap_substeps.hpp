@@ -10,8 +10,8 @@ namespace tamp::components
 
 /// How far the update of a particle has come: first in one step, then in as many as its error estimate asks for.
 struct CapProgress {
-  double done = 0;  ///< of the strain increment
-  double size = 1;  ///< of the step to try
+  double done = 0;  ///< share of the strain increment that is done
+  double size = 1;  ///< share of it that is tried next
   bool cut = false;
 };
 

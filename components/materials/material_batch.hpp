@@ -104,14 +104,14 @@ struct MaterialBatch {
 
 /// Cost of batches, and counts of exceptional updates in them.
 struct UpdateCounts {
-  std::size_t substeps = 0;             ///< taken, a whole increment counting as one
-  std::size_t split_updates = 0;        ///< that took more than one substep
-  std::size_t limited_substeps = 0;     ///< accepted with an estimated error beyond the tolerance
-  std::size_t modulus_evaluations = 0;  ///< of the elastic model
+  std::size_t substeps = 0;             ///< substeps taken; a whole increment counts as one
+  std::size_t split_updates = 0;        ///< updates that took more than one substep
+  std::size_t limited_substeps = 0;     ///< substeps accepted with an estimated error beyond the tolerance
+  std::size_t modulus_evaluations = 0;  ///< evaluations of the elastic model
   std::size_t with_range = 0;           ///< updates by a model that is made for a range of strains or pressures
-  std::size_t extrapolated = 0;         ///< of those, the ones that ended outside that range
-  std::size_t pulled_out = 0;           ///< of those, the ones in tension, where sand has next to no stress
-  std::size_t looser = 0;               ///< of the others, the ones looser than any test
+  std::size_t extrapolated = 0;         ///< updates of these that ended outside that range
+  std::size_t pulled_out = 0;           ///< updates of those in tension, where sand has next to no stress
+  std::size_t looser = 0;               ///< updates of the other extrapolated ones, looser than any test
   std::size_t failures = 0;             ///< updates that found no stress
   std::size_t separations = 0;          ///< particles that came apart
   std::size_t apart = 0;                ///< updates of particles that were apart and stay so, which are no work

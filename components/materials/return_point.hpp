@@ -53,8 +53,8 @@ struct ReturnPointOf {
   Number sqrt_j2;
   Number multiplier;               ///< dl, not negative
   SurfaceNormalOf<Number> normal;  ///< there
-  Number residual;                 ///< what is left of the equation solved, a strain
-  int n_evaluations;               ///< of the path
+  Number residual;                 ///< of the equation solved, a strain
+  int n_evaluations;               ///< number of evaluations of the path
 };
 using ReturnPoint = ReturnPointOf<double>;
 
@@ -62,7 +62,7 @@ using ReturnPoint = ReturnPointOf<double>;
 template <class Number>
 struct ReturnGuessOf {
   Number plastic_volumetric;
-  Number sine;  ///< of the cap, positive; 1 on the cone
+  Number sine;  ///< sine of the cap's angle, positive; 1 on the cone
 };
 using ReturnGuess = ReturnGuessOf<double>;
 

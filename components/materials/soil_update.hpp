@@ -34,7 +34,7 @@ struct SoilReturn {
   SymmetricTensor<D, Lanes> stress;
   Lanes expansion;   ///< plastic, volumetric
   Lanes equivalent;  ///< sqrt(2/3 de:de) of the plastic strain's deviator
-  Lanes work;        ///< of the stress on the plastic strain [J/m3]
+  Lanes work;        ///< work of the stress on the plastic strain [J/m3]
   /// Whether it ended at the greatest mean tension that it bears. The expansion there opens gaps.
   Mask<Lanes> is_torn;
 };

@@ -31,7 +31,7 @@ struct CapState {
   double elastic_volumetric = 0;  ///< compression positive
   double plastic_volumetric = 0;  ///< compression positive
   double equivalent_plastic = 0;  ///< sum of sqrt(2/3 de:de), e the plastic strain's deviator
-  double bulk_modulus = 0;        ///< that the last update ended with; 0 before the first and where it is apart
+  double bulk_modulus = 0;        ///< modulus after the last update [Pa]; 0 before the first and where it is apart
   std::int32_t n_failures = 0;    ///< updates that failed, and left stress and strains as they were
   /// Volume at which it separated, over that at the start; 0 while it is whole. Not a double, so that a state takes no
   /// more than 40 bytes.
@@ -50,7 +50,7 @@ struct TabularCapParameters {
   Modulus modulus;
   PiecewiseLinear crush_curve;  ///< X(plastic volumetric strain); in state form, that of consistent_crush_curve
   YieldSurface yield;
-  double tolerance = usual_tolerance;  ///< of the stress in one step, relative: sets the number of substeps
+  double tolerance = usual_tolerance;  ///< relative error of the stress in one step; sets the number of substeps
   int max_substeps = usual_max_substeps;
   /// Part of the initial density below which sand at the tension vertex separates, see separation.hpp; without it, it
   /// never does.

@@ -36,7 +36,7 @@ constexpr std::size_t pack_size = register_bytes / sizeof(double);
 constexpr std::size_t block_size = 64;
 constexpr std::size_t none = block_size;  // the place of the first of no set bits
 constexpr std::size_t most_blocks = DenseNetwork::most_neurons / block_size;
-constexpr std::size_t row_multiple = 8;  // what rows of weights are padded to
+constexpr std::size_t row_multiple = 8;  // rows of weights are padded to multiples of it
 
 constexpr std::size_t padded(std::size_t n)
 {

@@ -97,7 +97,7 @@ class GaussianSum
   /// The points' tiles.
   template <class Number>
   std::array<const Tile*, n_lanes_of<Number>> tiles_at(const Number& column, const Number& line) const;
-  using ExactTile = std::array<std::array<long double, n_terms_x>, n_terms_y>;  // what tiles are added up in
+  using ExactTile = std::array<std::array<long double, n_terms_x>, n_terms_y>;  // coefficients while a tile is added up
 
   void round_tiles();
 

@@ -96,7 +96,7 @@ class HermiteSurface::Refinement
 
   /// A leaf of the tree and what is known of it; its patch has the same number.
   struct Square {
-    Place x, y;  // of the lower left corner
+    Place x, y;  // place of the lower left corner
     int side_bits;
     double width, height;                // strains
     std::array<SurfaceNode, 4> exact{};  // at the corners

@@ -28,7 +28,7 @@ struct Scaling {
 struct NetworkFit {
   std::vector<DenseLayer> layers;
   Scaling elastic, plastic, bulk_modulus;
-  StrainRange range;  ///< what it was fitted over
+  StrainRange range;  ///< the strains that it was fitted over
 };
 
 }  // namespace tamp::components

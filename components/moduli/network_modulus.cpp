@@ -202,7 +202,7 @@ HermiteSurface NetworkModulus::pressure_of(const Modulus& modulus)
   const auto line = [&](double plastic, std::span<const double> elastic, std::span<SurfaceNode> nodes) {
     modulus.on_line(plastic, elastic, nodes, samples_left);
   };
-  constexpr SurfaceTolerance tolerance{pressure_tolerance, 0.5};  // of K, so that the pressure always rises
+  constexpr SurfaceTolerance tolerance{pressure_tolerance, 0.5};  // 0.5: of K, so that the pressure always rises
   return HermiteSurface({0, range.most_elastic, range.least_plastic, range.most_plastic}, line, tolerance);
 }
 

@@ -88,13 +88,13 @@ class NetworkModulus
   /// K of the strains, with its bounds.
   struct Modulus {
     Input elastic, plastic;
-    double mean, deviation;  // of K
+    double mean, deviation;  // mean and standard deviation of K
     StrainRange range;
     PiecewiseNetwork network;
     double least;  // K
 
     explicit Modulus(const NetworkFit& fit);
-    double largest() const;  // of a sample over the range
+    double largest() const;  // largest K of a sample over the range
 
     // In this order a strain that is not a number counts as the least.
     template <class Number>

@@ -67,7 +67,7 @@ void PiecewiseNetwork::make_pieces(std::span<const DenseLayer> layers)
     const auto row = static_cast<Place>(leaf) / n_uncut_squares, column = static_cast<Place>(leaf) % n_uncut_squares;
     squares.push_back({column * uncut_side, row * uncut_side, QuadTree::fraction_bits, leaf});
   }
-  for (std::size_t i = 0; i < squares.size(); ++i) {  // of which there come to be more
+  for (std::size_t i = 0; i < squares.size(); ++i) {  // grows within the loop
     const Square whole = squares[i];
     if (const std::optional<Piece> piece = piece_of(layers, whole)) {
       pieces_[whole.leaf] = *piece;

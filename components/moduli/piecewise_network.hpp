@@ -56,12 +56,12 @@ class PiecewiseNetwork
     PlaneOf<Number> plane;  // not a number where the network itself is to be asked
     std::array<PlaneOf<Number>, n_switching> switching;
     std::array<Number, n_switching> weight;
-    Number weight_10, weight_20, weight_21;  // of the later's sum and the earlier's value
+    Number weight_10, weight_20, weight_21;  // weights of an earlier neuron's value in the later's sum
   };
   using Piece = PieceOf<double>;
 
   struct Square {
-    QuadTree::Place first, second;  // of the lower left corner
+    QuadTree::Place first, second;  // place of the lower left corner
     int side_bits;
     std::size_t leaf;
   };

@@ -17,7 +17,7 @@ using Matrix3 = Matrix<3>;
 /// How the mass of a body is spread, in the orientation of its start.
 struct MassProperties {
   double mass = 0;                            ///< kg
-  Vector3 centre = Vector3::Zero();           ///< of mass, at the start [m]
+  Vector3 centre = Vector3::Zero();           ///< centre of mass at the start [m]
   Matrix3 inertia = Matrix3::Zero();          ///< about the centre, sum m (r.r I - r r^T) [kg m^2]
   Matrix3 inverse_inertia = Matrix3::Zero();  ///< [1/(kg m^2)]
 

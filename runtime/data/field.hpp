@@ -97,7 +97,7 @@ struct Field {
     }
     written_[static_cast<std::size_t>(which)] = false;
   }
-  /// The rows of a written buffer that may not be zero, from who knows all of them: none at first, to be set.
+  /// The rows of a written buffer that may not be zero, for callers that know all of them: none at first, to be set.
   std::vector<bool>& only_written_rows(FieldBuffer which)
   {
     if (written_rows_ == nullptr) written_rows_ = std::make_unique<std::array<std::vector<bool>, 2>>();

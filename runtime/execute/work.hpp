@@ -23,7 +23,7 @@ class Work
   virtual int home(int instance, int n_workers) const = 0;
   /// Called by one worker at a time for one instance, by several for several.
   virtual void run(int instance, const Step& step) = 0;
-  /// "task 'contact' on patch 3": for whoever reads of a failure or a stall.
+  /// "task 'contact' on patch 3": for messages about a failure or a stall.
   virtual std::string describe(int instance) const = 0;
 
   /// Whether other ranks take part. Workers then call `poll`: the idle ones all the time, the busy ones now and then.

@@ -22,7 +22,7 @@ struct TimedStep {
 std::vector<int> homes_of(const TaskGraph& graph, int n_workers);
 
 /// How long a step takes [s] on `n_workers` threads a rank: what the executor would do, without doing it. Every patch
-/// has its worker, who runs what is ready in serial order and takes from others what it finds there when idle. Neither
+/// has its worker, which runs what is ready in serial order, and takes from others when idle. Neither
 /// the scheduler nor the record take time here.
 double replay(const TimedStep& step, int n_workers);
 

@@ -182,7 +182,7 @@ void FolderLock::take()
     ::unlink(file_.c_str());
   }
   const std::string text = text_of_own_lock();
-  errno = ENOSPC;  // what a short write means
+  errno = ENOSPC;  // the cause of a short write
   Descriptor own(::open(file_.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0644));
   if (!own.good() && errno == EEXIST) throw FolderInUse(holder_in(folder_, existing_lock(file_)));
   if (!own.good() || ::write(own.get(), text.data(), text.size()) != static_cast<ssize_t>(text.size())) {

@@ -171,7 +171,7 @@ void Location::write(const std::string& path, const Share& share, ElementType ty
   const Space in_memory = select(in_file, share.slabs);
   try {
     checked(H5Dwrite(dataset, type.in_memory, in_memory, in_file, file_->transfer, values));
-    checked(dataset.close());  // what is small goes to the disk only now
+    checked(dataset.close());  // small datasets go to the disk only now
   } catch (const FileError& error) {
     file_->failure = error.cause;
   }

@@ -97,7 +97,7 @@ std::string list_of(std::span<const double> values)
 struct SmallerGrid {
   std::vector<double> lower, upper;
   std::vector<int> n_patches;
-  double part = 1;  ///< of the cells
+  double part = 1;  ///< share of the cells that is left
 
   SmallerGrid(const tasks::Scene& scene, const tasks::SceneBody& ground, const std::vector<Side>& sides)
   {

@@ -33,7 +33,7 @@ void add_pictures(const std::filesystem::path& run, const Json& scene, Json& dat
 
 void expect_page(const std::filesystem::path& run)
 {
-  note_files_of_run(run);  // of which Python reads some
+  note_files_of_run(run);  // some of them are read by Python
   expect_results(run, {"page.json", "report.html"});
 }
 

@@ -221,7 +221,7 @@ class Runner
     print_out("going on from {}, step {}, time {:.6g} s\n", found.file.string(), restarted_at_, simulation_->time());
   }
 
-  /// The first rank's alone, who writes it.
+  /// The run's folder on the first rank, which alone writes it.
   std::unique_ptr<RunFolder> own_folder() const
   {
     std::unique_ptr<RunFolder> folder;
@@ -448,7 +448,7 @@ class Runner
         summarise("unstable", instability_ + "; " + failure);
       }
     } catch (const runtime::FileError&) {
-      return;  // what failed first is what the run tells
+      return;  // the run reports what failed first
     }
   }
 

@@ -88,7 +88,7 @@ void RunOutput::settle()
   try {
     finish();
   } catch (const std::exception&) {
-    return;  // what failed first is what the run tells
+    return;  // the run reports what failed first
   }
 }
 

@@ -16,8 +16,8 @@ struct Point {
   enum class Role {
     chart,
     reference,
-    witness,   ///< what the reference has to agree with
-    variation  ///< of an error budget
+    witness,   ///< a run that the reference has to agree with
+    variation  ///< a variation of an error budget
   };
   /// Its place in the list, from 1.
   int id = 0;

@@ -15,9 +15,9 @@ struct Reference {
   enum class Kind {
     none,
     exact,
-    run,          ///< one run, taken as it is
+    run,          ///< a single run, taken as it is
     finest,       ///< the finest of several runs
-    extrapolated  ///< what they tend to
+    extrapolated  ///< the limit that several runs tend to
   };
   Kind kind = Kind::none;
   Answer answer;

@@ -59,13 +59,13 @@ enum class Take {
   least,
   last,
   value,             ///< at a time
-  mean,              ///< of all rows from a time on
-  farthest,          ///< that farthest from the exact answer
+  mean,              ///< mean of all rows from a time on
+  farthest,          ///< the row farthest from the exact answer
   kept,              ///< the last over the first
   time_of_greatest,  ///< from the parabola through the three rows around it
   curve,             ///< over time: greatest difference from the reference's, over its greatest magnitude
   rows_rms,          ///< root mean square over the rows of the difference relative to the reference's row
-  rows_max,          ///< the greatest of those
+  rows_max,          ///< the greatest of these differences
   quantile,          ///< of a field over a material's particles, at the last output
   field_rms          ///< the same way, root mean square of the field's difference from a line
 };
@@ -139,7 +139,7 @@ struct Expectation {
     order_at_most,
     error_at_least,  ///< on the finest grid, or where `at` says
     error_at_most,
-    limit_error_at_most,  ///< of what the answers tend to, if errors fall with `limit_order`
+    limit_error_at_most,  ///< error of the limit of the answers, if errors fall with `limit_order`
     fails                 ///< becomes unstable, or its error grows again by half to the finest grid
   };
   Kind kind = Kind::error_at_most;

@@ -10,8 +10,8 @@ namespace tamp::tools
 /// A drawing that the Python tools are to make.
 struct Drawing {
   std::vector<std::string> words;  ///< the words of their command line
-  std::vector<std::string> later;  ///< the same for who draws it another time
-  std::filesystem::path place;     ///< what messages name
+  std::vector<std::string> later;  ///< the same words for drawing it another time
+  std::filesystem::path place;     ///< the place that messages name
 };
 
 /// Has the Python tools draw. The interpreter is $TAMP_PYTHON where that is set, or else the first of /usr/bin/python3

@@ -39,7 +39,7 @@ std::string without_controls(std::string_view text)
     const auto next = static_cast<unsigned char>(i + 1 < text.size() ? text[i + 1] : 0);
     if (is_control(c)) {
       shown += fmt::format("\\x{:02x}", c);
-    } else if (c == 0xc2 && next >= 0x80 && next < 0xa0) {  // those of eight bits, in UTF-8
+    } else if (c == 0xc2 && next >= 0x80 && next < 0xa0) {  // control characters of eight bits, in UTF-8
       shown += fmt::format("\\x{:02x}", next);
       ++i;
     } else {

@@ -133,7 +133,7 @@ void FieldFile::write_step(std::int64_t step, double time, std::span<const Parti
     const std::int64_t n_bytes = checked_size(particles, nodes);
     if (!communicator_.is_first()) return;
     expect_as_written();
-    state_.reset();  // of one that was written in part nothing is known
+    state_.reset();  // nothing is known of a file that was written in part
     reserve_room(hdf5_file_, n_bytes);
   });
   // Only the first rank knows the steps.

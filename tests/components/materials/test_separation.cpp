@@ -35,7 +35,7 @@ template <int D>
 struct Stretched {
   Sample<D> sample{};
   double expansion = 0;  ///< ln(det F)
-  double stored = 0;     ///< of the work done on it what was not booked as plastic [J/m3]
+  double stored = 0;     ///< part of the work done on it that was not booked as plastic [J/m3]
 
   void stretch_to(const TabularCap& sand, double to)
   {

@@ -20,7 +20,7 @@ from tamp import program
 from tamp.failure import NO_PACKAGE, PROGRAM
 from tests import a_sand as sand
 
-OFF = 0.05  # of the peak: what damage within the noise of tests may come to
+OFF = 0.05  # of the peak: most that damage within the noise of tests may come to
 NUMBERS = ["nan", "inf", "-1", "0", "1e400", "1,5", "1.5.2", "", "x", "0x10", "1e3", "9" * 400, "\u0663", "-", "--"]
 NUMBER = r"[0-9]+\.[0-9]+"
 ROWS = ["pause", ",", "1", "1,2,3", "# note", "", '"open', "strain,p", "\x1b[31m,2"]

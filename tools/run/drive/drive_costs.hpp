@@ -10,7 +10,7 @@ namespace tamp::tools
 /// Cost of the updates along a path.
 struct DriveCosts {
   std::size_t n_updates;
-  components::UpdateCounts counts;  ///< of all of them
+  components::UpdateCounts counts;  ///< counts of all of them
   double ns_per_update;
 };
 

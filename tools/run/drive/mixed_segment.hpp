@@ -11,7 +11,7 @@ struct MixedSegment {
   const std::vector<StressControl>& controls;
   const MixedRow& from;
   const MixedRow& to;
-  std::size_t row;  ///< that of `to`, counted from 1
+  std::size_t row;  ///< row of `to`, counted from 1
 };
 
 /// Takes the point, which is where the segment begins, along it; increments are chosen and errors thrown as drive()

@@ -16,7 +16,7 @@ using Jacobian = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, most_c
 
 /// A point at the end of an increment that was tried.
 struct Trial {
-  Unknowns change;  ///< of the entries of F that give way
+  Unknowns change;  ///< change of the entries of F that are not prescribed
   MaterialPoint point;
   Unknowns excess;  ///< controlled stresses less those wanted, Pa
 };

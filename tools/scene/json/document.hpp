@@ -109,7 +109,7 @@ class Document
   std::vector<OverriddenType> overridden_types_;
 };
 
-/// The value at a pointer that someone wrote; null where there is none, be it that the text is no pointer.
+/// The value at a pointer that someone wrote; null where there is none, or where the text is no pointer.
 const Json* find_value(const Json& root, const std::string& pointer);
 
 /// The files that were read, each with its key (none for the scene itself and what is merged into it) and its hash.

@@ -39,7 +39,7 @@ struct ModelResult {
   std::vector<Round> rounds;    ///< one for every round of the comparison, empty ones too
   std::vector<Sample> samples;
   std::size_t modulus_evaluations = 0;
-  std::optional<double> modulus_ns;  ///< of one evaluation, over the states of its own sand
+  std::optional<double> modulus_ns;  ///< time of one evaluation, over the states of its own sand [ns]
   std::size_t ledger_peak_bytes = 0;
   /// Peak memory of a process that runs this model alone for a few steps.
   std::optional<std::size_t> peak_rss_bytes;

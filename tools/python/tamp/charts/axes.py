@@ -72,7 +72,7 @@ class Sheet:
     def __init__(self, layout, title, y_label, x_label, legend=(), labels=(), n_failed_rows=0, height=None, left=14,
                  foot=0):
         self.layout, font = layout, layout.font
-        self.tips = {}  # what shows under the mouse, by the gid of what is drawn
+        self.tips = {}  # texts under the mouse, by the gid of what is drawn
         self.labels = list(labels) if has_labels_beside(layout, labels) else []
         beside = max((text_width(fitted(text, 190, font), font) for text in self.labels), default=0)
         right = LABEL_GAP + beside + 18 if self.labels else RIGHT

@@ -14,7 +14,7 @@ class Table(NamedTuple):
 class Chart(NamedTuple):
     name: str  # of its files, and its own on its page
     title: str
-    description: str  # what is to be seen, in numbers, for who cannot see it
+    description: str  # the chart in words and numbers, for readers who cannot see it
     caption: str
     wide: picture.Picture
     narrow: picture.Picture

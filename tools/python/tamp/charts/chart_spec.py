@@ -10,8 +10,8 @@ class Across(NamedTuple):
     """The quantity on the x axis."""
 
     name: str
-    of: Callable  # of a point; None where it has none
-    text: Callable  # of a value
+    of: Callable  # value of a point; None where it has none
+    text: Callable  # text of a value
     ticks_at_values: bool = False
 
 

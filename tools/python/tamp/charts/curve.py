@@ -16,7 +16,7 @@ class Quantity(NamedTuple):
     label: str  # with its formula
     values: list
     text: Callable  # of a value, with its unit
-    scale: float  # what its values are large or small beside; above 0
+    scale: float  # the scale by which its values are large or small; above 0
 
 
 def chart(name, x, y):

@@ -12,7 +12,7 @@ from tamp.charts.curve import Quantity
 from tamp.charts.formatting import counted, escaped, percent_text, si_text
 from tamp.files import Damage, keep_inputs, written_by_tamp, written_table
 
-STRAIN = 0.01  # what a strain is large or small beside
+STRAIN = 0.01  # the scale by which a strain is large or small
 NOTHING = 1e-9  # beside that: round-off; and of a change of F
 NOTE = ("Strains are counted from the first row, volumetric and axial ones as logarithms; compression is positive, "
         "also for the mean stress p. q = √(3 J₂).")

@@ -24,7 +24,7 @@ class Bar(NamedTuple):
     phase: str
     task: str
     n: int = 1
-    busy: float = 0  # what of that time its tasks took
+    busy: float = 0  # the part of that time that its tasks took
 
     @property
     def text(self):
