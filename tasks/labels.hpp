@@ -111,10 +111,10 @@ template <int D>
 inline const runtime::NodeLabel<components::NodeMotion<D>, "carried motion"> carried_motion;
 /// Inverse of the nodal mass [1/kg]; 0 at nodes with next to no mass.
 inline const runtime::NodeLabel<double, "inverse mass"> inverse_mass;
-/// Only for materials with a body under a pressure load.
+/// Sums of pressure loads. Only for materials with a body under a pressure load.
 template <int D>
 inline const runtime::NodeLabel<components::PressureSums<D>, "pressure sums"> pressure_sums;
-/// Only for materials with a body force [N].
+/// Body force at a node [N]. Only for materials with a body force.
 template <int D>
 inline const runtime::NodeLabel<components::NodeVector<D>, "body force"> body_force;
 template <int D>
@@ -127,10 +127,10 @@ inline const runtime::NodeLabel<components::EdgeSums<D>, "edge sums"> edge_sums;
 /// Plane of contact at a node. Only where a contact finds planes by a pass of its own.
 template <int D>
 inline const runtime::NodeLabel<components::ContactFace<D>, "contact face"> contact_face;
-/// Only for materials that meet a rigid body by its solid.
+/// Sums of gaps to rigid bodies. Only for materials that meet a rigid body by its solid.
 template <int D>
 inline const runtime::NodeLabel<components::GapSums<D>, "gap sums"> gap_sums;
-/// Only where the grid has walls that matter touches at its edges.
+/// Gaps to walls. Only where the grid has walls that matter touches at its edges.
 template <int D>
 inline const runtime::NodeLabel<components::WallGaps<D>, "wall gaps"> wall_gaps;
 /// The last term u_j of a transfer's passes, and the sum of those that the transfer takes [m/s].
@@ -150,7 +150,7 @@ inline const runtime::ReductionLabel<StepTotals, "step totals"> step_totals;
 inline const runtime::ReductionLabel<StepTotals, "totals of solids"> solid_totals;
 inline const runtime::ReductionLabel<GridTotals, "grid totals"> grid_totals;
 inline const runtime::ReductionLabel<LostParticles, "lost particles"> lost_particles;
-/// Where a scene has body forces.
+/// Work of body forces, where a scene has any.
 inline const runtime::ReductionLabel<BodyForceWork, "body force work"> body_force_work;
 /// Impulses accumulated since the host last took their means, from the middle of the step before, `forces_taken_at`
 /// [s]; loads only where a scene has any.

@@ -36,7 +36,7 @@ struct ContactForce {
   Eigen::Vector3d torque = Eigen::Vector3d::Zero();
 };
 
-/// By material, means over a time.
+/// Mean forces over a time, by material.
 struct MeanForces {
   std::vector<ContactForce> contact;
   /// Forces of pressure loads [N].

@@ -61,7 +61,7 @@ ContactImpulse<D> collide(double mass_a, double mass_b, const Vector<D>& normal,
 template <int D>
 struct NodeSurfaces {
   std::span<const Vector<D>> gradient;
-  /// Empty where no contact finds any.
+  /// Contact faces; empty where no contact finds any.
   std::span<const ContactFace<D>> face{};
 };
 

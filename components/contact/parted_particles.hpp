@@ -55,7 +55,7 @@ class PartedPairs
 {
  public:
   bool has_room_for(std::size_t n) const { return n_ + n <= capacity; }
-  /// Without a branch, as whether it counts is hard to foretell.
+  /// Adds an entry if it `counts`, without a branch, which would be hard to predict.
   void add_if(bool counts, std::ptrdiff_t node, double shape, const Vector<D>& x)
   {
     node_[n_] = node;
@@ -89,7 +89,7 @@ class PartedPairs
  private:
   static constexpr std::size_t with_rest = capacity + n_lanes;
 
-  /// For the lanes that are left over.
+  /// Repeats the last entry in the lanes beyond it.
   void repeat_last()
   {
     std::fill_n(&node_[n_], n_lanes, node_[n_ - 1]);

@@ -43,7 +43,7 @@ class OctaveBuckets
     return number((bits(shifted(x)) << (mantissa_bits - place_bits_) & mantissa) | one) - 1.0;
   }
 
-  /// Where a bucket begins.
+  /// The lower end of a bucket.
   double start(std::size_t bucket) const
   {
     return std::bit_cast<double>((first_bucket_ + bucket) << place_bits_) - shift_ + first_;

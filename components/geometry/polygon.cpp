@@ -24,7 +24,7 @@ double cross(const Vector<2>& a, const Vector<2>& b)
   return a[0] * b[1] - a[1] * b[0];
 }
 
-/// Above 0 where `x` lies left of the edge.
+/// The side of an edge on which `x` lies: above 0 on its left.
 double side(const Edge& edge, const Vector<2>& x)
 {
   return cross(edge.to - edge.from, x - edge.from);

@@ -35,7 +35,7 @@ class Revolved
   void faces(const Vector<3>& x, SurfacePoints<3>& points) const;
   Volume volume() const;
 
-  /// At a place between the ends.
+  /// Squared radius at a place between the ends [m^2].
   double radius_squared(double along) const;
 
  private:

@@ -22,7 +22,7 @@ bool is_of_surface(const Solid<D>& solid, const Vector<D>& middle, const Surface
          solid.contains(point.at + little * (inward - point.normal));
 }
 
-/// From the nearest point of the surface.
+/// The signed distance of `x`, given the nearest point of the surface.
 template <int D>
 SignedDistance<D> distance_from(const SurfacePoint<D>& nearest, const Vector<D>& x, bool is_inside)
 {

@@ -37,7 +37,7 @@ struct StretchedHoops {
   std::span<const double> g;
   std::span<const double> old_stretch;
   std::span<double> stretch;
-  /// As `deform` leaves them: the hoops add their part.
+  /// Volumes and strain increments as `deform` leaves them; the hoops add their part.
   std::span<double> volume;
   std::span<SymmetricTensor<2>> strain_increment;
 };

@@ -15,7 +15,7 @@
 namespace tamp::components
 {
 
-/// By which of the rules below a particle bounds the step.
+/// The rule below by which a particle bounds the step.
 enum class StepRule { published, viscous };
 
 /// The rule of the published runs: no signal and no particle crosses a cell, axis by axis.

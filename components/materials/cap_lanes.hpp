@@ -121,7 +121,7 @@ class CapLanes
     if (any(beyond)) end_dilation(path, old, strain, size, deviatoric, start, along, beyond, outcome);
   }
 
-  /// For the lanes whose normal asks for more dilation than the sand has left.
+  /// The end of the flow in lanes whose normal asks for more dilation than the sand has left.
   template <class MakePath>
   void end_dilation(const MakePath& path, const Particles& old, const Strains& strain, const Lanes& size,
                     const Deviatoric& deviatoric, FlowStartOf<Lanes> start, const CombinationOf<Lanes>& along,

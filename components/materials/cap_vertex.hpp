@@ -61,7 +61,7 @@ struct VertexReturnOf {
   }
 };
 
-/// From a trial in tension beyond the vertex.
+/// Returns a trial in tension beyond the vertex to it.
 template <class Number, class Path>
 VertexReturnOf<Number> return_to_vertex(const YieldSurface& surface, const Path& path, const PathPointOf<Number>& trial,
                                         const Mask<Number>& searched)

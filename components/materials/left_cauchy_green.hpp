@@ -23,7 +23,7 @@ struct PrincipalExtremes {
   Number least, greatest;
 };
 
-/// In plane strain.
+/// Least and greatest principal value in plane strain.
 template <class Number>
 PrincipalExtremes<Number> principal_extremes(const Eigen::Matrix<Number, 4, 1>& b)
 {

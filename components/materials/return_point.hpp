@@ -42,7 +42,8 @@ struct SurfaceNormalOf {
 };
 using SurfaceNormal = SurfaceNormalOf<double>;
 
-/// At the end of dilation the volume is given, and not by the normal.
+/// The part of the surface that a return ends on. At `end_of_dilation` the volume is prescribed, and does not follow
+/// from the normal.
 enum class ReturnStatus { elastic, cone_or_cap, apex, tension_vertex, end_of_dilation, failed };
 
 template <class Number>

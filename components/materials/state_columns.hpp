@@ -10,14 +10,14 @@
 namespace tamp::components
 {
 
-/// Where a number of the state is shown.
+/// The outputs that show a number of the state.
 enum class Shown { everywhere, in_field_files, by_drive };
 
 /// A number of a particle's state in output, compression positive.
 template <class Model>
 struct StateColumn {
   std::string_view name;
-  /// Empty for a count or a yes or no.
+  /// Its unit; empty for a count or a yes or no.
   std::string_view unit;
   double (*value)(const Model& model, const typename Model::State& state, const Invariants& stress);
   Shown shown = Shown::everywhere;

@@ -42,7 +42,7 @@ class YieldSurface
     return abs(strength.from_kink) <= width * abs(pressure);
   }
 
-  /// Where the cap begins.
+  /// The pressure at which the cap begins.
   template <class Number>
   Number kappa(const Number& crush_pressure) const
   {

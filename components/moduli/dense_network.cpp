@@ -116,7 +116,7 @@ inline void add_products(const Block<n_streams>& inputs, const Pack* kernel, std
   if constexpr (n_turns == 2) unrolled<n_streams * n>([&](auto k) { sums.packs[k] += by_turns[1].packs[k]; });
 }
 
-/// From the block's j-th pack on.
+/// Writes the rectified sums into the outputs, from the block's j-th pack on.
 template <std::size_t n, std::size_t n_streams>
 inline void rectify(const Sums<n, n_streams>& sums, Block<n_streams>& outputs, std::size_t j)
 {
@@ -164,7 +164,7 @@ inline void make_packs(const LayerView& layer, const Block<n_streams>* inputs, B
   for (std::size_t k = 0; k < n; ++k) bend(layer.activation, outputs, j + k);
 }
 
-/// As many packs at a time as there are registers for their sums.
+/// Computes a layer for a block, as many packs at a time as there are registers for their sums.
 template <std::size_t n_turns, std::size_t n_streams>
 inline void make_block(const LayerView& layer, const Block<n_streams>* inputs, Block<n_streams>& outputs)
 {

@@ -49,7 +49,7 @@ class GaussianSum
   /// From here on f(x, y) - f(y, y); the Gaussians are those of the constructor.
   void subtract_diagonal(const Gaussians& gaussians);
 
-  /// At a point of the rectangle, or at one for each lane.
+  /// The values at a point of the rectangle, or at one for each lane.
   template <class Number>
   Values<Number> at(const Number& x, const Number& y) const;
   /// The derivative by x alone.
@@ -90,7 +90,7 @@ class GaussianSum
   struct alignas(64) Tile {
     std::array<Row, n_terms_y> rows;  // one for each power of y
 
-    /// Over the powers of y.
+    /// Sums the rows over the powers of y.
     void sum(double offset, Row& sums) const;
     void sum(double offset, Row& sums, Row& by_y) const;
   };

@@ -130,7 +130,7 @@ class Integral
     return a.elastic + width * (share > 0.01 && share < 0.99 ? share : 0.5);
   }
 
-  /// With the values and slopes of a and b.
+  /// The cubic with the values and slopes of a and b.
   static double cubic_at(double elastic, const Sample& a, const Sample& b)
   {
     const double t = (elastic - a.elastic) / (b.elastic - a.elastic), s = 1 - t;

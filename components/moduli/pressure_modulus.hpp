@@ -60,7 +60,7 @@ class PressureModulus
     return at;
   }
 
-  /// At the pressure nodes below and above, on the curves below and above.
+  /// Moduli at the pressure nodes below and above, on the curves below and above.
   template <class Number>
   struct Moduli {
     Number low, low_next, high, high_next;

@@ -17,14 +17,15 @@ struct BodyFunctions {
   using Of = std::function<Vector<3>(const Vector<3>& X)>;
   using OfTime = std::function<Vector<3>(const Vector<3>& X, double t)>;
 
-  /// At the start [m]. With it goes `deformation_gradient`, 1 + its gradient by X.
+  /// Displacement at the start [m]. With it goes `deformation_gradient`, 1 + its gradient by X.
   Of displacement{};
   std::function<Matrix<3>(const Vector<3>& X)> deformation_gradient{};
-  /// At the start [m/s].
+  /// Velocity at the start [m/s].
   Of velocity{};
-  /// Per mass [m/s^2].
+  /// Body force per mass [m/s^2].
   OfTime body_force{};
-  /// On the surface, wherever that goes [Pa], compression positive. A node of the surface is pressed with the mean over
+  /// Pressure on the surface, wherever that goes [Pa], compression positive. A node of the surface is pressed with the
+  /// mean over
   /// the matter that it reaches.
   std::function<double(const Vector<3>& X, double t)> pressure{};
   /// Displacement by theory [m]; errors are measured against it.

@@ -27,13 +27,13 @@ class PrescribedMotion
 
   /// The way from one time to a later one [m].
   Vector<3> way(double from, double to) const;
-  /// Just after a time [m/s].
+  /// Velocity just after a time [m/s].
   Vector<3> velocity(double time) const;
   /// Whether it ever moves along an axis.
   bool has_part_along(int axis) const;
 
  private:
-  /// Between two times the velocity is on a straight line.
+  /// A piece of the motion, in which the velocity changes linearly between two times.
   struct Piece {
     double begin, end;
     Vector<3> first, last;
@@ -43,7 +43,7 @@ class PrescribedMotion
 
   explicit PrescribedMotion(std::vector<Piece> pieces) : pieces_(std::move(pieces)) {}
 
-  /// Over all times, each beginning where the one before ends.
+  /// Pieces that cover all times, each beginning where the one before ends.
   std::vector<Piece> pieces_;
 };
 

@@ -35,10 +35,10 @@ MassProperties mass_properties(std::span<const double> mass, std::span<const Vec
 /// plane's normal without wobbling.
 MassProperties half_of_whole(const MassProperties& half, int axis, double place);
 
-/// Where a rigid body is, and how it moves.
+/// Position and motion of a rigid body.
 struct RigidState {
   Vector3 centre = Vector3::Zero();
-  /// From the orientation of the start; of unit length.
+  /// Rotation from the orientation at the start; of unit length.
   Eigen::Quaterniond orientation = Eigen::Quaterniond::Identity();
   Vector3 momentum = Vector3::Zero();          ///< N s
   Vector3 angular_momentum = Vector3::Zero();  ///< about the centre [N m s]

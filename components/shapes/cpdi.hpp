@@ -107,7 +107,7 @@ class Cpdi
     }
   }
 
-  /// In cells.
+  /// Half of a particle's size at the start [cells].
   double half_size_;
 };
 

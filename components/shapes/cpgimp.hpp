@@ -57,7 +57,7 @@ class Cpgimp : public ProductShape<Cpgimp<D>, D, 4>
     return select(x < 0.0, 1.0 - half_square, half_square);
   }
 
-  /// In cells.
+  /// Half of a particle's size at the start [cells].
   double half_size_;
 };
 

@@ -16,7 +16,7 @@ struct GridBlock {
   Vector<D> origin;
   double cell_size;
   std::array<int, D> n_nodes;
-  /// From a node to the next along each axis, in values.
+  /// Distance from a node to the next along each axis, in values.
   std::array<std::ptrdiff_t, D> strides;
 
   /// Position in cells from the first node.

@@ -37,7 +37,7 @@ struct alignas(4 * sizeof(double)) NodeValues {
 
   /// On a mirror normal to `axis` the image brings the opposite of every normal component.
   void hold_on_mirror(int axis) { ((values[first_of_vectors + axis] = 0), ...); }
-  /// As a mirror normal to `axis` shows them.
+  /// Turns the vectors into their images in a mirror normal to `axis`.
   void mirror(int axis) { ((values[first_of_vectors + axis] *= -1), ...); }
 };
 

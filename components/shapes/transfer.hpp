@@ -184,7 +184,7 @@ void interpolate(const Interpolator& interpolator, const GridBlock<D>& block, co
 /// Velocities and gradients of the grid at one particle.
 template <int D>
 struct ParticleMotion {
-  /// At the middle of the step [m/s].
+  /// Velocity at the middle of the step [m/s].
   Vector<D> velocity;
   Vector<D> velocity_change;
   /// sum v_i (x) grad S_ip [1/s]; row: component of velocity.

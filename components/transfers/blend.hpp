@@ -14,7 +14,7 @@ struct Blend : PlainTransfer {
   static constexpr std::string_view meaning = "a part of each of these";
   static constexpr std::string_view own_key = "flip_part";
 
-  /// 0 to 1.
+  /// Part of FLIP in the velocity, from 0 to 1.
   double flip_part;
 
   explicit Blend(const TransferNumbers& numbers) : flip_part(numbers.flip_part) {}

@@ -60,13 +60,13 @@ struct Field {
   }
   Buffer& buffer(FieldBuffer which) { return const_cast<Buffer&>(std::as_const(*this).buffer(which)); }
 
-  /// Where to read the values of a buffer.
+  /// The values of a buffer, for reading.
   std::byte* values(FieldBuffer which) const
   {
     const Buffer& own = buffer(which);
     return own.data() == nullptr && zeros != nullptr ? zeros->data() : own.data();
   }
-  /// Where to write them. To be called by whoever does.
+  /// The values of a buffer, for writing. To be called by whoever writes them.
   std::byte* written_values(FieldBuffer which)
   {
     if (on_demand) {

@@ -136,7 +136,7 @@ struct Reference {
   Reference<L, true, EveryGroup> previous() const { return {label, halo_width, is_declared, is_anew, true}; }
   /// The value at the start of the step, as previous() has it, or at its end; the body asks for it by the plain label.
   Reference at(StepEnd end) const { return {label, halo_width, is_declared, is_anew, end == StepEnd::start}; }
-  /// With `width` layers beyond the patch.
+  /// The label with `width` layers beyond the patch.
   Reference halo(int width) const { return {label, width, is_declared, is_anew, of_previous_step}; }
   /// The fields of all groups at once, for a task that runs once a patch.
   Reference<L, Previous, true> every_group() const

@@ -38,17 +38,17 @@ class ClockLine
   ClockLine() = default;
   ClockLine(const ClockPair& begin, const ClockPair& end);
 
-  /// For any tick; it is known to `uncertainty` for those between the two pairs.
+  /// The first rank's ticks at a tick of this rank; known to `uncertainty` for ticks between the two pairs.
   std::uint64_t first_rank(std::uint64_t own) const;
-  /// As those of one machine are.
+  /// Whether the two clocks are the same, like those of one machine.
   bool is_the_same() const { return own_ == first_rank_ && drift_ == 0; }
-  /// In ticks of this rank.
+  /// Uncertainty of `first_rank` [ticks of this rank].
   std::uint64_t uncertainty() const { return uncertainty_; }
 
  private:
   std::uint64_t own_ = 0;
   std::uint64_t first_rank_ = 0;
-  /// By how much the first rank's clock is faster.
+  /// Relative excess of the first rank's clock rate.
   double drift_ = 0;
   std::uint64_t uncertainty_ = 0;
 };

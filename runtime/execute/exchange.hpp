@@ -26,7 +26,7 @@ struct OtherRankFailed : std::runtime_error {
 struct Traffic {
   std::uint64_t n_messages = 0;
   std::uint64_t n_bytes = 0;
-  /// From being sent to being seen, summed over messages.
+  /// Time from being sent to being seen, summed over messages.
   std::uint64_t under_way = 0;
   /// The part of that in which the worker that saw the message had nothing to run.
   std::uint64_t waited_for = 0;
@@ -82,7 +82,7 @@ class Exchange
     LedgerHold held;
     /// The request of what is sent.
     MPI_Request request = MPI_REQUEST_NULL;
-    /// For what comes in with a fixed length, its place in `requests_`.
+    /// For incoming messages of fixed length, the index of their request in `requests_`.
     std::size_t incoming_request = 0;
     /// Particles only: whether the next is looked for.
     bool open = false;
@@ -108,7 +108,7 @@ class Exchange
   /// The MPI datatype in which lengths are counted.
   MPI_Datatype unit_;
   std::mutex mutex_;
-  /// By message; those of other ranks are empty.
+  /// State by message; empty for messages of other ranks.
   std::vector<Line> lines_;
   /// Receives of fixed length as MPI tests them, the last one for failures, and the message of each.
   std::vector<MPI_Request> requests_;

@@ -65,7 +65,7 @@ class Executor::Workers
 
  private:
   struct alignas(64) Worker {
-    /// For the watchdog: the instance that runs, -1 if none, and since which tick.
+    /// For the watchdog: the instance that runs, -1 if none, and the tick at which it began.
     std::atomic<int> running{-1};
     std::atomic<std::uint64_t> since{0};
     /// Room for what `Work::poll` brings, and for the ways through the other workers' lists.
@@ -270,7 +270,7 @@ bool Executor::Workers::stop(std::exception_ptr error)
   return true;
 }
 
-/// For the watchdog, while a run goes on.
+/// The watchdog's report, while a run goes on.
 std::string Executor::Workers::report(double idle_time) const
 {
   const std::uint64_t now = ticks();

@@ -36,11 +36,11 @@ class Schedule
   Schedule(const Schedule&) = delete;
   Schedule& operator=(const Schedule&) = delete;
 
-  /// By instance.
+  /// Records of the last step, by instance.
   const std::vector<InstanceRecord>& records() const;
   /// Off only to measure what recording costs.
   bool recording = true;
-  /// For the next run.
+  /// Whether the next run takes processor times.
   bool taking_processor_time = false;
 
  private:

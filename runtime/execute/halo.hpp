@@ -27,7 +27,7 @@ BoundHalo bind_halo_sum(Warehouse& warehouse, const Label& label, int patch, int
 /// zero, and rows that are, are left out, which changes no bit of a sum that starts at zero; false if no part was left.
 bool sum_halo(const BoundHalo& halo);
 
-/// For the `halo` layers around a patch: the neighbours' values.
+/// Binds the copy of the neighbours' values into the `halo` layers around a patch.
 BoundHalo bind_halo_fill(Warehouse& warehouse, const Label& label, int patch, int group, int halo);
 
 /// Copies the values.

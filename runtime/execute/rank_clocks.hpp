@@ -16,10 +16,10 @@ class RankClocks
  public:
   /// Collective.
   explicit RankClocks(const Communicator& communicator);
-  /// With lines that are known already, by rank.
+  /// Takes lines that are known already, by rank.
   explicit RankClocks(std::vector<ClockLine> lines) : lines_(std::move(lines)) {}
 
-  /// After 64 steps, 128, 256 and so on: compares clocks that differ. Collective.
+  /// Compares clocks that differ, after 64 steps, 128, 256 and so on. Collective.
   void follow(std::int64_t n_steps);
 
   /// The first rank's ticks when a rank had these.

@@ -11,7 +11,7 @@ namespace tamp::runtime
 struct RunningInstance {
   int instance;
   int worker;
-  /// For how long [s].
+  /// How long it has been running [s].
   double time;
 };
 

@@ -31,10 +31,10 @@ struct Access {
   bool anew = false;
 };
 
-/// Where in simulated time a step stands.
+/// A step: its number, and its place in simulated time.
 struct Step {
   long index = 0;
-  /// At the start of the step [s].
+  /// Simulated time at the start of the step [s].
   double time = 0;
   /// Length of the step [s].
   double size = 0;
@@ -49,9 +49,9 @@ struct Step {
 /// The first argument of every task body.
 struct TaskContext {
   const PatchLayout& layout;
-  /// In a task over ranks, one without cells whose id is -1.
+  /// The patch; in a task over ranks, one without cells whose id is -1.
   const Patch& patch;
-  /// -1 in a task that runs once a patch for all groups.
+  /// The group; -1 in a task that runs once a patch for all groups.
   int group;
   const Step& step;
 };

@@ -37,7 +37,7 @@ nlohmann::json group_name(const TaskGraph& graph, const Instance& instance)
   return graph.group_names()[static_cast<std::size_t>(instance.group)];
 }
 
-/// Between the quotes of a dot file.
+/// The text as it stands between the quotes of a dot file.
 std::string in_quotes(const std::string& text)
 {
   std::string safe;

@@ -35,7 +35,7 @@ struct FoldedLabel {
 struct FoldedEdge {
   int from = 0;
   int to = 0;
-  /// In the order of their names.
+  /// Labels in the order of their names.
   std::vector<FoldedLabel> labels;
 
   bool crosses() const;
@@ -44,7 +44,7 @@ struct FoldedEdge {
 /// A graph in which the number of patches no longer shows: tasks in the order in which their first instances stand.
 struct FoldedGraph {
   std::vector<FoldedTask> tasks;
-  /// In the order of from, then to.
+  /// Edges in the order of `from`, then `to`.
   std::vector<FoldedEdge> edges;
   /// The task of each instance.
   std::vector<int> task_of;

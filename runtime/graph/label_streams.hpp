@@ -23,7 +23,7 @@ struct LabelStream {
   /// Tasks that compute, accumulate or reduce it, in the order of declaration. In a sound graph one computes it, or
   /// several accumulate it, all with the widest halo of theirs.
   std::vector<Use> producers;
-  /// In the order of declaration.
+  /// Tasks that update it, and tasks that read it, in the order of declaration.
   std::vector<Use> updaters;
   std::vector<Use> readers;
 

@@ -28,11 +28,11 @@ enum class InstanceKind {
 struct Instance {
   InstanceKind kind = InstanceKind::body;
   int declaration = 0;
-  /// -1 for what belongs to a rank as a whole: a task over ranks, combining a reduction, sending or receiving a
-  /// message.
+  /// The patch; -1 for what belongs to a rank as a whole: a task over ranks, combining a reduction, sending or
+  /// receiving a message.
   int patch = -1;
   int rank = 0;
-  /// -1 for all groups.
+  /// The group; -1 for all groups.
   int group = -1;
   /// For work of the runtime: the labels it handles, whether those of the step before, and how wide the halo is.
   std::vector<const Label*> labels;
@@ -62,7 +62,7 @@ struct Edge {
 struct MessagePart {
   const Label* label = nullptr;
   int from_patch = 0;
-  /// -1 for a reduction.
+  /// The patch that receives it; -1 for a reduction.
   int to_patch = 0;
   int group = 0;
   FieldBuffer buffer = FieldBuffer::current;

@@ -85,7 +85,7 @@ class PatchLayout
 
  private:
   void find_neighbours(Patch& patch) const;
-  /// From the place of a patch among the patches to its number, and back.
+  /// The number of a patch at a place among the patches, and back.
   int patch_at(const Index& place) const;
   Index place_of(int patch) const;
 

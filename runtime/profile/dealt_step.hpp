@@ -29,7 +29,7 @@ struct DealtStep {
 };
 
 DealtStep deal_to_threads(const TaskGraph& graph, int n_threads);
-/// With the work of each thread.
+/// The same with the work of each thread.
 DealtStep deal_to_threads(const TimedStep& step, int n_threads);
 
 std::string to_text(const DealtStep& dealt);

@@ -66,7 +66,7 @@ struct PatchStatistics {
 /// A task of the longest chain of the mean step.
 struct ChainLink {
   std::string task;
-  /// -1 for what belongs to a rank as a whole.
+  /// The patch; -1 for what belongs to a rank as a whole.
   int patch = -1;
   int rank = 0;
   double task_s = 0;
@@ -78,7 +78,7 @@ struct ChainLink {
 /// Time of one task instance in the mean step [s], and time that the message it receives was on its way [s].
 struct InstanceTime {
   std::string task;
-  /// -1 for what belongs to a rank as a whole, and for all groups.
+  /// Patch and group; -1 for what belongs to a rank as a whole, and for all groups.
   int patch = -1;
   int group = -1;
   int rank = 0;

@@ -67,7 +67,7 @@ class Profiler
     /// Ticks of all workers in bodies of tasks; filled in only when the profile is made.
     std::uint64_t in_tasks = 0;
     std::uint64_t recording = 0;
-    /// From the end of one step to the start of the next.
+    /// Ticks from the end of one step to the start of the next.
     std::uint64_t between = 0;
     // The steps that are looked at: ticks of all of them, and ticks of their longest chains on this rank.
     std::uint64_t looked_at = 0;

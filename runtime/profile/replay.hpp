@@ -10,9 +10,9 @@ namespace tamp::runtime
 /// A step with the time that each instance and message takes [s]: the mean of many steps, for instance.
 struct TimedStep {
   const TaskGraph* graph = nullptr;
-  /// By instance.
+  /// Time of each instance [s].
   std::vector<double> instance_s;
-  /// By message, from being sent to being seen.
+  /// Time of each message from being sent to being seen [s].
   std::vector<double> message_s;
 };
 

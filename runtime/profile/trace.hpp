@@ -49,7 +49,7 @@ struct TracedTask {
 
 /// A message that this rank received.
 struct TracedMessage {
-  /// On the sender's clock.
+  /// When it was posted, on the sender's clock.
   std::uint64_t posted = 0;
   std::uint64_t arrived = 0;
   std::uint64_t unpacked = 0;
@@ -85,7 +85,7 @@ struct Trace {
 
   std::vector<Task> tasks;
   std::vector<std::string> groups;
-  /// On the first rank; elsewhere empty.
+  /// The records of all ranks, on the first rank; elsewhere empty.
   std::vector<Rank> ranks;
   /// When times begin, and how long a tick takes [s], on the first rank's clock.
   std::uint64_t begin = 0;

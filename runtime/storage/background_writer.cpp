@@ -43,7 +43,7 @@ bool BackgroundWriter::has_failed() const
   return failed_;
 }
 
-/// Once: whoever has heard of it may wait for the rest.
+/// Throws a failure once: whoever has heard of it may wait for the rest.
 void BackgroundWriter::throw_failure()
 {
   if (failure_ != nullptr) std::rethrow_exception(std::exchange(failure_, nullptr));

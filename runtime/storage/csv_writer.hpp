@@ -38,7 +38,7 @@ class CsvWriter
   static CsvWriter continued(const std::filesystem::path& file, const std::vector<std::string>& columns,
                              std::int64_t last_step);
 
-  /// As many values as there are columns. Throws FileError, for a full disk too.
+  /// Writes a row of as many values as there are columns. Throws FileError, for a full disk too.
   void write_row(std::span<const double> values);
 
   std::size_t n_columns() const { return n_columns_; }
@@ -65,7 +65,7 @@ class CsvWriter
   std::size_t n_columns_;
   std::unique_ptr<std::FILE, Close> stream_;
   CsvExtent extent_;
-  /// As the last row left it.
+  /// State of the file after the last row.
   FileState state_;
   std::string notice_;
 };

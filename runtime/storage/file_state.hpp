@@ -18,7 +18,7 @@ struct FileState {
   bool is_same_file(const FileState& other) const { return device == other.device && number == other.number; }
 };
 
-/// Nothing for one that is not there.
+/// The state of a file; empty for one that is not there.
 std::optional<FileState> state_of(const std::filesystem::path& file);
 std::optional<FileState> state_of(int descriptor);
 

@@ -51,7 +51,7 @@ class FolderLock
   FolderLock(const FolderLock&) = delete;
   FolderLock& operator=(const FolderLock&) = delete;
 
-  /// Whose lock was taken over.
+  /// The program whose lock was taken over.
   const std::optional<LockHolder>& former_holder() const { return former_; }
   /// Whether no other program has taken the folder over; to be asked before something is written into it.
   bool is_own() const;

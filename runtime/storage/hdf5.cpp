@@ -88,7 +88,7 @@ Properties ordered_group()
   return properties;
 }
 
-/// For paths whose groups are made where there are none.
+/// Properties of links along paths whose missing groups are made.
 Properties with_groups_on_the_way()
 {
   Properties links(H5Pcreate(H5P_LINK_CREATE));

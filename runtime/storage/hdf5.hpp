@@ -220,7 +220,7 @@ class OpenFile : public Location
   void agree() const;
   /// Puts everything on disk.
   void flush() const;
-  /// Once its groups have gone.
+  /// Closes the file, once its groups have gone.
   void close() const;
 };
 

@@ -120,7 +120,7 @@ class DryStep
     });
   }
 
-  /// As BoundGraph finds it from the fields themselves, see Sparsity.
+  /// Whether an instance is skipped, as BoundGraph finds from the fields themselves, see Sparsity.
   bool is_skipped(const Instance& instance) const
   {
     const Sparsity sparsity = graph_.declaration(instance).sparsity;

@@ -17,7 +17,7 @@ class OwnSteps
 
   /// To be called before each step of the trial.
   void before(Simulation& trial);
-  /// After it.
+  /// To be called after each step of the trial.
   void after(const Simulation& trial);
 
   double count() const { return count_; }

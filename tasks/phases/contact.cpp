@@ -24,7 +24,7 @@ namespace
 /// Effects of the impulses at one node.
 template <int D>
 struct NodeImpulses {
-  /// By material [N s]; all together they are zero.
+  /// Impulses on each material [N s]; their sum is zero.
   std::array<Vector<D>, PerGroup<int>::max_groups> impulse;
   /// The energy that they took [J]: each times the mean of the velocities before and after the step, as the energies of
   /// leapfrog are counted. Forces that contact balances then take nothing, however hard they press.

@@ -200,7 +200,7 @@ components::OwnStiffness own_stiffness_of(const Method<D>& method, const Data& d
   return {};
 }
 
-/// Where particles deform as their cells do, these begin empty.
+/// Clears the sums of cells, where particles deform as their cells do.
 template <class Data>
 void clear_cells(const Data& data)
 {

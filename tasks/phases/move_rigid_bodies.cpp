@@ -12,7 +12,7 @@ namespace tamp::tasks
 
 using runtime::TaskContext;
 
-/// In the leapfrog of `accelerate_nodes`.
+/// Accelerates rigid bodies by body forces, in the leapfrog of `accelerate_nodes`.
 template <int D>
 runtime::TaskList accelerate_rigid_bodies(const Method<D>& method)
 {
@@ -76,7 +76,7 @@ void add_totals(const TaskContext& at, const RigidBody& body, const RigidStates&
   totals.driving += after.driving[static_cast<std::size_t>(body.material)].dot(p + q) / (2 * body.properties.mass);
 }
 
-/// Where the points of a rigid body are in a state of it.
+/// Positions of the points of a rigid body in a state of it.
 template <int D>
 struct Placement {
   Placement(const RigidBody& body, const components::RigidState& state)

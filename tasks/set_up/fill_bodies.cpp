@@ -31,7 +31,7 @@ runtime::Index cell_of(const runtime::Grid& grid, const Vector<D>& x)
   return cell;
 }
 
-/// Where a particle starts that belongs to X.
+/// The initial position of the particle that belongs to X [m].
 template <int D>
 Vector<D> initial_position(const components::BodyFunctions& functions, const Vector<D>& X)
 {

@@ -39,7 +39,7 @@ struct Window {
   double begin;
 };
 
-/// Where a window begins, and what was counted until then.
+/// The state at the start of a window, and the counts until then.
 struct WindowStart {
   Window window;
   runtime::FoundCheckpoint checkpoint;

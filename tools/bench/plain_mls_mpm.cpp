@@ -50,7 +50,7 @@ double determinant(const Matrix<3>& a)
 template <int D>
 struct PlainMlsMpm<D>::Stencil {
   std::size_t first;
-  /// From the particle to the first node [m].
+  /// Vector from the particle to the first node [m].
   typename Particle::Vector offset;
   std::array<std::array<double, 3>, D> weights;
 };

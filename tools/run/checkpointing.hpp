@@ -15,14 +15,15 @@
 namespace tamp::tools
 {
 
-/// When a run keeps its state, besides when a signal stops it: at intervals of steps, of simulated and of wall time.
+/// Times at which a run keeps its state, besides when a signal stops it: at intervals of steps, of simulated and of
+/// wall time.
 struct CheckpointPolicy {
-  /// 0: never.
+  /// Interval in steps; 0: never.
   long steps = 0;
   /// [s]
   double simulated = std::numeric_limits<double>::infinity();
   double wall = 600;
-  /// How many are kept, the newest.
+  /// Number of checkpoints that are kept, the newest ones.
   int keep = 2;
 };
 
@@ -32,11 +33,11 @@ class CheckpointClock
  public:
   explicit CheckpointClock(const CheckpointPolicy& policy);
 
-  /// A run that is restarted has what was due until then.
+  /// Passes over checkpoints that were due until then, which a restarted run has.
   void skip_to(double time) { simulated_.skip_to(time); }
-  /// By steps and simulated time: the same on all ranks.
+  /// Whether one is due by steps or simulated time; the same on all ranks.
   bool due(long step, double time);
-  /// By wall time: one rank asks, all write.
+  /// Whether one is due by wall time: one rank asks, all write.
   bool wall_time_over() const;
   void written() { last_ = Clock::now(); }
 

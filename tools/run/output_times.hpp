@@ -18,7 +18,7 @@ class OutputTimes
     return true;
   }
 
-  /// As if all times up to then had passed.
+  /// Passes over all times up to then.
   void skip_to(double time)
   {
     const double reached = with_tolerance(time);

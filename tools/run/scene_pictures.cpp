@@ -28,7 +28,7 @@ struct View {
   double half_thickness = std::numeric_limits<double>::infinity();
 };
 
-/// Where particles are at the start, and how fast they are along each axis.
+/// Positions of particles at the start, and their velocity along each axis.
 struct Whereabouts {
   Eigen::Vector3d lower = Eigen::Vector3d::Constant(std::numeric_limits<double>::infinity());
   Eigen::Vector3d upper = -lower;

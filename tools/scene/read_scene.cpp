@@ -417,7 +417,7 @@ class SceneReader
     scene_.output.fields.names = reader.some_of("fields", known);
   }
 
-  /// Between outputs; by default `n` of them, and at most `most`.
+  /// Reads the interval between outputs; by default there are `n` of them, and at most `most`.
   double read_interval(JsonReader& reader, const std::string& key, double n, double most)
   {
     const double end = scene_.time.end;

@@ -68,7 +68,7 @@ class BudgetMaker
     return found;
   }
 
-  /// 0 for an answer of 0, whose changes are no parts of it.
+  /// Scale of relative changes; 0 for an answer of 0, whose changes are no parts of it.
   double scale(const Answer& base) const
   {
     return quantity_.is_column() ? 1 : quantity_.scale.value_or(std::abs(base.value));

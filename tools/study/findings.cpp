@@ -106,10 +106,10 @@ class References
     sum_up();
   }
 
-  /// For all points, or the least certain of those of the methods.
+  /// The reference of all points, or the least certain of those of the methods.
   const Reference& common() const { return common_; }
 
-  /// None for a variation of an error budget where each method has its own.
+  /// The reference of a point; none for a variation of an error budget where each method has its own.
   const Reference& of(const Point& point) const
   {
     static const Reference none;

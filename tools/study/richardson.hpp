@@ -6,7 +6,7 @@
 namespace tamp::tools::study
 {
 
-/// Where answers on finer and finer grids tend to.
+/// The limit that answers on finer and finer grids tend to.
 struct Convergence {
   /// Whether the differences fall from grid to grid, with one sign: nothing is claimed otherwise.
   bool falls = false;

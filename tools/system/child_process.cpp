@@ -41,7 +41,7 @@ struct ExecArguments {
   std::vector<char*> pointers;
 };
 
-/// Within the limit of this program, which no child may raise.
+/// The limit of processor time of a child, within that of this program, which no child may raise.
 rlimit limit_of(double seconds)
 {
   rlimit own{RLIM_INFINITY, RLIM_INFINITY};

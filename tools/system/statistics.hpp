@@ -12,7 +12,7 @@ struct Quartiles {
 /// Linear between the values in order. There must be one at least.
 Quartiles quartiles(std::vector<double> values);
 
-/// 0 without values.
+/// The median; 0 without values.
 double median(std::vector<double> values);
 
 }  // namespace tamp::tools

@@ -12,7 +12,7 @@ namespace tamp::runtime
 class ReadyPool
 {
  public:
-  /// For a step that has begun. Messages that have come before it count.
+  /// Makes the pool of a step that has begun. Messages that have come before it count.
   explicit ReadyPool(ScheduleState& schedule);
 
   /// Whether all instances of this rank are complete.
@@ -23,7 +23,7 @@ class ReadyPool
   void complete(int instance);
 
  private:
-  /// Null for what another rank runs.
+  /// Entries by instance; null for instances of other ranks.
   std::vector<ScheduleState::Entry*> entries_;
   std::vector<std::vector<int>> successors_;
   std::vector<int> n_awaited_;

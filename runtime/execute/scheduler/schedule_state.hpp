@@ -46,7 +46,7 @@ class ScheduleState
   int size() const { return static_cast<int>(flags_.size()); }
   const std::vector<InstanceRecord>& records() const { return records_; }
 
-  /// Before each step.
+  /// To be called before each step.
   void begin_step();
   Epoch epoch() const { return epoch_; }
   std::vector<List>& lists() { return lists_; }
@@ -89,7 +89,7 @@ class ScheduleState
  private:
   Work& work_;
   Epoch epoch_ = 0;
-  /// By instance.
+  /// Flags by instance.
   std::vector<std::atomic<Epoch>> flags_;
   std::vector<int> awaited_;
   std::vector<List> lists_;

@@ -10,7 +10,7 @@
 namespace tamp::runtime
 {
 
-/// Where the items that one rank gives stand in a dataset of all ranks.
+/// Place of the items that one rank gives in a dataset of all ranks.
 struct ItemPlace {
   /// This rank's share of a dataset of scalars, an item each.
   hdf5::Share share;

@@ -26,7 +26,7 @@ StressControl mean_control()
   return control;
 }
 
-/// Where all stresses are alike so are all stretches, to the bit.
+/// The stress at the start along an axis. Where all stresses are equal so are all stretches, to the bit.
 StressAtStart along_axis(const LaboratoryTest& test, int axis)
 {
   if (test.lateral_ratio == 1) return {{normal_control("mean stress", Vector<3>::Ones())}, {-test.pressure}};

@@ -29,11 +29,11 @@ class DeformationPath
   /// A segment goes from the row of its number to the next.
   std::size_t n_segments() const { return rows_.size() - 1; }
 
-  /// At a fraction of a segment, from 0 to 1.
+  /// Time at a fraction of a segment, from 0 to 1.
   double time(std::size_t segment, double fraction) const;
-  /// Without the superposed rotation.
+  /// F without the superposed rotation.
   Matrix<3> unturned(std::size_t segment, double fraction) const;
-  /// With it: R(angle, axis) F.
+  /// F with the superposed rotation: R(angle, axis) F.
   Matrix<3> deformation_gradient(std::size_t segment, double fraction) const;
 
  private:

@@ -35,7 +35,7 @@ class StressEquations
 
   Eigen::Index size() const { return static_cast<Eigen::Index>(target_.controls.size()); }
 
-  /// Nothing where the material refuses the deformation.
+  /// The trial after a change; empty where the material refuses the deformation.
   std::optional<Trial> at(const Unknowns& change) const
   {
     Trial trial{change, start_, {}};
@@ -125,7 +125,7 @@ Unknowns no_longer_than(double longest, const Unknowns& step)
   return length > longest ? Unknowns(step * (longest / length)) : step;
 }
 
-/// As much of the step as makes the excess less.
+/// Takes as much of the step as makes the excess less.
 std::optional<Trial> damped_step(const StressEquations& equations, const Trial& from, const Unknowns& step)
 {
   constexpr double shortest = 1.0 / 64;

@@ -6,7 +6,7 @@
 namespace tamp::tools
 {
 
-/// Where an increment is to end.
+/// The state that an increment is to end in.
 struct MixedTarget {
   const std::vector<StressControl>& controls;
   Matrix<3> deformation_gradient;  ///< entries that give way to stress are not read

@@ -104,7 +104,7 @@ class Race
     return steps;
   }
 
-  /// At the start, at the end and three times between, models in turn.
+  /// Times the moduli at the start, at the end and three times between, models in turn.
   void time_moduli_when_due()
   {
     if (least_progress() < next_timing_) return;

@@ -39,7 +39,7 @@ std::vector<study::Study> read_entries(const std::vector<fs::path>& files)
   return entries;
 }
 
-/// In words: which method did what else.
+/// Differences from what was expected, in words.
 std::string what_differs(const Entry& entry)
 {
   const auto found = [](const Outcome& outcome) {
