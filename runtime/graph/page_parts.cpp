@@ -177,7 +177,7 @@ function foldedEdges(near, t, far) {
      make("span", {class: "faint"}, labelTexts(edge).join("; "))]));
 }
 
-// What a run took for a task, if the page has it.
+// The measured time of a task, if the page has it.
 const secondsText = s => s >= 0.1 ? `${Number(s.toPrecision(3))} s` : s >= 1e-4 ? `${Number((s * 1e3).toPrecision(3))} ms`
                                                                               : `${Number((s * 1e6).toPrecision(3))} µs`;
 const percentText = share => `${(100 * share).toFixed(1)} %`;
@@ -185,11 +185,11 @@ function measuredOf(task) {
   const m = task.measured;
   if (!m) return [];
   const rows = [["ran", `${m.count} times`], ["mean", secondsText(m.mean_s)], ["95 % below", secondsText(m.p95_s)],
-    ["share", percentText(m.share)], ["uneven", Number(m.imbalance.toPrecision(3)).toString()],
-    ["in longest chain", secondsText(m.chain_s)], ["on a longest chain", `in ${percentText(m.on_chain || 0)} of steps`]];
+    ["share", percentText(m.share)], ["imbalance", Number(m.imbalance.toPrecision(3)).toString()],
+    ["in longest chain", secondsText(m.chain_s)], ["critical path", `in ${percentText(m.on_chain || 0)} of steps`]];
   if (m.step_gain_if_free !== undefined) {
-    rows.push(["a tenth faster", `saves ${percentText(m.step_gain_if_a_tenth_faster)} of a step`],
-              ["free", `saves ${percentText(m.step_gain_if_free)} of a step`]);
+    rows.push(["gain at -10 %", `${percentText(m.step_gain_if_a_tenth_faster)} of a step`],
+              ["gain if free", `${percentText(m.step_gain_if_free)} of a step`]);
   }
   return [make("h3", {}, "Measured"), make("dl", {}, ...rows.flatMap(([name, text]) => [make("dt", {}, name), make("dd", {}, text)]))];
 }
@@ -264,7 +264,7 @@ function rest() {
   search();
 }
 
-// What the address names is held: #t3 a task, #e5 an edge, #i27 an instance.
+// Holds what the address names: #t3 a task, #e5 an edge, #i27 an instance.
 function follow() {
   const [, kind, digits] = /^#([tei])(\d+)$/.exec(location.hash) || [], n = Number(digits);
   const count = {t: () => tasks.length, e: () => edges.length, i: () => instances().task.length}[kind];

@@ -186,7 +186,7 @@ std::string to_text(const std::vector<TaskComparison>& tasks)
     text += fmt::format("{:<36} {:>12.2f} {:>12.2f}  {}\n", task.name, task.here_s.value_or(0) * 1e6,
                         task.there_s.value_or(0) * 1e6, ratio_text(task));
   }
-  return text;
+  return text + "here: this run; there: the other; there / here: median ratio of their parts +- its standard error\n";
 }
 
 nlohmann::json to_json(const std::vector<TaskComparison>& tasks)

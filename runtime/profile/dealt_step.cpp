@@ -84,7 +84,7 @@ std::string to_text(const DealtStep& dealt)
   const auto n_all = static_cast<int>(dealt.shares.size());
   const auto n_narrow = std::ranges::count_if(dealt.levels, [&](int width) { return width < n_all; });
   return text + fmt::format(
-                    "{} instances in {} levels, {:.1f} in the mean and {} at most; {} levels are narrower than "
+                    "{} instances in {} levels, {:.1f} on average and {} at most; {} levels are narrower than "
                     "the {} threads\n",
                     n, n_levels, n_levels > 0 ? static_cast<double>(n) / n_levels : 0.0, widest, n_narrow, n_all);
 }
@@ -98,7 +98,7 @@ std::string replays_text(const TimedStep& step, int n_threads, int n_measured, d
     text += fmt::format("{:>7} {:>12.1f} {:>8.2f} {:>10.2f}\n", n, s * 1e6, one_s / s, one_s / s / n);
   }
   return text + fmt::format(
-                    "the longest chain takes {:.1f} us: no number of threads is faster; measured was a step of {:.1f} "
+                    "the longest chain takes {:.1f} us: no number of threads is faster; a measured step takes {:.1f} "
                     "us on {}, by replay {:.1f} us\n",
                     longest_chain(step).length_s * 1e6, measured_s * 1e6, n_measured, replay(step, n_measured) * 1e6);
 }

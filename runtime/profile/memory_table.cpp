@@ -37,7 +37,7 @@ std::string memory_text(const nlohmann::json& profile)
 {
   const nlohmann::json& memory = profile.at("memory");
   const auto total = memory.at("total").get<double>();
-  std::string text = fmt::format("{:.1f} MiB at most, of all ranks\n\n{:<32} {:>9} {:>7} {:>9}\n", in_mebibytes(total),
+  std::string text = fmt::format("{:.1f} MiB at most, on all ranks\n\n{:<32} {:>9} {:>7} {:>9}\n", in_mebibytes(total),
                                  "label", "MiB then", "share", "MiB most");
   // Earlier versions tell the most of each label alone.
   const nlohmann::json& then = memory.contains("at_high_water") ? memory.at("at_high_water") : memory.at("labels");
@@ -45,6 +45,7 @@ std::string memory_text(const nlohmann::json& profile)
     text += fmt::format("{:<32} {:>9.2f} {:>6.2f}% {:>9.2f}\n", label, in_mebibytes(bytes), 100 * bytes / total,
                         in_mebibytes(memory.at("labels").at(label).get<double>()));
   }
+  text += "MiB then: when all memory together was largest; MiB most: the most that the label held itself\n";
   if (!memory.contains("tasks")) return text;
   text += fmt::format("\n{:<32} {:>9} {:>7}\n", "task that makes it", "MiB then", "share");
   for (const auto& [bytes, task] : sorted(memory.at("tasks"), total)) {

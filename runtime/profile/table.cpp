@@ -48,14 +48,18 @@ std::string memory_column(const std::string& text, const TableChoice& choice)
 
 std::string header(const TableChoice& choice)
 {
-  return fmt::format("{:<32} {:>8} {:>9} {:>9} {:>7} {:>7} {:>8} {:>6}{} {:>8} {:>8} {:>7}\n", "task", "count",
-                     "mean us", "p95 us", "share", "uneven", "Mpart/s", "GB/s", memory_column("of mem", choice),
-                     "on chain", "10% less", "if free");
+  return fmt::format("{:<32} {:>8} {:>9} {:>9} {:>7} {:>9} {:>8} {:>6}{} {:>13} {:>12} {:>12}\n", "task", "count",
+                     "mean us", "p95 us", "share", "imbalance", "Mpart/s", "GB/s", memory_column("of mem", choice),
+                     "critical path", "gain at -10%", "gain if free");
 }
+
+constexpr const char* glossary =
+    "imbalance: costliest patch over the mean; critical path: share of steps whose longest chain of tasks goes through "
+    "it; gain: of a step, if the task took 10% less, or no time\n";
 
 std::string row(const nlohmann::json& t, const TableChoice& choice)
 {
-  return fmt::format("{:<32} {:>8.0f} {:>9.2f} {:>9.2f} {:>6.2f}% {:>7.3f} {:>8} {:>6}{} {:>8} {:>8} {:>7}\n",
+  return fmt::format("{:<32} {:>8.0f} {:>9.2f} {:>9.2f} {:>6.2f}% {:>9.3f} {:>8} {:>6}{} {:>13} {:>12} {:>12}\n",
                      t.at("name").get<std::string>(), t.at("count").get<double>(), t.at("mean_s").get<double>() * 1e6,
                      t.at("p95_s").get<double>() * 1e6, t.at("share").get<double>() * 100,
                      t.at("imbalance").get<double>(), rate(t, "particles", 1e6), rate(t, "bytes", 1e9),
@@ -63,7 +67,7 @@ std::string row(const nlohmann::json& t, const TableChoice& choice)
                      percent(t, "step_gain_if_a_tenth_faster"), percent(t, "step_gain_if_free"));
 }
 
-/// The rows of the chosen tasks.
+/// The rows of the chosen tasks, and what their columns mean.
 std::string tasks_text(const nlohmann::json& profile, const TableChoice& choice)
 {
   std::string text = header(choice);
@@ -73,7 +77,7 @@ std::string tasks_text(const nlohmann::json& profile, const TableChoice& choice)
     if (choice.n_rows > 0 && n++ == choice.n_rows) break;
     text += row(t, choice);
   }
-  return text;
+  return text + glossary;
 }
 
 double microseconds(const nlohmann::json& profile, const char* key)
@@ -89,7 +93,7 @@ std::string messages_text(const nlohmann::json& profile)
   std::string text = fmt::format("{:.0f} messages between ranks, {:.1f} MiB", n,
                                  profile.at("message_bytes").get<double>() / (1024 * 1024));
   if (under_way > 0) {
-    text += fmt::format(", {:.1f} us on their way, {:.0f} % of that behind tasks", under_way / n * 1e6,
+    text += fmt::format(", {:.1f} us on their way, {:.0f} % of that hidden behind tasks", under_way / n * 1e6,
                         100 * (1 - profile.at("message_wait_s").get<double>() / under_way));
   }
   return text + "\n";
@@ -99,10 +103,10 @@ std::string waits_text(const nlohmann::json& profile)
 {
   std::string text;
   for (const nlohmann::json& w : profile.value("waits", nlohmann::json::array())) {
-    text += fmt::format("{:>10.2f} ms  {:<36} for {}\n", w.at("s").get<double>() * 1e3, w.at("task").get<std::string>(),
+    text += fmt::format("{:>10.2f} ms  {:<36} {}\n", w.at("s").get<double>() * 1e3, w.at("task").get<std::string>(),
                         w.at("waits_for").get<std::string>());
   }
-  return text.empty() ? "" : "\nworkers stood still longest before\n" + text;
+  return text.empty() ? "" : "\nlongest waits of workers: for how long, before which task, for which other\n" + text;
 }
 
 /// Least, mean and largest time that all tasks of a rank take; empty for a single rank.
@@ -118,9 +122,8 @@ std::string ranks_text(const nlohmann::json& profile)
   }
   const auto [least, most] = std::minmax_element(seconds.begin(), seconds.end());
   const double mean = std::accumulate(seconds.begin(), seconds.end(), 0.0) / static_cast<double>(seconds.size());
-  return fmt::format(
-      "{} ranks: tasks of one take {:.4g} s at least, {:.4g} s in the mean, {:.4g} s at most (rank {})\n",
-      seconds.size(), *least, mean, *most, most - seconds.begin());
+  return fmt::format("{} ranks: tasks of one take {:.4g} s at least, {:.4g} s on average, {:.4g} s at most (rank {})\n",
+                     seconds.size(), *least, mean, *most, most - seconds.begin());
 }
 
 }  // namespace
@@ -151,20 +154,21 @@ std::string to_text(const nlohmann::json& profile, const TableChoice& choice)
 {
   std::string text = tasks_text(profile, choice);
   text += fmt::format(
-      "a step takes {:.1f} us in the mean, its longest chain of tasks {:.1f} us; scheduler overhead {:.2f} %; fields "
+      "a step takes {:.1f} us on average, its longest chain of tasks {:.1f} us; scheduler overhead {:.2f} %; fields "
       "{:.1f} MiB\n",
       profile.at("step_s").get<double>() * 1e6,
       profile.value("longest_chain_s", profile.at("critical_path_s").get<double>()) * 1e6,
       profile.at("overhead").get<double>() * 100, profile.at("memory").at("total").get<double>() / (1024 * 1024));
   if (choice.memory_rate > 0) {
-    text += fmt::format("memory gives {:.1f} GB/s to a worker while all ask it; more comes from caches\n",
-                        choice.memory_rate * 1e-9);
+    text +=
+        fmt::format("of mem: of what memory gives, {:.1f} GB/s to a worker while all use it; more comes from caches\n",
+                    choice.memory_rate * 1e-9);
   }
   text += busy_text(profile) + messages_text(profile);
   if (choice.n_rows > 0 || !choice.phase.empty()) return text;
   if (profile.contains("replayed_s")) {
     text += fmt::format(
-        "replayed, it takes {:.1f} us; between two steps pass {:.1f} us, {:.1f} us of it to record them\n",
+        "by replay it takes {:.1f} us; between two steps pass {:.1f} us, of which recording takes {:.1f} us\n",
         microseconds(profile, "replayed_s"), microseconds(profile, "between_s"), microseconds(profile, "recording_s"));
   }
   return text + ranks_text(profile) + waits_text(profile);
@@ -173,7 +177,7 @@ std::string to_text(const nlohmann::json& profile, const TableChoice& choice)
 std::string rank_text(const nlohmann::json& profile, std::size_t rank, const TableChoice& choice)
 {
   const nlohmann::json& own = profile.at("ranks").at(rank);
-  return fmt::format("rank {}: a step takes {:.1f} us in the mean; scheduler overhead {:.2f} %\n", rank,
+  return fmt::format("rank {}: a step takes {:.1f} us on average; scheduler overhead {:.2f} %\n", rank,
                      own.at("step_s").get<double>() * 1e6, own.at("overhead").get<double>() * 100) +
          tasks_text(own, choice);
 }
@@ -192,8 +196,10 @@ std::string chain_text(const nlohmann::json& profile)
                         link.at("rank").get<double>());
     at += takes;
   }
-  return text + fmt::format("the longest chain takes {:.2f} us; a step takes {:.2f} us\n", at * 1e6,
-                            profile.at("step_s").get<double>() * 1e6);
+  return text + fmt::format(
+                    "at: start in the mean step; takes: time of the task, or of the message before it\n"
+                    "the longest chain takes {:.2f} us; a step takes {:.2f} us\n",
+                    at * 1e6, profile.at("step_s").get<double>() * 1e6);
 }
 
 std::string patches_text(const nlohmann::json& profile, std::size_t n_rows)
@@ -208,7 +214,7 @@ std::string patches_text(const nlohmann::json& profile, std::size_t n_rows)
   const double steps = std::max(profile.at("steps").get<double>(), 1.0);
   const double mean = patches.empty() ? 0 : sum / static_cast<double>(patches.size());
   std::string text =
-      fmt::format("{:>7} {:>5} {:>10} {:>10}  {}\n", "patch", "rank", "us a step", "over mean", "dearest");
+      fmt::format("{:>7} {:>5} {:>10} {:>10}  {}\n", "patch", "rank", "us a step", "over mean", "costliest task");
   for (const std::size_t p : order) {
     if (n_rows-- == 0) break;
     text += fmt::format("{:>7} {:>5.0f} {:>10.2f} {:>10.3f}  {}\n", p, patches[p].at("rank").get<double>(),
@@ -216,8 +222,11 @@ std::string patches_text(const nlohmann::json& profile, std::size_t n_rows)
                         patches[p].at("dearest").get<std::string>());
   }
   const double median = order.empty() ? 0 : seconds(order[order.size() / 2]);
-  return text + fmt::format("{} patches: {:.2f} us a step in the mean, half of them {:.2f} us or less\n", order.size(),
-                            mean / steps * 1e6, median / steps * 1e6);
+  return text + fmt::format(
+                    "over mean: time of the patch over that of the mean patch; costliest task: the one with the most "
+                    "of that time\n"
+                    "{} patches: {:.2f} us a step on average, half of them {:.2f} us or less\n",
+                    order.size(), mean / steps * 1e6, median / steps * 1e6);
 }
 
 }  // namespace tamp::runtime

@@ -174,12 +174,12 @@ class GainBenchmark
     std::string text = fmt::format(
         "gains: {}, {} steps on {}, one task {} times as long; medians of {} rounds\n"
         "  a step takes {:.1f} us as it is\n"
-        "  {:<32} {:>7} {:>9} {:>12} {:>12} {:>12} {:>11}\n",
+        "  {:<32} {:>7} {:>13} {:>12} {:>12} {:>12} {:>11}\n",
         options_.scene.filename().string(), options_.n_steps,
         options_.n_threads == 1 ? "1 thread" : fmt::format("{} threads", options_.n_threads), slower, options_.n_rounds,
-        median(steps_) * 1e6, "task", "share", "on chain", "by replay", "by a tenth", "measured", "difference");
+        median(steps_) * 1e6, "task", "share", "critical path", "by replay", "by a tenth", "measured", "difference");
     for (const SlowedTask& task : tasks_) {
-      text += fmt::format("  {:<32} {:>6.1f}% {:>8.0f}% {:>9.1f} us {:>9.1f} us {:>9.1f} us {:>+10.1f}%\n", task.name,
+      text += fmt::format("  {:<32} {:>6.1f}% {:>12.0f}% {:>9.1f} us {:>9.1f} us {:>9.1f} us {:>+10.1f}%\n", task.name,
                           task.share * 100, task.on_chain * 100, median(task.replayed) * 1e6,
                           median(task.extrapolated) * 1e6, median(task.measured) * 1e6, (median(task.ratio) - 1) * 100);
     }

@@ -44,7 +44,7 @@ TEST_CASE("patches in a row are dealt to threads, and what does not wait is in o
   CHECK(dealt.shares[1].n_patches == 1);
   CHECK(dealt.shares[1].n_instances == 2);
   CHECK(dealt.levels == std::vector<int>{3, 3});
-  CHECK_THAT(to_text(dealt), Catch::Contains("6 instances in 2 levels, 3.0 in the mean and 3 at most; 0 levels are"));
+  CHECK_THAT(to_text(dealt), Catch::Contains("6 instances in 2 levels, 3.0 on average and 3 at most; 0 levels are"));
 }
 
 TEST_CASE("a step of known times is as fast on more threads as its patches allow", "[profile]")

@@ -180,6 +180,8 @@ TEST_CASE("the table has what part of the memory's rate a task takes, where that
 
   CHECK_THAT(known, Catch::Contains("of mem") && Catch::Contains(" 25%") && Catch::Contains("12.0 GB/s to a worker"));
   CHECK_THAT(unknown, !Catch::Contains("of mem") && !Catch::Contains("to a worker"));
+  CHECK_THAT(unknown,
+             Catch::Contains("gain if free\n") && Catch::Contains("\nimbalance: costliest patch over the mean; "));
 }
 
 }  // namespace tamp::runtime::test_profiler

@@ -12,6 +12,8 @@ from tamp.charts.run_history import History, force, is_plane
 
 ENERGIES = ["kinetic", "elastic", "plastic", "viscous", "contact", "filter", "external", "total"]
 MOST_BYTES = 4_900_000  # of a page
+GLOSSARY = ("imbalance: costliest patch over the mean; gain: by how much a step gets shorter, by replay, if the task "
+            "takes 10 % less, or no time")
 
 
 def read_run(folder):
@@ -240,10 +242,10 @@ def force_against_depth(history, body):
 
 
 def time_of_steps(profile):
-    text = (f"A step takes {si_text(profile['step_s'], 's')} in the mean; no number of threads makes it shorter than "
+    text = (f"A step takes {si_text(profile['step_s'], 's')} on average; no number of threads makes it shorter than "
             f"its longest chain of tasks, {si_text(profile.get('longest_chain_s'), 's')}. Between two steps pass "
-            f"{si_text(profile.get('between_s'), 's')}, for output and the history. Outside of tasks workers spend "
-            f"{percent_text(profile['overhead'])} of the steps.")
+            f"{si_text(profile.get('between_s'), 's')}, for output and the history. Scheduler overhead is "
+            f"{percent_text(profile['overhead'])} of the workers' time in steps.")
     if profile.get("too_busy"):
         text += (" The machine was too busy to trust these times: other programs had its cores for "
                  f"{percent_text(1 - profile['core_share'])} of the time of tasks.")
@@ -257,7 +259,7 @@ def one_step(step):
 
 
 def tasks_and_waits(profile):
-    text = page.as_html(tasks(profile))
+    text = page.as_html(tasks(profile)) + f'<p class="faint">{GLOSSARY}</p>\n'
     if profile.get("waits"):
         text += "<h2>What workers waited for</h2>\n" + page.as_html(waits(profile))
     return text
@@ -267,8 +269,8 @@ def tasks(profile):
     rows = [[t["name"], f"{t['count']}", si_text(t["mean_s"], "s"), si_text(t["p95_s"], "s"), percent_text(t["share"]),
              number_text(t["imbalance"]), percent_text(t.get("step_gain_if_a_tenth_faster")),
              percent_text(t.get("step_gain_if_free"))] for t in profile["tasks"]]
-    return Table(["task", "count", "mean", "95 % are below", "share", "imbalance", "a tenth faster: step",
-                  "free: step"], rows)
+    return Table(["task", "count", "mean", "95 % are below", "share", "imbalance", "gain at -10 %", "gain if free"],
+                 rows)
 
 
 def waits(profile):
