@@ -47,8 +47,8 @@ constexpr std::array<components::Parameter<SceneLimits>, 19> SceneLimits::parame
         "a step in which waves, as fast as they are at its end, cross more cells than this has gone wrong: matter has "
         "grown too stiff for it (see `/time/redos`; times the `multiplier` where that is above 1)",
         true},
-       {"redone_steps", "", zero_or_above, &L::redone_steps,
-        "warns beyond: tries of steps that went wrong, over all steps", true},
+       {"redone_steps", "", zero_or_above, &L::redone_steps, "warns beyond: refused tries of steps, over all steps",
+        true},
        {"missed_substeps", "", part, &L::missed_substeps,
         "warns beyond: the part of the materials' substeps that missed their tolerance, from 100 substeps a particle "
         "on",
@@ -58,9 +58,8 @@ constexpr std::array<components::Parameter<SceneLimits>, 19> SceneLimits::parame
         "bears more than a hundredth of the greatest load in any sample",
         true},
        {"looser_than_tested", "", part, &L::looser_than_tested,
-        "warns beyond: the most that sand bears (the sum of V p) which has dilated until it is looser than any that "
-        "was "
-        "tested, over the most that all sand bears in a sample",
+        "warns beyond: the largest load (sum of V p) on sand that has dilated until it is looser than any that was "
+        "tested, over the largest load on all sand in a sample",
         true},
        {"out_of_range", "", part, &L::out_of_range,
         "warns beyond: the part of the updates that ended in compression beyond the largest strains that the modulus "
@@ -69,18 +68,15 @@ constexpr std::array<components::Parameter<SceneLimits>, 19> SceneLimits::parame
        {"energy_drift", "", zero_or_above, &L::energy_drift,
         "warns beyond: the error of the energy at the end, over what the run has been given", true},
        {"momentum_error", "", zero_or_above, &L::momentum_error,
-        "warns beyond: momentum that nothing has given, over the largest sum of m v", true},
+        "warns beyond: momentum without a cause, over the largest sum of m v", true},
        {"filtered_energy", "", zero_or_above, &L::filtered_energy,
-        "warns beyond: the energy that particles have filtered out of the motion, over what the run has been given",
-        true},
+        "warns beyond: the energy lost in the transfer, over what the run has been given", true},
        {"damped_energy", "", zero_or_above, &L::damped_energy,
         "warns beyond: the energy that local damping took, as far as motion, plastic strain and friction stand beside "
         "it, over what the run has been given",
         true},
        {"null_space", "", part, &L::null_space,
-        "warns beyond: the part of the kinetic and elastic energy that is of motion which no node sees, over all "
-        "samples",
-        true},
+        "warns beyond: the part of the kinetic and elastic energy in motion that no node sees, over all samples", true},
        {"uneven_pressure", "", part, &L::uneven_pressure,
         "warns beyond: how far the pressures of particles are from the means of their cells, V (p - p_c)^2 over V p^2, "
         "over all samples",
@@ -92,12 +88,12 @@ constexpr std::array<components::Parameter<SceneLimits>, 19> SceneLimits::parame
         "apart, over all samples",
         true},
        {"early_at_walls", "", part, &L::early_at_walls,
-        "warns beyond: the part of the loads on walls with an image that matter more than a quarter of a cell away "
-        "bears, over all samples",
+        "warns beyond: the part of the loads on walls with an image that comes from matter more than a quarter of a "
+        "cell away, over all samples",
         true},
        {"interpenetration", "", part, &L::interpenetration,
-        "warns beyond: the part of the contact impulses between materials that are more than half a cell within each "
-        "other, over all samples",
+        "warns beyond: the part of the contact impulses between materials that overlap by more than half a cell, over "
+        "all samples",
         true},
        {"lost_mass", "", part, &L::lost_mass, "warns beyond: the part of the mass that has left the grid", true},
        {"forecast_missed",

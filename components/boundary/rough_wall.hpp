@@ -15,9 +15,8 @@ namespace tamp::components
 struct RoughWall {
   static constexpr std::string_view word = "friction", shown = R"({"friction": MU, "at_edges": true})",
                                     meaning =
-                                        "a wall that rubs, and that what touches it may leave, not where a "
-                                        "centrifuge turns the grid; without `at_edges` matter touches it already a "
-                                        "cell away";
+                                        "a wall with friction, which matter may leave; not where a centrifuge turns "
+                                        "the grid; without `at_edges` matter touches it already a cell away";
   constexpr FaceTraits traits() const { return {.keeps_push = true, .at_edges = at_edges}; }
   static constexpr std::array<Parameter<RoughWall>, 2> parameters();
   friend bool operator==(const RoughWall&, const RoughWall&) = default;

@@ -60,11 +60,11 @@ struct FlatterNormal {
 
 /// See logistic_plane.hpp.
 struct RegressionNormal {
-  static constexpr std::string_view word = "regression",
-                                    meaning =
-                                        "that of a plane at each node which parts their particles, which jitters "
-                                        "less, and they push each other only where they touch; where a third "
-                                        "material is, that of the flatter surface";
+  static constexpr std::string_view
+      word = "regression",
+      meaning =
+          "that of a plane between their particles at each node, which jitters less: they push each other only where "
+          "they touch; where a third material is, that of the flatter surface";
   static constexpr bool finds_faces = true;
   static constexpr bool acts_apart = false;
   friend bool operator==(const RegressionNormal&, const RegressionNormal&) = default;
@@ -99,10 +99,9 @@ struct OwnNormal {
 /// The normal of a rigid body's solid, see solid_contact.hpp. It is not computed at the nodes from the sums of two
 /// materials.
 struct SolidNormal {
-  static constexpr std::string_view word = "solid",
-                                    meaning =
-                                        "that of the solid of a rigid body, which what is around it touches where the "
-                                        "solid is, whatever its particles";
+  static constexpr std::string_view
+      word = "solid",
+      meaning = "that of the solid of a rigid body, which others touch at its surface, whatever its particles";
   static constexpr bool finds_faces = false;
   static constexpr bool acts_apart = false;
   friend bool operator==(const SolidNormal&, const SolidNormal&) = default;

@@ -137,7 +137,7 @@ std::string times_hint(const nlohmann::json& profile)
 {
   return fmt::format(
       "<p class=\"faint\">The darker a task, the more of the time of all tasks it took. A step took {:.4g} "
-      "microseconds in the mean; the longest chain, drawn thick, {:.4g}.{}</p>",
+      "microseconds on average; the longest chain, drawn thick, {:.4g}.{}</p>",
       profile.at("step_s").get<double>() * 1e6, profile.at("longest_chain_s").get<double>() * 1e6,
       profile.value("too_busy", false) ? " The machine was too busy with other programs to trust these times." : "");
 }

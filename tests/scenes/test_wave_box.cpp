@@ -40,7 +40,7 @@ std::vector<std::string> with_advised_box(const std::string& file, std::vector<s
   const auto penetration = tools::penetration_of(scene, scene.bodies[0]);
   REQUIRE(penetration);
   const std::string advice = tools::advice_on_box(scene, scene.bodies[0], *penetration->into);
-  const std::size_t settings = advice.find("would do, with ");
+  const std::size_t settings = advice.find("are enough, with ");
   REQUIRE(settings != std::string::npos);
   std::istringstream words(advice.substr(advice.find('/', settings)));
   for (std::string word; words >> word;) changes.push_back(word);

@@ -159,7 +159,7 @@ std::string off_the_front(const tasks::Scene& scene, const std::string& what, co
                           const std::string& front)
 {
   if (!error) {
-    return fmt::format("method: how far {} puts {} off is {}; {}", method_of(scene), what, not_known, front);
+    return fmt::format("method: the error of {} in {} is {}; {}", method_of(scene), what, not_known, front);
   }
   return fmt::format("method: {} is off the front of cost and error: {} is {} off ({}); {}", method_of(scene), what,
                      error->text(), error->command, front);
@@ -247,10 +247,10 @@ void advise_on_contact(const tasks::Scene& scene, Lines& lines)
     const auto name = [&](int material) { return scene.materials[static_cast<std::size_t>(material)].name; };
     const int rigid = first_is_rigid ? contact.material_a : contact.material_b;
     const int other = first_is_rigid ? contact.material_b : contact.material_a;
-    lines.push_back(fmt::format(
-        "contact: with \"normal\": \"solid\" {} would meet the solid that {} is, and not its particles, {}, "
-        "whose outline is blunter",
-        name(other), name(rigid), spacing_in_words(scene, rigid)));
+    lines.push_back(
+        fmt::format("contact: with \"normal\": \"solid\" {} would touch the solid of {} instead of its particles, {}, "
+                    "whose outline is blunter",
+                    name(other), name(rigid), spacing_in_words(scene, rigid)));
   }
 }
 

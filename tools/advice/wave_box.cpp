@@ -159,13 +159,13 @@ std::string advice_on_box(const tasks::Scene& scene, const tasks::SceneBody& bod
     line += fmt::format("are at its side {} after {} ms and back at {} after {} ms, of {} ms", first.name(),
                         two_digits(1e3 * first.there), body.name, two_digits(1e3 * first.back), two_digits(1e3 * T));
   } else {
-    line += fmt::format("come {:.2g} m far in {} ms and are not back at {} from any side", c * T, two_digits(1e3 * T),
+    line += fmt::format("travel {:.2g} m in {} ms and do not return to {} from any side", c * T, two_digits(1e3 * T),
                         body.name);
   }
   const SmallerGrid smaller(scene, ground, sides);
   constexpr double worth_it = 0.8;
   if (smaller.part > worth_it) return line;
-  return line + fmt::format("; {:.2g} of the cells would do, with {}", smaller.part, smaller.settings(ground));
+  return line + fmt::format("; {:.2g} of the cells are enough, with {}", smaller.part, smaller.settings(ground));
 }
 
 }  // namespace tamp::tools

@@ -170,9 +170,9 @@ CLI::App* add_bench_command(CLI::App& app)
                             "of peers: about how many, instead of 40,000 in the plane and 64,000 in space"),
         {"peers"})
       ->check(is_whole_from_to(64, 100'000'000));
-  is_of(command->add_option("--task", options->gains.tasks,
-                            "of gains: slow this task down, instead of the dearest on the longest chain and the "
-                            "dearest beside it"),
+  is_of(command->add_option(
+            "--task", options->gains.tasks,
+            "of gains: slow this task down, instead of the costliest on the longest chain and the costliest beside it"),
         {"gains"})
       ->type_name("NAME")
       ->allow_extra_args(false)

@@ -82,24 +82,26 @@ CLI::App* add_profile_command(CLI::App& app)
       command->add_option("--phase", options->view.phase, "only tasks of this phase: what stands before the colon")
           ->type_name("NAME")
           ->check(is_not_empty());
-  CLI::Option* const rank = command->add_option("--rank", options->view.ranks, "what these ranks did, each by itself")
+  CLI::Option* const rank = command->add_option("--rank", options->view.ranks, "a table of each of these ranks")
                                 ->type_name("R,R...")
                                 ->delimiter(',')
                                 ->check(is_whole_from(0));
   CLI::Option* const patches =
-      command->add_flag("--patches", options->view.patches, "the dearest patches")->excludes(rank)->excludes(phase);
-  CLI::Option* const chain =
-      command->add_flag("--chain", options->view.chain, "the longest chain of tasks and messages, which no step beats")
-          ->excludes(rank)
-          ->excludes(phase)
-          ->excludes(patches);
+      command->add_flag("--patches", options->view.patches, "the costliest patches")->excludes(rank)->excludes(phase);
+  CLI::Option* const chain = command
+                                 ->add_flag("--chain", options->view.chain,
+                                            "the longest chain of tasks and messages, which bounds the step from below")
+                                 ->excludes(rank)
+                                 ->excludes(phase)
+                                 ->excludes(patches);
   CLI::Option* const memory =
-      command->add_flag("--memory", options->view.memory, "what memory was for when there was most of it")
+      command->add_flag("--memory", options->view.memory, "memory by label and by task, when it was largest")
           ->excludes(rank)
           ->excludes(phase)
           ->excludes(patches)
           ->excludes(chain);
-  command->add_option("--compare", options->other, "task by task with another run, and which differences are no noise")
+  command
+      ->add_option("--compare", options->other, "task by task with another run, and which differences exceed the noise")
       ->type_name("RUN_DIR")
       ->check(is_not_empty())
       ->excludes(rank)

@@ -32,16 +32,16 @@ std::vector<Monitor> of_steps(const tasks::Simulation& simulation)
   return {
       {"redone_steps", number(refused.count), ratio(number(refused.count), number(simulation.n_steps())),
        limits.redone_steps, refused,
-       "of the steps went wrong and were tried again, shorter: a smaller /time/multiplier keeps them right"},
+       "of the steps failed and were repeated with shorter ones; a smaller /time/multiplier avoids that"},
       {"missed_substeps", number(updates.limited_substeps),
        tasks::missed_substeps(updates, simulation.scene().n_particles()), limits.missed_substeps, seen.missed_substeps,
-       "of the substeps of the materials missed their tolerance: stress is less exact than it was asked for; a "
-       "smaller /time/multiplier makes the strains of a step smaller"},
+       "of the substeps of the materials missed their tolerance: the stress is less accurate than requested; a smaller "
+       "/time/multiplier makes the strains of a step smaller"},
       {"out_of_range", number(tasks::n_out_of_range(updates)), tasks::out_of_range(updates), limits.out_of_range,
        seen.out_of_range,
-       "of the updates ended in compression beyond the largest strains that the modulus was made for, or beyond the "
-       "pressure at which grains crush that do not here: a guess, on which results rest as far as such sand carries "
-       "load; measurements to larger strains would settle it"}};
+       "of the stress updates ended in compression beyond the largest strains that the modulus was made for, or beyond "
+       "the pressure at which real grains crush: results are uncertain as far as such sand carries load; measurements "
+       "to larger strains would help"}};
 }
 
 std::vector<Monitor> of_balances(const tasks::Simulation& simulation, const RunHistory& history)
@@ -49,36 +49,35 @@ std::vector<Monitor> of_balances(const tasks::Simulation& simulation, const RunH
   const tasks::SceneLimits& limits = simulation.scene().limits;
   const BalanceShares now = history.balances();
   const BalanceSightings& above = history.balances_above();
-  return {
-      {"energy_drift",
-       {},
-       now.energy_drift,
-       limits.energy_drift,
-       above.energy_drift,
-       "of the energy that the run has been given is missing or too much at its end: a smaller /time/multiplier, or "
-       "another transfer or stress timing, keeps more of it"},
-      {"momentum_error",
-       {},
-       now.momentum_error,
-       limits.momentum_error,
-       above.momentum_error,
-       "of the largest momentum has come from nowhere"},
-      {"filtered_energy",
-       {},
-       now.filtered_energy,
-       limits.filtered_energy,
-       above.filtered_energy,
-       "of the energy that the run has been given was filtered out of the motion by the transfer: it acts like a "
-       "viscosity that grows with the cells; smaller cells or a transfer that filters less (flip, tflip) keep it"},
-      {"damped_energy",
-       {},
-       now.damped_energy,
-       limits.damped_energy,
-       above.damped_energy,
-       "of the energy that the run has been given was taken by local damping, from motion that has not come to rest "
-       "elastically: it brakes what flies, slides or collides; a smaller /local_damping takes less"},
-      {"lost_mass", number(simulation.lost().count), now.lost_mass, limits.lost_mass, above.lost_mass,
-       "of the mass has left the grid, and acts on nothing from then on: a larger grid keeps it"}};
+  return {{"energy_drift",
+           {},
+           now.energy_drift,
+           limits.energy_drift,
+           above.energy_drift,
+           "of the energy given to the run is missing, or in excess, at its end: a smaller /time/multiplier, or "
+           "another transfer or stress timing, conserves it better"},
+          {"momentum_error",
+           {},
+           now.momentum_error,
+           limits.momentum_error,
+           above.momentum_error,
+           "of the largest momentum has no cause"},
+          {"filtered_energy",
+           {},
+           now.filtered_energy,
+           limits.filtered_energy,
+           above.filtered_energy,
+           "of the energy given to the run was lost in the transfer, which acts like a viscosity that grows with the "
+           "cells; smaller cells or a transfer that filters less (flip, tflip) lose less"},
+          {"damped_energy",
+           {},
+           now.damped_energy,
+           limits.damped_energy,
+           above.damped_energy,
+           "of the energy given to the run was taken by local damping, which also brakes flight, sliding and impact; a "
+           "smaller /local_damping takes less"},
+          {"lost_mass", number(simulation.lost().count), now.lost_mass, limits.lost_mass, above.lost_mass,
+           "of the mass has left the grid and no longer acts on anything; a larger grid keeps it"}};
 }
 
 /// The monitors of samples of the state. A single torn state is enough for a warning; the others have to last.
@@ -90,35 +89,32 @@ std::vector<Monitor> of_samples(const tasks::Simulation& simulation)
                           const char* words) -> Monitor {
     return {name, number(record.above.count), share, limit, record.above, words};
   };
-  return {
-      monitor("null_space", seen.null_space, seen.null_space.all.value(), limits.null_space,
-              "of the kinetic and elastic energy is of motion that no node sees, and that nothing stops: transfers "
-              "that filter "
-              "(apic, fmpm) take it out"),
-      monitor("uneven_pressure", seen.uneven_pressure, seen.uneven_pressure.all.value(), limits.uneven_pressure,
-              "of the pressure, squared, is not that of the cells but differs from particle to particle: matter that "
-              "cannot change its volume locks; /anti_locking, or splines, let it flow"),
-      monitor("torn_apart", seen.torn_apart, seen.torn_apart.greatest, limits.torn_apart,
-              "of the elastic particles hold tension across more than 1.2 cells, where no node joins them: they break "
-              "without a cause; cpdi, or more particles a cell, keep them together"),
-      monitor("swollen_load", seen.swollen_load, seen.swollen_load.greatest, limits.swollen_load,
-              "of the mass has swollen by more than a fifth and yet bears load: its material keeps the gaps that it "
-              "was pulled or sheared into, so that heights, densities and what such matter carries come out too "
-              "large"),
-      {"looser_than_tested", number(seen.looser_than_tested.above.count), seen.looser_than_tested.greatest.value(),
-       limits.looser_than_tested, seen.looser_than_tested.above,
-       "of the most that the sand has borne was borne by sand which has dilated until it is looser than any that was "
-       "tested, where its stiffness is a guess: tests of looser samples would settle it; the material's separation "
-       "lets light sand come apart"},
-      monitor("early_contact", seen.early_contact, seen.early_contact.all.value(), limits.early_contact,
-              "of the contact impulses push bodies that are more than a quarter of a cell apart: a normal by "
-              "\"regression\" lets them push only where they touch"),
-      monitor("early_at_walls", seen.early_at_walls, seen.early_at_walls.all.value(), limits.early_at_walls,
-              "of the loads on walls press matter that is more than a quarter of a cell away from them: what arrives "
-              "at a wall with \"at_edges\" is stopped where it touches"),
-      monitor("interpenetration", seen.interpenetration, seen.interpenetration.all.value(), limits.interpenetration,
-              "of the contact impulses push bodies that are more than half a cell within each other along their "
-              "normal: that of another surface, or by \"regression\", tells better where they meet")};
+  return {monitor("null_space", seen.null_space, seen.null_space.all.value(), limits.null_space,
+                  "of the kinetic and elastic energy is in motion that no node sees, so that nothing stops it; "
+                  "transfers that filter (apic, fmpm) remove it"),
+          monitor("uneven_pressure", seen.uneven_pressure, seen.uneven_pressure.all.value(), limits.uneven_pressure,
+                  "of the squared pressure differs between the particles of a cell: matter that hardly changes its "
+                  "volume locks; /anti_locking or splines prevent that"),
+          monitor("torn_apart", seen.torn_apart, seen.torn_apart.greatest, limits.torn_apart,
+                  "of the elastic particles hold tension across more than 1.2 cells, where no node joins them: the "
+                  "break is numerical; cpdi, or more particles a cell, prevent it"),
+          monitor("swollen_load", seen.swollen_load, seen.swollen_load.greatest, limits.swollen_load,
+                  "of the mass has swollen by more than a fifth and yet bears load: its material counts the gaps that "
+                  "opened in it as volume, so that heights, densities and the load on such matter come out too large"),
+          {"looser_than_tested", number(seen.looser_than_tested.above.count), seen.looser_than_tested.greatest.value(),
+           limits.looser_than_tested, seen.looser_than_tested.above,
+           "of the largest load on the sand was borne by sand that has dilated until it is looser than any sample "
+           "tested, so that its stiffness is a guess; tests of looser samples would help, and the material's "
+           "separation lets light sand come apart"},
+          monitor("early_contact", seen.early_contact, seen.early_contact.all.value(), limits.early_contact,
+                  "of the contact impulses act between bodies more than a quarter of a cell apart; with the normal "
+                  "\"regression\" bodies push only where they touch"),
+          monitor("early_at_walls", seen.early_at_walls, seen.early_at_walls.all.value(), limits.early_at_walls,
+                  "of the loads on walls come from matter more than a quarter of a cell away; a wall with \"at_edges\" "
+                  "stops matter where it touches"),
+          monitor("interpenetration", seen.interpenetration, seen.interpenetration.all.value(), limits.interpenetration,
+                  "of the contact impulses act between bodies that overlap by more than half a cell along their "
+                  "normal; the normal of another surface, or \"regression\", finds their contact better")};
 }
 
 Monitor of_forecast(const tasks::SceneLimits& limits, const ForecastMiss& missed)
@@ -128,8 +124,8 @@ Monitor of_forecast(const tasks::SceneLimits& limits, const ForecastMiss& missed
           missed.factor,
           limits.forecast_missed,
           {},
-          "times off was the forecast of the run's " + missed.what +
-              ": it comes from coarser cells, and knows no growth; watch what a longer run of this scene takes",
+          "times off: the forecast of the run's " + missed.what +
+              ", which was made on coarser cells and assumes no growth; watch what a longer run of this scene takes",
           true};
 }
 

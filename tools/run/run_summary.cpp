@@ -310,17 +310,19 @@ std::string summary_text(const Json& summary)
                       in_words(summary["simulated_time_s"].get<double>()), summary["wall_s"].get<double>());
   for (const Json& r : summary["load_balance"]) {
     const auto got = r["imbalance_got"].get<double>();
-    text += fmt::format("  step {}: patches dealt anew; the busiest rank had {:.2f} of the mean, {:.2f} expected{}\n",
-                        r["step"].get<long>(), r["imbalance_before"].get<double>(),
-                        r["imbalance_expected"].get<double>(), got > 0 ? fmt::format(", {:.2f} got", got) : "");
+    text += fmt::format(
+        "  step {}: patches dealt anew; load of the busiest rank over the mean: {:.2f} before, {:.2f} expected{}\n",
+        r["step"].get<long>(), r["imbalance_before"].get<double>(), r["imbalance_expected"].get<double>(),
+        got > 0 ? fmt::format(", {:.2f} measured", got) : "");
   }
   const Json& output = summary["output"];
   const auto seconds = [&](const char* name) { return output[name].get<double>(); };
-  text += fmt::format("  output held the steps up for {:.2g} s, {:.2g} s of it to wait for the writer\n",
+  text += fmt::format("  output delayed the steps by {:.2g} s, {:.2g} s of it to wait for the writer\n",
                       seconds("history_s") + seconds("fields_s") + seconds("checkpoints_s") + seconds("waited_s"),
                       seconds("waited_s"));
   text += fmt::format(
-      "  energy error {:.3g}, {:.3g} J filtered out, momentum error {:.3g}, {} particles lost, state digest {}\n",
+      "  energy error {:.3g}, {:.3g} J lost in the transfer, momentum error {:.3g}, {} particles lost, state digest "
+      "{}\n",
       summary["energy_error"].get<double>(), summary["energies_J"]["filter"].get<double>(),
       summary["momentum_error"].get<double>(), summary["particles"]["lost"].get<std::size_t>(),
       summary["state_digest"].get<std::string>());

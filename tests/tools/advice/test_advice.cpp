@@ -42,8 +42,8 @@ TEST_CASE("for a short time a smaller box and a rigid punch would do")
   const std::string said = check_of("punch/quick.json", "--set /time/end=1e-4");
 
   CHECK_THAT(said, Catch::Contains("its depth is within 1 % of a deformable one's, some 0.72 % off"));
-  CHECK_THAT(said, Catch::Contains("box: waves in sand (909 m/s) come 0.091 m far in 0.1 ms and are not back at punch "
-                                   "from any side; 0.36 of the cells would do, with /grid/lower=[0.2,0.325] "
+  CHECK_THAT(said, Catch::Contains("box: waves in sand (909 m/s) travel 0.091 m in 0.1 ms and do not return to punch "
+                                   "from any side; 0.36 of the cells are enough, with /grid/lower=[0.2,0.325] "
                                    "/grid/upper=[0.8,0.8] /grid/patches=[2,1] /bodies/sand/geometry/lower=[0.2,0.325] "
                                    "/bodies/sand/geometry/upper=[0.8,0.5]\n"));
 }
@@ -77,8 +77,8 @@ TEST_CASE("the slab and the report's settings are told what costs less")
   CHECK_THAT(check_of("punch/quick.json", "--set /transfer=tflip"), !Catch::Contains("method:"));
   CHECK_THAT(check_of("punch/quick.json", "--set /transfer=pic"),
              Catch::Contains(
-                 "advice  method: how far \"cubic_spline\", \"pic\", viscosity 1 / 4 puts the force on a piston at "
-                 "200 m/s off is not known for this scene (`tamp check SCENE --study OUT.json` writes"));
+                 "advice  method: the error of \"cubic_spline\", \"pic\", viscosity 1 / 4 in the force on a piston at "
+                 "200 m/s is not known for this scene (`tamp check SCENE --study OUT.json` writes"));
 }
 
 TEST_CASE("the check of the projectile says that it is thin, that it sets the step if deformable, and what turns it")
@@ -101,8 +101,8 @@ TEST_CASE("the check of the projectile says that it is thin, that it sets the st
 TEST_CASE("whoever meets a rigid body by its particles is told of its solid")
 {
   CHECK_THAT(check_of("uxo/quick.json", "--set /contact/0/normal=regression"),
-             Catch::Contains("advice  contact: with \"normal\": \"solid\" sand would meet "
-                             "the solid that projectile is, and not its particles"));
+             Catch::Contains("advice  contact: with \"normal\": \"solid\" sand would touch "
+                             "the solid of projectile instead of its particles"));
   CHECK_THAT(check_of("uxo/quick.json"), !Catch::Contains("contact:"));
 }
 
@@ -135,7 +135,7 @@ TEST_CASE("what nobody has measured of a scene is said to be not known, and no o
   CHECK_THAT(cells_line(check_of("punch/quick.json", "--set /grid/cell_size=0.03125 --set /grid/upper=[1,0.8125]")),
              Catch::Contains("the force on it is 8 to 16 % too large (tamp study "));
   CHECK_THAT(check_of("punch/quick.json", "--set /interpolator=quadratic_spline"),
-             Catch::Contains("method: how far \"quadratic_spline\"") && Catch::Contains(not_known));
+             Catch::Contains("method: the error of \"quadratic_spline\"") && Catch::Contains(not_known));
 }
 
 TEST_CASE("the check writes the study that tells how far a scene is off, and it runs as it is")

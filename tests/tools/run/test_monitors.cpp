@@ -117,7 +117,7 @@ TEST_CASE("a forecast that was missed is told with what it was of, and only a ru
   const double steps = whole.summary["steps"].get<double>() / whole.summary["forecast"]["steps"].get<double>();
   CHECK(missed["share"].get<double>() == Approx(std::max(steps, 1 / steps)));
   CHECK(missed["warns"] == true);
-  CHECK_THAT(whole.outcome.err, Catch::Contains("times off was the forecast of the run's steps"));
+  CHECK_THAT(whole.outcome.err, Catch::Contains("times off: the forecast of the run's steps"));
   CHECK(part.summary["monitors"]["forecast_missed"]["share"] == 1);
   CHECK(part.summary["monitors"]["forecast_missed"]["warns"] == false);
 }

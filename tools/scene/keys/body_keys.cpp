@@ -120,7 +120,7 @@ const ObjectKeys& body_keys()
         "the body keeps its shape and does not bound the time step by its stiffness; its material is then no other "
         "body's, and needs moduli only for runs in which it is not rigid"},
        {"driven", Object{drive_keys}, "", none,
-        "an object: the motion of a rigid body, whatever resists, see below; without `velocity`, and without "
+        "an object: the prescribed motion of a rigid body, see below; without `velocity`, and without "
         "`angular_velocity` unless its rotation is free"},
        {"nose", Numbers{per_axis}, "m", none, ends},
        {"tail", Numbers{per_axis}, "m", none, ends},

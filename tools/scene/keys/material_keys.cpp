@@ -151,7 +151,7 @@ std::vector<Key> keys_of<components::TabularCap>()
        Flag{},
        "",
        {false},
-       "whether sand that is torn bears and resists nothing until its volume is again what it was then, see "
+       "whether sand that is torn bears no stress until it is back at the volume that it had then, see "
        "[sand.md](../explanation/sand.md#sand-that-separates)",
        0,
        "comes_apart"},

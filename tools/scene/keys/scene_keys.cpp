@@ -123,7 +123,7 @@ std::vector<Key> domain_keys()
            Flag{},
            "",
            {false},
-           "with dimension 2: the scene stands for what turning it about the line x = 0 makes of it; x is the distance "
+           "with dimension 2: the scene is the section of a body of revolution about the line x = 0; x is the distance "
            "from that line, y runs along it, and masses, forces and energies are those of the whole; see "
            "[method.md](../explanation/method.md)"},
           {"grid", Object{grid_keys}, "", compulsory, ""},
@@ -179,9 +179,9 @@ std::vector<Key> load_keys()
            Number{{.lower = 0, .upper = 1, .holds_upper = false}},
            "",
            {scene.local_damping},
-           "part of what forces, contact and walls leave unbalanced at every node of the grid, which works against "
-           "its motion, from 0 to below 1: for scenes that are to come to rest, or are pressed slowly, not for "
-           "flight, sliding or impact; what it takes counts as `viscous[J]`"}};
+           "part of the unbalanced force at every node that acts against its motion, from 0 to below 1: for scenes "
+           "that are to come to rest, or are pressed slowly, not for flight, sliding or impact; the energy that it "
+           "takes counts as `viscous[J]`"}};
 }
 
 std::vector<Key> content_keys()

@@ -50,9 +50,9 @@ const ObjectKeys& solid_keys()
            {"polygon", {corners}, "within straight edges that do not cross or touch", 2},
            {"section",
             {{"of", Object{solid_keys}, "", compulsory, "a solid of three dimensions"}},
-            "what a solid of three dimensions, whose places have three coordinates, holds of the plane z = 0. An "
-            "axisymmetric scene turns it about x = z = 0, and refuses a solid that is not round about that line: whose "
-            "volume is more than 5 % from that of the turned section",
+            "the section z = 0 of a solid of three dimensions, whose places have three coordinates. An axisymmetric "
+            "scene turns it about x = z = 0, and refuses a solid that is not round about that line: whose volume is "
+            "more than 5 % from that of the turned section",
             2},
            {"cylinder",
             {place_key("first_end"), place_key("second_end"), length_key("radius", above_zero)},
@@ -85,9 +85,9 @@ const ObjectKeys& solid_keys()
             "within the triangles of an STL file, binary or text, whose coordinates times `scale` are metres; the "
             "surface must be closed and not cross itself, and one in another face the other way, into the void",
             3},
-           {"union", {solids}, "what at least one of them holds"},
+           {"union", {solids}, "the union of these solids"},
            {"intersection", {solids}, "what all of them hold"},
-           {"difference", {solids}, "what the first holds and none of the others"},
+           {"difference", {solids}, "the first solid without the others"},
            {"transform",
             {solid,
              {"rotation", Object{rotation_keys}, "", none, ""},
