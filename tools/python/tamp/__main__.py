@@ -57,7 +57,7 @@ def overview(words):
     """Print the commands; exits with them, or with the fault of the words."""
     text = listed("commands", FOR_USERS)
     if "--all" in words:
-        text += "\n" + listed("what remakes figures, tables and shipped data", RESEARCH)
+        text += "\n" + listed("commands that remake figures, tables and shipped data", RESEARCH)
         text += "\n" + listed("checks of the program", CHECKS)
     else:
         text += "\n--help --all lists those too that remake figures and shipped data, and check the program."

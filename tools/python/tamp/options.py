@@ -1,4 +1,4 @@
-"""What several commands take on the command line."""
+"""Options that several commands have."""
 
 import argparse
 

@@ -1,4 +1,4 @@
-"""What a run has written, as arrays: history.csv, machine.csv and fields.h5. Units are SI, compression is positive."""
+"""The files of a run as arrays: history.csv, machine.csv and fields.h5. Units are SI, compression is positive."""
 
 import os
 from typing import NamedTuple

@@ -1,4 +1,4 @@
-"""What a chart is to a page: its drawings for wide and narrow pages, words about it, and its figures in a table."""
+"""A chart of a page: its drawings for wide and narrow pages, words about it, and its figures in a table."""
 
 from typing import NamedTuple
 

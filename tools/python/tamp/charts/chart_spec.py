@@ -1,4 +1,4 @@
-"""What a chart of points is to show: the error of a quantity against something that points have."""
+"""The content of a chart of points: the error of a quantity against something that points have."""
 
 from math import log
 from typing import Callable, NamedTuple

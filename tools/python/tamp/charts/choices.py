@@ -1,4 +1,4 @@
-"""What a run's scene chose, in a table: which of it the scene names, and which stands by default."""
+"""The choices of a run's scene, in a table: those that the scene names, and those left at their defaults."""
 
 import re
 

@@ -1,4 +1,4 @@
-"""What fields.h5 says of the sand over time: pressure, density and plastic volumetric strain in a plane, in squares."""
+"""The sand over time, from fields.h5: pressure, density and plastic volumetric strain in a plane, in squares."""
 
 import math
 from typing import NamedTuple

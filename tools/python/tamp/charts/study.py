@@ -1,4 +1,4 @@
-"""What a study.json says, with what it may leave out filled in."""
+"""The content of a study.json, with its defaults filled in."""
 
 import json
 from typing import NamedTuple

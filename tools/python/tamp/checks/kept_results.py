@@ -1,4 +1,4 @@
-"""That each table in results/ is in its index and the reverse, and whose inputs have changed since it was made.
+"""Check that results/ and its index agree, and list results whose inputs have changed since they were made.
 
 results/index.json lists the tables: file, title, the command that makes it, the program (commit at which the table was
 last entered) and its date, processor and instructions (AVX-512, AVX2), and inputs, which are scenes, studies, data and

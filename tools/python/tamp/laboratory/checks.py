@@ -1,4 +1,4 @@
-"""What a hydrostatic test of sand cannot show: then the file is not what it is taken for."""
+"""Checks for data that no hydrostatic test of sand gives: then the file is not what it is taken for."""
 
 from tamp.failure import Refusal
 from tamp.laboratory.curves import (

@@ -1,1 +1,1 @@
-"""What remakes the figures and tables of the documentation, and the data that TAMP ships."""
+"""Commands that remake the figures and tables of the documentation, and the data that TAMP ships."""

@@ -1,1 +1,1 @@
-"""One material point along paths, and curves of materials."""
+"""Material points along paths, and curves of materials."""

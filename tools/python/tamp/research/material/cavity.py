@@ -1,4 +1,4 @@
-"""What inputs/verification/scenes/cavity.json has to find: the pressure on the hole's rim and the work of the stresses.
+"""Exact answers of inputs/verification/scenes/cavity.json: the pressure on the hole's rim and the work of the stresses.
 
 All points go along one path of stress, from `tamp drive`, see components/problems/cavity.hpp: with e the logarithm of
 the stretch of circles, strains are -m e along the radius and e around. The work per undeformed volume is the integral

@@ -1,4 +1,4 @@
-"""One point of a material along a path of deformation, by `tamp drive`."""
+"""A point of a material along a path of deformation, by `tamp drive`."""
 
 import pathlib
 import tempfile

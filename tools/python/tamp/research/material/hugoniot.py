@@ -1,4 +1,4 @@
-"""What a piston that is driven into sand at some speeds has to find: stress, pressure, density and speed of the front.
+"""Exact answers for a piston that is driven into sand at some speeds: stress, pressure, density and speed of the front.
 
 In uniaxial strain sand goes along one path of stress, whatever the rate: sigma(e) from `tamp drive`, e the compaction 1
 - V / V0. Where the path stiffens a compression is a shock, and where it softens it spreads; the waves that run into

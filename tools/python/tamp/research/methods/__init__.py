@@ -1,1 +1,1 @@
-"""What the choice of a method, or of what it is given, does to a run."""
+"""Effects of the choice of a method, and of its settings, on a run."""

@@ -1,4 +1,4 @@
-"""What the depth and the angle of the projectile depend on, one thing at a time, beside the report's.
+"""Effects of single settings on the depth and the angle of the projectile, beside the report's.
 
 Runs inputs/uxo/quick.json with a base of settings that is given in full below, and once more for each case, which
 changes one thing. The box is a part of the scene's; sand that is torn separates, which takes a third of the steps.

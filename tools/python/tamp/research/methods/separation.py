@@ -1,4 +1,4 @@
-"""What it does to a run that its sand separates.
+"""The effect on a run of sand that separates.
 
 Runs the scene with `separation` false and true in turns, in the rate and in the state form. Prints for each the
 greatest depth, how far depth is from that of sand that stays whole (the greatest difference at any time, over the

@@ -1,4 +1,4 @@
-"""What the tolerance of the sand's stress does to a run, beside what round-off does to it.
+"""The effect on a run of the tolerance of the sand's stress, beside that of round-off.
 
 Runs the scene once for each tolerance, and three times at the first one with the density of the sand changed by parts
 in 1e12. Prints, for each, how far its results are from those of the first tolerance, relative to the greatest value

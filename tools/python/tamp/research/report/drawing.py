@@ -1,4 +1,4 @@
-"""What all pictures have in common: colours, sizes, captions, particles as squares of their own size."""
+"""Common parts of all pictures: colours, sizes, captions, particles as squares of their own size."""
 
 import textwrap
 from typing import NamedTuple
