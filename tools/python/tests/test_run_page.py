@@ -7,7 +7,7 @@ import unittest
 import numpy as np
 
 from tamp import failure, files
-from tamp.charts import choices, over_time, page, particles, picture, run_page, timeline
+from tamp.charts import axes, choices, over_time, page, particles, picture, run_history, run_page, timeline
 from tamp.charts.chart import Table
 from tamp.charts.timeline import Bar
 from tests.page_tags import Tags
@@ -174,6 +174,36 @@ class Pictures(unittest.TestCase):
             chart = particles.chart(view, "particles")
             self.assertIn("particles-kind-0", chart.wide.svg)
             self.assertNotRegex(picture.within_page(chart.wide), "(fill|stroke): #")
+
+
+class Labels(unittest.TestCase):
+    """Of ticks on the x axis."""
+
+    def expect_whole_and_apart(self, sheet):
+        sheet.figure.draw_without_rendering()
+        boxes = [label.get_window_extent() for label in sheet.axis.get_xticklabels()]
+        self.assertGreater(len(boxes), 1)
+        self.assertLessEqual(max(box.x1 for box in boxes), sheet.layout.width)
+        for box, following in zip(boxes, boxes[1:]):
+            self.assertLess(box.x1, following.x0)
+
+    def test_of_a_tall_plane_stand_apart_and_its_axes_are_as_wide_as_what_is_in_them(self):
+        for layout in (axes.WIDE, over_time.HALF, axes.NARROW):
+            for width, height in [(0.06, 0.12), (0.1, 0.5), (1, 0.8), (0.4, 0.4), (5, 0.1)]:
+                plane = [{"name": "x", "lower": 0, "upper": width}, {"name": "y", "lower": 0, "upper": height}]
+                sheet = particles.plane_sheet(layout, "a plane", plane, [])
+
+                self.expect_whole_and_apart(sheet)
+                box = sheet.axis.get_position()
+                across, up = box.width * layout.width / width, box.height * sheet.height / height
+                if box.height * sheet.height > 41:
+                    self.assertAlmostEqual(across / up, 1)
+
+    def test_over_time_end_before_the_picture_does(self):
+        for layout in (over_time.HALF, axes.NARROW):
+            for end in [0.02, 0.6, 123, 4e-7]:
+                plot = over_time.Plot("a plot", "y", "J", [over_time.Line("a", [0, end], [0, 2])])
+                self.expect_whole_and_apart(over_time.draw(plot, layout)[0])
 
 
 class Choices(unittest.TestCase):

@@ -67,15 +67,16 @@ class Entry(NamedTuple):
 
 class Sheet:
     """A figure with a title, what is on the y axis in words, one pair of axes, and a legend below them. Above the axes
-    is a strip of `n_failed_rows` rows, for failed runs, which have no place within them; `foot` is left free below."""
+    is a strip of `n_failed_rows` rows, for failed runs, which have no place within them; `foot` is left free below, and
+    `right` beside them, where no labels stand."""
 
     def __init__(self, layout, title, y_label, x_label, legend=(), labels=(), n_failed_rows=0, height=None, left=14,
-                 foot=0):
+                 foot=0, right=RIGHT):
         self.layout, font = layout, layout.font
         self.tips = {}  # texts under the mouse, by the gid of what is drawn
         self.labels = list(labels) if has_labels_beside(layout, labels) else []
         beside = max((text_width(fitted(text, 190, font), font) for text in self.labels), default=0)
-        right = LABEL_GAP + beside + 18 if self.labels else RIGHT
+        right = LABEL_GAP + beside + 18 if self.labels else right
         titles = wrapped(title, layout.width - 12, font + 1, "bold")
         y_labels = wrapped(y_label, layout.width - 12, font) if y_label else []
         rows = legend_rows(legend, layout.width - 12, font)
@@ -260,6 +261,14 @@ def room_for_ticks(limits, text, logarithmic):
     return 16 + max([text_width(text(tick), WIDE.font) for tick in ticks], default=30)
 
 
+def room_for_last_tick(limits, text, width, size):
+    """How wide a margin half of a label wants that stands where axes of about this width end."""
+    low, high = limits
+    lasts = {linear_ticks(low, high, n)[-1] for n in range(1, 8)}
+    beyond = [text_width(text(tick), size) / 2 - (high - tick) / (high - low) * width for tick in lasts]
+    return max(RIGHT, max(beyond) + 3)
+
+
 def have_room(axis, ticks, text):
     """Whether the labels of ticks on the x axis stand clear of each other."""
     places = [axis.transData.transform((tick, 1))[0] for tick in ticks]
@@ -272,7 +281,7 @@ def set_ticks(axis, which, limits, text, logarithmic=True, ticks=None):
     one = axis.xaxis if which == "x" else axis.yaxis
     (axis.set_xscale if which == "x" else axis.set_yscale)("log" if logarithmic else "linear")
     (axis.set_xlim if which == "x" else axis.set_ylim)(limits)
-    for n_most in range(7, 1, -1):
+    for n_most in range(7, 1 if logarithmic else 0, -1):
         major, minor = log_ticks(*limits, n_most) if logarithmic else (linear_ticks(*limits, n_most), [])
         if ticks is not None:
             major, minor = ticks[:: 1 + (7 - n_most)], []

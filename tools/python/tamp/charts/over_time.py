@@ -6,7 +6,8 @@ from typing import NamedTuple
 import numpy as np
 
 from tamp.charts.axes import (
-    NARROW, Entry, Layout, Sheet, linear_ticks, log_limits, log_ticks, room_for_ticks, set_ticks,
+    NARROW, RIGHT, Entry, Layout, Sheet, linear_ticks, log_limits, log_ticks, room_for_last_tick, room_for_ticks,
+    set_ticks,
 )
 from tamp.charts.chart import Table, make_chart
 from tamp.charts.theme import DASHES, HUES, LIGHT, MARKERS, Style, hue
@@ -53,9 +54,11 @@ def chart(plot, name):
 
 def draw(plot, layout):
     legend = [Entry(line.name, style_of(k)) for k, line in enumerate(plot.lines)]
-    sheet = Sheet(layout, plot.title, plot.y_name, plot.x_name, legend,
-                  left=room_for_ticks(y_limits(plot), lambda tick: si_text(tick, plot.y_unit), plot.logarithmic))
-    set_ticks(sheet.axis, "x", (0, end_of(plot) or 1), lambda tick: si_text(tick, plot.x_unit), logarithmic=False)
+    x_limits, x_text = (0, end_of(plot) or 1), lambda tick: si_text(tick, plot.x_unit)
+    left = room_for_ticks(y_limits(plot), lambda tick: si_text(tick, plot.y_unit), plot.logarithmic)
+    sheet = Sheet(layout, plot.title, plot.y_name, plot.x_name, legend, left=left,
+                  right=room_for_last_tick(x_limits, x_text, layout.width - left - RIGHT, layout.font))
+    set_ticks(sheet.axis, "x", x_limits, x_text, logarithmic=False)
     set_ticks(sheet.axis, "y", y_limits(plot), lambda tick: si_text(tick, plot.y_unit), logarithmic=plot.logarithmic)
     beyond = blows(plot)
     for k, line in enumerate(plot.lines):

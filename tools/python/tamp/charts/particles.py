@@ -7,7 +7,9 @@ import numpy as np
 from matplotlib.patches import PathPatch
 from matplotlib.path import Path
 
-from tamp.charts.axes import NARROW, RIGHT, Entry, Sheet, linear_ticks, room_for_ticks, set_ticks
+from tamp.charts.axes import (
+    NARROW, RIGHT, Entry, Sheet, linear_ticks, room_for_last_tick, room_for_ticks, set_ticks,
+)
 from tamp.charts.chart import Table, make_chart
 from tamp.charts.formatting import counted, percent_text, si_text
 from tamp.charts.over_time import HALF
@@ -88,17 +90,21 @@ def chart(view, name):
 def plane_sheet(layout, title, axes, legend, foot=0):
     """A plane as large as there is room for, both ways alike."""
     across, up = ((axis["lower"], axis["upper"]) for axis in axes)
-    left = room_for_ticks(up, lambda tick: si_text(tick, "m"), False)
-    scale = (layout.width - left - RIGHT) / (across[1] - across[0])
-    height = min(max(scale * (up[1] - up[0]), 40), MOST_HEIGHT)
-    sheet = Sheet(layout, title, axes[1]["name"], axes[0]["name"], legend, height=height, left=left, foot=foot)
+    left = room_for_ticks(up, metres, False)
+    most = layout.width - left - room_for_last_tick(across, metres, layout.width - left - RIGHT, layout.font)
+    scale = min(most / (across[1] - across[0]), MOST_HEIGHT / (up[1] - up[0]))
+    width, height = scale * (across[1] - across[0]), max(scale * (up[1] - up[0]), 40)
+    sheet = Sheet(layout, title, axes[1]["name"], axes[0]["name"], legend, height=height, left=left, foot=foot,
+                  right=layout.width - left - width)
     few = linear_ticks(*up, min(height / 30, 7))
     for which, limits, ticks in [("x", across, None), ("y", up, few)]:
-        set_ticks(sheet.axis, which, limits, lambda tick: si_text(tick, "m"), logarithmic=False, ticks=ticks)
+        set_ticks(sheet.axis, which, limits, metres, logarithmic=False, ticks=ticks)
         sheet.axis.grid(False, axis=which)
-    if height == MOST_HEIGHT:
-        sheet.axis.set_aspect("equal", anchor="W")
     return sheet
+
+
+def metres(value):
+    return si_text(value, "m")
 
 
 def draw(view, layout):
