@@ -260,6 +260,42 @@ class OverTime(unittest.TestCase):
         self.assertEqual(through, {"Force on punch against its depth"})
 
 
+class Forces(unittest.TestCase):
+    def test_are_those_on_the_whole_body(self):
+        in_space, round_about = {"dimension": 3, "axisymmetric": False}, {"dimension": 2, "axisymmetric": True}
+        quarter = {"part_of_whole": {"factor": 4, "planes": ["x-", "y-"]}}
+
+        self.assertEqual(run_history.axes_of_force(in_space, {}), "xyz")
+        self.assertEqual(run_history.axes_of_force(in_space, quarter), "z")
+        self.assertEqual(run_history.axes_of_force(round_about, {}), "y")
+        self.assertEqual(run_history.axes_of_force(None, None), "xyz")
+
+    def test_on_a_round_body_are_along_its_axis(self):
+        history = run_history.History.__new__(run_history.History)
+        history.columns = {"time": [0, 1], "ball.depth": [0, 1], "ball.contact_force_x": [3, 3],
+                           "ball.contact_force_y": [4, 4]}
+        for is_round, force in [(True, 4), (False, 5)]:
+            run = {"history": history, "scene": {"dimension": 2, "axisymmetric": is_round}}
+            self.assertEqual(run_page.penetration(run)[0].lines[0].y, [force])
+            self.assertEqual(max(run_history.greatest(history, run["scene"], [], "y" if is_round else "xyz").line.y),
+                             force)
+
+    def test_on_a_part_say_of_which_part(self):
+        self.assertIn("those of 1/4 of the whole", run_page.part_of_whole({"part_of_whole": {"factor": 4}}))
+        self.assertEqual(run_page.part_of_whole({"part_of_whole": {"factor": 1}}) + run_page.part_of_whole({}), "")
+
+
+class Stresses(unittest.TestCase):
+    def test_of_rigid_materials_are_not_drawn(self):
+        history = run_history.History.__new__(run_history.History)
+        history.columns = {"time": [0, 1], "dt": [0, 1], "steel.p_max": [0, 0], "sand.p_max": [0, 5]}
+        scene = {"dimension": 3, "bodies": {"ball": {"material": "steel", "rigid": True},
+                                            "sand": {"material": "sand", "rigid": False}}}
+        for known, shown in [(scene, ["sand"]), (None, ["steel", "sand"])]:
+            plots = {plot.title: plot for plot in run_page.plots({"history": history, "scene": known})}
+            self.assertEqual([line.name for line in plots["Largest mean stress"].lines], shown)
+
+
 class Tables(unittest.TestCase):
     def test_that_are_too_broad_for_a_phone_say_the_names_of_their_columns_to_the_style_sheet(self):
         broad = page.as_html(Table(["task", "count", 'a "b" <c>\\', "share"], [["push", "1", "2", "3"]]))

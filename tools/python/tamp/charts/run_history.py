@@ -32,9 +32,18 @@ class History:
         return Line(label, [a for a, _ in known], [b for _, b in known])
 
 
-def force(history, body):
+def axes_of_force(scene, summary):
+    """Those along which a force is one on the whole body: neither what goes away from the axis of an axisymmetric scene
+    nor, across a plane of symmetry, what the other side of it takes away."""
+    if scene is not None and scene.get("axisymmetric"):
+        return "y"
+    planes = ((summary or {}).get("part_of_whole") or {}).get("planes", [])  # such as x-; older runs do not say
+    return "".join(axis for axis in "xyz" if axis not in {plane[:1] for plane in planes})
+
+
+def force(history, body, axes="xyz"):
     """The size of the force that others put on a body, by rows."""
-    parts = [history.columns[f"{body}.contact_force_{axis}"] for axis in "xyz"
+    parts = [history.columns[f"{body}.contact_force_{axis}"] for axis in axes
              if f"{body}.contact_force_{axis}" in history.columns]
     return [math.hypot(*row) for row in zip(*parts)]
 
@@ -58,11 +67,11 @@ class Moment(NamedTuple):
         return float(np.interp(time, self.line.x, self.line.y))
 
 
-def greatest(history, scene, materials):
+def greatest(history, scene, materials, axes="xyz"):
     """When the contact force on a body was greatest, or else the largest p of some materials; None of neither."""
     unit = "N/m" if is_plane(scene) else "N"
     names = list(dict.fromkeys(name for axis in "xyz" for name in history.ending(f"contact_force_{axis}")))
-    forces = [("force", f"contact force on {name}", unit, force(history, name)) for name in names]
+    forces = [("force", f"contact force on {name}", unit, force(history, name, axes)) for name in names]
     stresses = [("pressure", f"largest p of {name}", "Pa", history.columns[f"{name}.p_max"]) for name in materials
                 if f"{name}.p_max" in history.columns]
     for found in (forces, stresses):

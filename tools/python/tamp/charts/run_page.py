@@ -8,7 +8,7 @@ from tamp.charts import choices, movie, over_time, page, particles, sand, sand_c
 from tamp.charts.chart import Table
 from tamp.charts.formatting import NO_NUMBER, counted, escaped, is_number, number_text, percent_text, plain, si_text
 from tamp.charts.over_time import Line, Plot
-from tamp.charts.run_history import History, force, is_plane
+from tamp.charts.run_history import History, axes_of_force, force, is_plane
 
 ENERGIES = ["kinetic", "elastic", "plastic", "viscous", "contact", "filter", "external", "total"]
 MOST_BYTES = 4_900_000  # of a page
@@ -80,7 +80,12 @@ def of(run, name, make):
 
 def head(summary):
     text = f"<h1>{escaped(summary['scene'])}</h1>\n<p class=\"faint\">{lead(summary)}</p>\n"
-    return text + warnings(summary)
+    return text + part_of_whole(summary) + warnings(summary)
+
+
+def part_of_whole(summary):
+    n_parts = (summary.get("part_of_whole") or {}).get("factor", 1)
+    return f"<p>Forces, energies and masses are those of 1/{n_parts} of the whole.</p>\n" if n_parts > 1 else ""
 
 
 def trust(summary):
@@ -182,10 +187,16 @@ def plots(run):
         made.append(of_each(history, "Depth", "depth", "m"))
     made += [of_each(history, f"Velocity along {axis}", f"velocity_{axis}", "m/s") for axis in moving_axes(history)]
     for ending, title in [("p_max", "Largest mean stress"), ("q_max", "Largest deviatoric stress")]:
-        if history.ending(ending):
-            made.append(of_each(history, title, ending, "Pa"))
+        lines = [line for line in of_each(history, title, ending, "Pa").lines if line.name not in rigid(run["scene"])]
+        if lines:
+            made.append(Plot(title, ending.replace("_", " "), "Pa", lines))
     made.append(plot_of(history, "Step size", "step size", "s", ["dt"]))
     return in_units(run, made)
+
+
+def rigid(scene):
+    """The materials of rigid bodies, which have no stress."""
+    return {body["material"] for body in scene["bodies"].values() if body["rigid"]} if scene else set()
 
 
 def penetration(run):
@@ -193,7 +204,8 @@ def penetration(run):
     history = run["history"]
     if history is None:
         return []
-    made = [force_against_depth(history, body) for body in history.ending("depth") if force(history, body)]
+    axes = axes_of_force(run["scene"], run.get("summary"))
+    made = [force_against_depth(history, body, axes) for body in history.ending("depth") if force(history, body, axes)]
     return in_units(run, [*made, of_each(history, "Depth", "depth", "m")]) if made else []
 
 
@@ -227,10 +239,10 @@ def of_each(history, title, ending, unit):
                 [history.line(owner, f"{owner}.{ending}") for owner in history.ending(ending)])
 
 
-def force_against_depth(history, body):
+def force_against_depth(history, body, axes="xyz"):
     """On its way in: rows that are deeper than all before."""
     line = Line(body, [], [])
-    for x, y in zip(history.columns[f"{body}.depth"], force(history, body)):
+    for x, y in zip(history.columns[f"{body}.depth"], force(history, body, axes)):
         if is_number(x) and is_number(y) and x > (line.x[-1] if line.x else 0):
             line.x.append(x)
             line.y.append(y)

@@ -92,7 +92,8 @@ def wanted(run):
     rigid = [name for name in names if any(body["rigid"] for body in scene["bodies"].values()
                                            if body["material"] == name)]
     soft = [name for name in names if name not in rigid]
-    moment = run_history.greatest(history, scene, soft) if history else None
+    axes = run_history.axes_of_force(scene, run.get("summary"))
+    moment = run_history.greatest(history, scene, soft, axes) if history else None
     has_plastic = history is not None and any(f"{name}.plastic_volumetric_max" in history.columns for name in soft)
     return Wanted(run["folder"] / "fields.h5", plane_of(prepared["pictures"][0], scene), names, rigid,
                   {name: reach_of(scene, name) for name in names}, moment, has_plastic)
