@@ -221,6 +221,24 @@ class Choices(unittest.TestCase):
         self.assertEqual(choices.word_rows(words, []),
                          [["boundaries of x-, y+", "symmetry", "scene", "a smooth wall, see method.md"]])
 
+    def test_that_are_explained_together_show_what_is_said_of_theirs(self):
+        about = '`"even"`: in rows; `"round"`, of a `"ball"`: in rings; as `"even"` ones'
+
+        self.assertEqual(choices.of_word(about, "even"), "in rows")
+        self.assertEqual(choices.of_word(about, "round"), 'of a `"ball"`: in rings; as `"even"` ones')
+        self.assertEqual(choices.of_word(about, "other"), about)
+        words = [{"key": "/bodies/ball/particles", "word": "even", "about": about, "meaning": ""}]
+        self.assertEqual(choices.word_rows(words, [])[0][-1], "in rows")
+
+    def test_of_a_normal_take_no_word_for_a_material(self):
+        pair = {"materials": ["steel", "sand"], "friction": 0.3}
+        scene = {"materials": {"steel": {}, "sand": {}}, "contact": [{**pair, "normal": "solid"},
+                                                                     {**pair, "normal": "sand"}]}
+
+        self.assertEqual([row[-1] for row in choices.contact_rows(scene, [])],
+                         ["its normal is that of the solid of the rigid body",
+                          "its normal is that of the surface of sand"])
+
     def test_of_parts_name_what_they_are_of(self):
         self.assertEqual(choices.place("/materials/sand/modulus/type"), ("modulus type", "sand"))
         self.assertEqual(choices.place("/time/rule"), ("time rule", ""))

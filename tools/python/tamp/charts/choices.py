@@ -10,7 +10,8 @@ NUMBERS = [("/grid/cell_size", "cell size", "m"), ("/grid/patches", "patches", "
            ("/artificial_viscosity", "artificial viscosity", ""), ("/local_damping", "local damping", ""),
            ("/gravity", "gravity", "m/s²"), ("/centrifuge", "centrifuge", "")]
 NORMALS = {"regression": "its normal is that of a plane which parts the particles of both at each node",
-           "flatter": "its normal is that of the flatter surface at each node"}
+           "flatter": "its normal is that of the flatter surface at each node",
+           "solid": "its normal is that of the solid of the rigid body"}
 CELLS = "on its way into {}; with fewer than 6 the force on it is a tenth or more too large"
 
 
@@ -30,7 +31,8 @@ def word_rows(words, left_out):
     groups = {}
     for word in words:
         label, owner = place(word["key"])
-        pointers, owners = groups.setdefault((label, word["word"], word["about"] + word["meaning"]), ([], []))
+        meaning = word["about"] + word["meaning"] if word["meaning"] else of_word(word["about"], word["word"])
+        pointers, owners = groups.setdefault((label, word["word"], meaning), ([], []))
         pointers.append(word["key"])
         owners.append(owner)
     return [[label + (f" of {', '.join(owners)}" if any(owners) else ""), word.replace("_", " "),
@@ -46,6 +48,13 @@ def place(pointer):
     if first in ("materials", "bodies"):
         return " ".join(rest[1:]).replace("_", " "), rest[0]
     return " ".join([first, *rest]).replace("_", " "), ""
+
+
+def of_word(about, word):
+    """What a text that explains all words of a key, each at the beginning of a part, says of one; or all of it."""
+    parts = re.split(r"; (?=`\")", about)
+    return next((part.partition("`, " if part.startswith(f'`"{word}"`, ') else "`: ")[2] for part in parts
+                 if part.startswith(f'`"{word}"`')), about)
 
 
 def without_marks(meaning):
