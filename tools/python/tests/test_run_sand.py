@@ -85,6 +85,23 @@ class InAFolder(unittest.TestCase):
         self.folder = pathlib.Path(holder.name)
 
 
+class TheReach(unittest.TestCase):
+    def test_of_particles_on_rings_leaves_no_hole_in_a_disk(self):
+        scene = {"particles_per_cell": [2, 2], "grid": {"cell_size": 1}, "materials": {"steel": {}},
+                 "bodies": {"ball": {"material": "steel", "particles": "rings"}}}
+        raster = Raster([0, 0], [8, 8], 400, [])
+        for ring in range(12):
+            n = max(round(2 * np.pi * (ring + 0.5)), 4)
+            angles = 2 * np.pi * (np.arange(n) + 0.5) / n
+            places = 4 + 0.5 * (ring + 0.5) * np.column_stack([np.cos(angles), np.sin(angles)])
+            raster.add(places, sand.reach_of(scene, "steel"), np.zeros(n), 0, {})
+        y, x = np.mgrid[0:400, 0:400]
+        inside = np.hypot(x + 0.5 - 200, y + 0.5 - 200) < 180
+
+        self.assertTrue(np.all(raster.rows(raster.kind)[inside] == 0))
+        self.assertLess(sand.reach_of({**scene, "bodies": {}}, "steel"), sand.reach_of(scene, "steel"))
+
+
 class TheRaster(unittest.TestCase):
     def test_gives_each_square_the_nearest_particle_that_reaches_it(self):
         random = np.random.default_rng(5)

@@ -14,6 +14,7 @@ MOST_FRAMES, LEAST_FRAMES = 60, 12
 MOST_PARTICLES = 2 * 10**7  # that are read for all frames
 ROWS_AT_ONCE = 2**18
 PART_OF_SPACING = 0.62  # neighbours overlap a little, also where they are drawn apart
+PART_ON_RINGS = 0.75  # sectors of rings are no squares
 DAMAGES = (ArithmeticError, AttributeError, KeyError, IndexError, OSError, RuntimeError, TypeError, ValueError)
 
 
@@ -108,7 +109,9 @@ def reach_of(scene, material):
     """From the middle of a particle to its edge."""
     usual = scene["particles_per_cell"][0]
     n = scene["materials"][material].get("particles_per_axis", usual)
-    return PART_OF_SPACING * scene["grid"]["cell_size"] / (n if isinstance(n, (int, float)) else usual)
+    bodies = [body for body in scene["bodies"].values() if body["material"] == material]
+    part = PART_ON_RINGS if any(body.get("particles") == "rings" for body in bodies) else PART_OF_SPACING
+    return part * scene["grid"]["cell_size"] / (n if isinstance(n, (int, float)) else usual)
 
 
 # --- reading ---
