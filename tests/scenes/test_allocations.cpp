@@ -91,7 +91,7 @@ TEST_CASE("allocations of this program, of the standard library and of others ar
   CHECK(n_allocations() - before >= 3);
 }
 
-TEST_CASE("steps that write nothing ask for no memory once the first have passed")
+TEST_CASE("steps that write nothing ask for no memory once the first have passed", "[slow]")
 {
   if (!counts_allocations) return;
   const std::string punch = "punch/quick.json";

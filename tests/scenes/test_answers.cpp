@@ -38,7 +38,7 @@ const HistoryRow& row_at(const std::vector<HistoryRow>& rows, double time)
 
 }  // namespace
 
-TEST_CASE("the quick punch is as deep at 1 and 2 ms, and its sand as hard pressed, as is documented", "[scenes]")
+TEST_CASE("the quick punch is as deep at 1 and 2 ms, and its sand as hard pressed, as is documented", "[scenes][slow]")
 {
   const auto rows = history_until("punch/quick.json", 2.02e-3);
   if (test::is_rehearsal) return;
@@ -54,7 +54,7 @@ TEST_CASE("the quick punch is as deep at 1 and 2 ms, and its sand as hard presse
   CHECK(late.at("sand.cap_max[Pa]") == Approx(288e6).epsilon(0.1));
 }
 
-TEST_CASE("the quick projectile is as deep after 0.1 ms, at that angle, as is documented", "[scenes]")
+TEST_CASE("the quick projectile is as deep after 0.1 ms, at that angle, as is documented", "[scenes][slow]")
 {
   const auto rows = history_until("uxo/quick.json", 1.02e-4);
   if (test::is_rehearsal) return;

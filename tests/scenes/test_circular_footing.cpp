@@ -53,7 +53,8 @@ Pressed pressed(const std::string& anti_locking, double cell_size)
 
 }  // namespace
 
-TEST_CASE("a circular footing bears about what limit analysis says with cell averages, too much without", "[scenes]")
+TEST_CASE("a circular footing bears about what limit analysis says with cell averages, too much without",
+          "[scenes][slow]")
 {
   const Pressed coarse = pressed("cell_average", 0.1), fine = pressed("cell_average", 0.05),
                 plain = pressed("none", 0.05);
@@ -71,7 +72,8 @@ TEST_CASE("a circular footing bears about what limit analysis says with cell ave
   for (const Pressed& run : {coarse, fine, plain}) CHECK(run.energy_error < 1e-4);
 }
 
-TEST_CASE("a circular footing on clay that shares its volume has the same digest on any ranks and threads", "[ranks]")
+TEST_CASE("a circular footing on clay that shares its volume has the same digest on any ranks and threads",
+          "[ranks][slow]")
 {
   const std::string anti_locking = GENERATE("cell_average", "f_bar");
   const auto scene = tamp::tools::read_scene(TAMP_SOURCE_DIR "/inputs/footing/circular.json",

@@ -21,7 +21,7 @@ tasks::Scene shipped(const std::string& name)
 
 }  // namespace
 
-TEST_CASE("the memory of fields that is forecast from labels is what a simulation then stores")
+TEST_CASE("the memory of fields that is forecast from labels is what a simulation then stores", "[slow]")
 {
   const std::string name = GENERATE("punch/quick.json", "punch/table.json", "uxo/quick.json", "uxo/settled.json");
   const tasks::Scene scene = shipped(name);
@@ -41,7 +41,8 @@ TEST_CASE("the memory of fields that is forecast from labels is what a simulatio
 }
 
 TEST_CASE(
-    "the steps of shipped scenes are forecast within a factor of 1.5, in the time that a run and the check take for it")
+    "the steps of shipped scenes are forecast within a factor of 1.5, in the time that a run and the check take for it",
+    "[slow]")
 {
   const auto [name, taken] = GENERATE(table<std::string, double>({{"punch/quick.json", 5197},
                                                                   {"punch/half.json", 6024},

@@ -43,12 +43,13 @@ void check_all_digests()
 
 }  // namespace
 
-TEST_CASE("every shipped scene ends with its committed digest, whatever the processor and the compiler", "[scenes]")
+TEST_CASE("every shipped scene ends with its committed digest, whatever the processor and the compiler",
+          "[scenes][slow]")
 {
   check_all_digests();
 }
 
-TEST_CASE("digests do not depend on which functions the C library chooses for the processor", "[scenes]")
+TEST_CASE("digests do not depend on which functions the C library chooses for the processor", "[scenes][slow]")
 {
   setenv("GLIBC_TUNABLES", "glibc.cpu.hwcaps=-FMA,-AVX2", 1);
 

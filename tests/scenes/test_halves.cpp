@@ -145,7 +145,7 @@ const Assignments half_of_punch{"/grid/lower=[0.5,0]", "/grid/patches=[1,2]"};
 
 }  // namespace
 
-TEST_CASE("half a punch goes as the whole does, in the same steps, whatever the method", "[scenes]")
+TEST_CASE("half a punch goes as the whole does, in the same steps, whatever the method", "[scenes][slow]")
 {
   const std::string rigid = GENERATE("false", "true");
   const auto [interpolator, transfer, timing, normal] =
@@ -166,7 +166,7 @@ TEST_CASE("half a punch goes as the whole does, in the same steps, whatever the 
   CHECK(pair.error_of_depth() < 1e-10);
 }
 
-TEST_CASE("half a rigid punch is as deep as the whole after a millisecond, in as many steps", "[scenes]")
+TEST_CASE("half a rigid punch is as deep as the whole after a millisecond, in as many steps", "[scenes][slow]")
 {
   const Assignments rigid{"/bodies/punch/rigid=true"};
   Pair pair(scene_of("punch/quick.json", rigid), scene_of("punch/half.json", {}), {0});
@@ -177,7 +177,7 @@ TEST_CASE("half a rigid punch is as deep as the whole after a millisecond, in as
   CHECK(pair.error_of_depth() < 1e-4);
 }
 
-TEST_CASE("a quarter and a half of a projectile that goes straight down go as the whole does", "[scenes]")
+TEST_CASE("a quarter and a half of a projectile that goes straight down go as the whole does", "[scenes][slow]")
 {
   const auto [interpolator, transfer, timing] = GENERATE(table<std::string, std::string, std::string>(
       {{"gimp", "tflip", "usl"}, {"quadratic_spline", "tflip", "musl"}, {"cubic_spline", "apic", "musl"}}));
@@ -194,7 +194,7 @@ TEST_CASE("a quarter and a half of a projectile that goes straight down go as th
   CHECK(pair.error_of_depth() < 1e-10);
 }
 
-TEST_CASE("half an inclined projectile turns in its plane as the whole does", "[scenes]")
+TEST_CASE("half an inclined projectile turns in its plane as the whole does", "[scenes][slow]")
 {
   Pair pair(scene_of("uxo/quick.json", inclined), scene_of("uxo/quick.json", inclined, {"/grid/lower=[0,0.05,0]"}),
             {1});
@@ -205,7 +205,7 @@ TEST_CASE("half an inclined projectile turns in its plane as the whole does", "[
   CHECK(pair.error_of_depth() < 1e-10);
 }
 
-TEST_CASE("halves have the same digest on any threads", "[scenes]")
+TEST_CASE("halves have the same digest on any threads", "[scenes][slow]")
 {
   const std::string file = GENERATE("punch/half.json", "uxo/half.json");
   const Scene scene = scene_of(file, {});

@@ -10,7 +10,7 @@ namespace test_on_ranks
 
 using namespace tamp;
 
-TEST_CASE("every shipped scene has the same digest on any ranks and threads", "[ranks]")
+TEST_CASE("every shipped scene has the same digest on any ranks and threads", "[ranks][slow]")
 {
   struct Shipped {
     const char* file;

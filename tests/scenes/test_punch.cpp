@@ -34,7 +34,7 @@ nlohmann::json json_of(const std::filesystem::path& file)
 
 }  // namespace
 
-TEST_CASE("the punch scenes have the same digest on one, two and three threads", "[scenes]")
+TEST_CASE("the punch scenes have the same digest on one, two and three threads", "[scenes][slow]")
 {
   CHECK(digest_after("quick.json", 60, 2) == digest_after("quick.json", 60, 1));
   CHECK(digest_after("quick.json", 60, 3) == digest_after("quick.json", 60, 1));
@@ -55,7 +55,7 @@ TEST_CASE("the punch has the same digest in any order of tasks that its graph al
   for (const std::uint64_t seed : {1U, 2U, 3U}) CHECK(shuffled(seed) == serial);
 }
 
-TEST_CASE("the quick punch runs on in state form, where the SVR sand needs the smallest substeps", "[scenes]")
+TEST_CASE("the quick punch runs on in state form, where the SVR sand needs the smallest substeps", "[scenes][slow]")
 {
   const auto simulation = tasks::Simulation::make(
       shipped("quick.json", {"/materials/sand/modulus/type=svr", "/materials/sand/elastic_update=state"}).scene, 2);

@@ -33,7 +33,7 @@ double way_of_ball(const Scene& scene, int axis)
 
 }  // namespace
 
-TEST_CASE("a free ball goes as deep into sand in the plane of r and z as a quarter of it does in space")
+TEST_CASE("a free ball goes as deep into sand in the plane of r and z as a quarter of it does in space", "[slow]")
 {
   const double turned = way_of_ball(scene_of("ball.json", {"/grid/cell_size=0.004", "/grid/upper=[0.048,0.084]"}), 1);
   const double quarter =

@@ -25,7 +25,7 @@ double share_of_limit(const Json& entries, const std::string& monitor, const std
 
 }  // namespace
 
-TEST_CASE("every entry of the failure catalogue fails and survives as told, on any machine")
+TEST_CASE("every entry of the failure catalogue fails and survives as told, on any machine", "[slow]")
 {
   const TemporaryFolder folder;
   const std::string out = (folder.path() / "out").string();

@@ -83,7 +83,7 @@ ShortStudy run_short(const std::string& name)
 
 }  // namespace
 
-TEST_CASE("the short study of moduli finds the network nearer to the measurements than the regression")
+TEST_CASE("the short study of moduli finds the network nearer to the measurements than the regression", "[slow]")
 {
   const ShortStudy study = run_short("moduli");
   if (is_rehearsal) return;
@@ -91,7 +91,7 @@ TEST_CASE("the short study of moduli finds the network nearer to the measurement
   CHECK(study.error("Table", "K, root mean square") < 0.01);
 }
 
-TEST_CASE("the short studies of the return mapping have smaller errors for smaller tolerances")
+TEST_CASE("the short studies of the return mapping have smaller errors for smaller tolerances", "[slow]")
 {
   const std::string name = GENERATE("return_mapping", "return_mapping_large_increments");
   const ShortStudy study = run_short(name);
@@ -108,7 +108,7 @@ TEST_CASE("the short studies of the return mapping have smaller errors for small
   }
 }
 
-TEST_CASE("the short maps of where methods fail have a stable cell for each of their runs")
+TEST_CASE("the short maps of where methods fail have a stable cell for each of their runs", "[slow]")
 {
   const std::string name = GENERATE("map_bar", "map_vortex", "map_piston", "map_block", "map_punch");
   const ShortStudy study = run_short(name);
@@ -123,7 +123,8 @@ TEST_CASE("the short maps of where methods fail have a stable cell for each of t
   }
 }
 
-TEST_CASE("the short study of the bar finds second order, and the published bound without its factor unstable")
+TEST_CASE("the short study of the bar finds second order, and the published bound without its factor unstable",
+          "[slow]")
 {
   const ShortStudy study = run_short("bar");
   if (is_rehearsal) return;
@@ -132,7 +133,7 @@ TEST_CASE("the short study of the bar finds second order, and the published boun
   CHECK(study.methods("unstable") == std::set<std::string>{"published bound, 1"});
 }
 
-TEST_CASE("the short study of the report's settings runs a slab one cell thick, with 8 particles a cell")
+TEST_CASE("the short study of the report's settings runs a slab one cell thick, with 8 particles a cell", "[slow]")
 {
   const ShortStudy study = run_short("cost");
   const Json& point = study.results["points"][0];
@@ -143,7 +144,7 @@ TEST_CASE("the short study of the report's settings runs a slab one cell thick, 
   CHECK(point["cost"]["particle_steps"].get<double>() / point["cost"]["steps"].get<double>() == Approx(8 * n_cells));
 }
 
-TEST_CASE("the short study of the punch has an error budget")
+TEST_CASE("the short study of the punch has an error budget", "[slow]")
 {
   const ShortStudy study = run_short("punch");
   if (is_rehearsal) return;
@@ -158,7 +159,7 @@ TEST_CASE("the short study of the punch has an error budget")
   }
 }
 
-TEST_CASE("the short study of the punch on other grids compares each strength with its own limit")
+TEST_CASE("the short study of the punch on other grids compares each strength with its own limit", "[slow]")
 {
   const ShortStudy study = run_short("punch_other_grids");
   if (is_rehearsal) return;
@@ -167,7 +168,8 @@ TEST_CASE("the short study of the punch on other grids compares each strength wi
   CHECK(study.error("as shipped: q", "depth at 0.2 ms") < 0.1);
 }
 
-TEST_CASE("the short study of viscosity finds the piston nearer to its exact force with 1 / 4 than with 0.2 / 2")
+TEST_CASE("the short study of viscosity finds the piston nearer to its exact force with 1 / 4 than with 0.2 / 2",
+          "[slow]")
 {
   const ShortStudy study = run_short("viscosity_piston_200");
   if (is_rehearsal) return;
@@ -177,7 +179,7 @@ TEST_CASE("the short study of viscosity finds the piston nearer to its exact for
         study.error("cubic, flip, 0.2 / 2", "pressure", cell_size));
 }
 
-TEST_CASE("the short studies of viscosity in other scenes run to their end")
+TEST_CASE("the short studies of viscosity in other scenes run to their end", "[slow]")
 {
   const ShortStudy study = run_short(GENERATE("viscosity_impact", "viscosity_punch", "viscosity_projectile"));
   if (is_rehearsal) return;
@@ -186,7 +188,7 @@ TEST_CASE("the short studies of viscosity in other scenes run to their end")
   CHECK(study.methods("unstable").empty());
 }
 
-TEST_CASE("the short study of the projectile has an error budget")
+TEST_CASE("the short study of the projectile has an error budget", "[slow]")
 {
   const ShortStudy study = run_short("projectile");
   if (is_rehearsal) return;
@@ -194,7 +196,8 @@ TEST_CASE("the short study of the projectile has an error budget")
   CHECK(study.results["budgets"].size() == 2);
 }
 
-TEST_CASE("in the short study of localisation sand that rubs and widens stops the punch earlier than the same without")
+TEST_CASE("in the short study of localisation sand that rubs and widens stops the punch earlier than the same without",
+          "[slow]")
 {
   const ShortStudy study = run_short("localisation");
   if (is_rehearsal) return;
@@ -206,7 +209,7 @@ TEST_CASE("in the short study of localisation sand that rubs and widens stops th
   }
 }
 
-TEST_CASE("in the short study of rings FLIP keeps most of the energy, and PIC less than half")
+TEST_CASE("in the short study of rings FLIP keeps most of the energy, and PIC less than half", "[slow]")
 {
   const ShortStudy study = run_short("rings");
   if (is_rehearsal) return;
@@ -216,7 +219,7 @@ TEST_CASE("in the short study of rings FLIP keeps most of the energy, and PIC le
   CHECK(study.error("xpic 5", "energy left") > study.error("flip", "energy left"));
 }
 
-TEST_CASE("the short study of what methods cost has the sand stop the punch about alike with every method")
+TEST_CASE("the short study of what methods cost has the sand stop the punch about alike with every method", "[slow]")
 {
   const ShortStudy study = run_short("method_cost");
   if (is_rehearsal) return;

@@ -112,7 +112,7 @@ TEST_CASE("the projectile's history follows nose, tail and angle, and the sand n
   CHECK(rows.back().at("lost[particles]") == 0);
 }
 
-TEST_CASE("every scene of the projectile has the same digest on any ranks and threads", "[ranks]")
+TEST_CASE("every scene of the projectile has the same digest on any ranks and threads", "[ranks][slow]")
 {
   const std::string name = GENERATE("quick.json", "fine.json", "table.json", "svr.json", "mlp.json");
   std::vector<std::string> assignments = small;

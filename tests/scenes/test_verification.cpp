@@ -11,7 +11,7 @@ namespace test_verification
 using namespace tamp::test;
 using Json = nlohmann::json;
 
-TEST_CASE("short verifications hold what they expect, and say which errors and orders they found")
+TEST_CASE("short verifications hold what they expect, and say which errors and orders they found", "[slow]")
 {
   const TemporaryFolder folder;
   const std::string out = (folder.path() / "out").string();

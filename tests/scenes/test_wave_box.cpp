@@ -54,7 +54,7 @@ double n_cells(const Scene& scene)
 
 }  // namespace
 
-TEST_CASE("in the box that waves do not come back from a body goes as deep as in the whole, to 1e-4")
+TEST_CASE("in the box that waves do not come back from a body goes as deep as in the whole, to 1e-4", "[slow]")
 {
   const auto [file, end] = GENERATE(table<std::string, double>(
       {{"punch/quick.json", 1e-4}, {"punch/quick.json", 3e-4}, {"savings/ball.json", 5e-5}, {"uxo/half.json", 5e-5}}));

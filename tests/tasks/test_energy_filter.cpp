@@ -245,7 +245,7 @@ TEST_CASE("with what particles filter out the energy of balls that meet and spin
   CHECK(seen.error < 4e-4 * given);
 }
 
-TEST_CASE("with what particles filter out the energy of a punch in sand is all there")
+TEST_CASE("with what particles filter out the energy of a punch in sand is all there", "[slow]")
 {
   Scene scene = punch(GENERATE(2, 3));
   scene.transfer = GENERATE(Transfer("flip"), Transfer("tflip"));

@@ -61,7 +61,7 @@ std::unique_ptr<Simulation> on_all_ranks(const Scene& scene, int n_threads)
 
 }  // namespace
 
-TEST_CASE("a collision with losses ends with the same bits on any ranks and threads", "[ranks]")
+TEST_CASE("a collision with losses ends with the same bits on any ranks and threads", "[ranks][slow]")
 {
   Scene scene = glancing_disks();
   const auto [transfer, interpolator, n_threads] = GENERATE(
@@ -79,7 +79,7 @@ TEST_CASE("a collision with losses ends with the same bits on any ranks and thre
 }
 
 TEST_CASE("by transfers and interpolators of all kinds disks meet with the same bits on any ranks and threads",
-          "[ranks]")
+          "[ranks][slow]")
 {
   Scene scene = glancing_disks();
   const auto [transfer, interpolator, n_threads] = GENERATE(
@@ -97,7 +97,7 @@ TEST_CASE("by transfers and interpolators of all kinds disks meet with the same 
   CHECK(ending(*simulation) == alone(scene, 0.08));
 }
 
-TEST_CASE("a collision around a periodic domain ends with the same bits on any ranks and threads", "[ranks]")
+TEST_CASE("a collision around a periodic domain ends with the same bits on any ranks and threads", "[ranks][slow]")
 {
   Scene scene = glancing_disks();
   scene.grid.periodic = {true, true, false};

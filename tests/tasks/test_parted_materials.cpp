@@ -66,7 +66,7 @@ TEST_CASE("with normals by regression bodies push each other when they touch, no
   CHECK(std::abs(gap_at_first_push(dimension, regression)) < 0.2);
 }
 
-TEST_CASE("blocks that collide by regression rebound with their momentum and do not stick")
+TEST_CASE("blocks that collide by regression rebound with their momentum and do not stick", "[slow]")
 {
   const int dimension = GENERATE(2, 3);
   const auto simulation = Simulation::make(blocks(dimension, 0.3 * h, 0.5, regression), 2);

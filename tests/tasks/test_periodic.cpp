@@ -46,7 +46,7 @@ std::vector<Particle> travelled(Simulation& simulation)
 
 }  // namespace
 
-TEST_CASE("matter that fills a periodic domain flies around in it undeformed")
+TEST_CASE("matter that fills a periodic domain flies around in it undeformed", "[slow]")
 {
   const int dimension = GENERATE(2, 3);
   const runtime::Index n_patches = GENERATE(runtime::Index{1, 1, 1}, runtime::Index{2, 1, 1}, runtime::Index{3, 2, 1});
@@ -253,7 +253,7 @@ double frequency(Scene scene, double k, int axis, double drift, double expected)
 
 }  // namespace
 
-TEST_CASE("waves in an endless bar run at the speed of sound, also while it drifts around its domain")
+TEST_CASE("waves in an endless bar run at the speed of sound, also while it drifts around its domain", "[slow]")
 {
   const int axis = GENERATE(0, 1);
   const double speed = axis == 0 ? 10 : 10 / std::sqrt(3.0), k = 2 * pi / length;

@@ -59,7 +59,8 @@ constexpr double half_period = 0.01;
 
 }  // namespace
 
-TEST_CASE("the error against the axis-aligned solution is of second order in the cell size where strains are small")
+TEST_CASE("the error against the axis-aligned solution is of second order in the cell size where strains are small",
+          "[slow]")
 {
   struct Block {
     int dimension, n_axes;
@@ -110,7 +111,8 @@ TEST_CASE("at strains of 16 % particles of constant size keep the error from fal
   CHECK(std::log2(errors[1].greatest / errors[2].greatest) == Approx(1.47).margin(0.02));
 }
 
-TEST_CASE("particles whose size follows the deformation, and cubic splines, keep second order at strains of 16 %")
+TEST_CASE("particles whose size follows the deformation, and cubic splines, keep second order at strains of 16 %",
+          "[slow]")
 {
   const Interpolator interpolator =
       GENERATE(Interpolator("cpgimp"), Interpolator("cpdi"), Interpolator("cubic_spline"));

@@ -355,7 +355,7 @@ Depth depth_of(const Scene& scene)
 
 }  // namespace
 
-TEST_CASE("a rigid projectile goes as deep as a very stiff one, in far fewer steps")
+TEST_CASE("a rigid projectile goes as deep as a very stiff one, in far fewer steps", "[slow]")
 {
   const Depth stiff = depth_of(driven_in(false)), rigid = depth_of(driven_in(true));
   Scene small_steps = driven_in(true);

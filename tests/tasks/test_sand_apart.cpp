@@ -34,7 +34,7 @@ double sum(const std::vector<double>& numbers)
 
 }  // namespace
 
-TEST_CASE("sand that is thrown apart keeps its momentum and accounts for its energy, and flies on as it is")
+TEST_CASE("sand that is thrown apart keeps its momentum and accounts for its energy, and flies on as it is", "[slow]")
 {
   const int dimension = GENERATE(2, 3);
   Scene scene = spinning_sand(dimension);

@@ -96,7 +96,7 @@ double fastest(Simulation& simulation)
 
 }  // namespace
 
-TEST_CASE("settled sand stays at rest in a centrifuge and under gravity")
+TEST_CASE("settled sand stays at rest in a centrifuge and under gravity", "[slow]")
 {
   const bool turns = GENERATE(true, false);
   Scene scene = turns ? sand_in_centrifuge() : sand_under_gravity();
@@ -127,7 +127,7 @@ TEST_CASE("settled sand stays at rest on rough walls that it touches at its edge
   CHECK(std::abs(simulation->energies().contact) < 1e-20);
 }
 
-TEST_CASE("settled sand that fills a periodic domain from side to side stays at rest")
+TEST_CASE("settled sand that fills a periodic domain from side to side stays at rest", "[slow]")
 {
   Scene scene = box_of_sand(3);
   scene.gravity = {0, 0, -9.81};

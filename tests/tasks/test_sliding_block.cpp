@@ -48,7 +48,7 @@ TEST_CASE("without friction a block slides on at its speed")
   CHECK(way(*simulation) == Approx(0.2).epsilon(0.01));
 }
 
-TEST_CASE("friction stops a block after the way that Coulomb's law gives it")
+TEST_CASE("friction stops a block after the way that Coulomb's law gives it", "[slow]")
 {
   const double friction = 0.3, stop = 1 / (friction * g);
   const auto normal = GENERATE(components::ContactNormal(components::FlatterNormal()),
@@ -61,7 +61,7 @@ TEST_CASE("friction stops a block after the way that Coulomb's law gives it")
   CHECK(way(*simulation) == Approx(0.5 * stop).epsilon(0.02));
 }
 
-TEST_CASE("local damping adds its part to the friction of a wall, and more on ground that vibrates")
+TEST_CASE("local damping adds its part to the friction of a wall, and more on ground that vibrates", "[slow]")
 {
   const double friction = 0.3, damping = 0.3, stop = 1 / ((1 + damping) * friction * g);
   Scene on_ground = sliding_block(friction);
@@ -80,7 +80,7 @@ TEST_CASE("local damping adds its part to the friction of a wall, and more on gr
   CHECK(way(*along_ground) > 0.9 * 0.5 * stop);
 }
 
-TEST_CASE("a block that friction has stopped stays where it is")
+TEST_CASE("a block that friction has stopped stays where it is", "[slow]")
 {
   const auto simulation = Simulation::make(sliding_block(0.3), 2);
   advance_to(*simulation, 0.4);

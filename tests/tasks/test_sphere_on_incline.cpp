@@ -56,7 +56,7 @@ Scene sphere_on_incline(int dimension, const Incline& incline)
 
 }  // namespace
 
-TEST_CASE("a rigid sphere slides down an incline as gravity and Coulomb's friction have it")
+TEST_CASE("a rigid sphere slides down an incline as gravity and Coulomb's friction have it", "[slow]")
 {
   const int dimension = GENERATE(2, 3);
   // Below 2/7 of the slope, with which a sphere would roll; 1/3 for a cylinder.
@@ -81,7 +81,7 @@ TEST_CASE("a rigid sphere slides down an incline as gravity and Coulomb's fricti
   CHECK(std::abs(moved[1]) < 0.02);
 }
 
-TEST_CASE("a rigid sphere with enough friction rolls down an incline")
+TEST_CASE("a rigid sphere with enough friction rolls down an incline", "[slow]")
 {
   const int dimension = GENERATE(2, 3);
   CAPTURE(dimension);

@@ -75,7 +75,7 @@ double growth(Scene scene, double multiplier)
 
 }  // namespace
 
-TEST_CASE("free elastic bodies stay bounded up to the bound on the step, and not far beyond it")
+TEST_CASE("free elastic bodies stay bounded up to the bound on the step, and not far beyond it", "[slow]")
 {
   const auto body = GENERATE(FreeBody{"block", 2, 4}, FreeBody{"block", 3, 2.5}, FreeBody{"ball", 3, 3});
   const bool viscous = GENERATE(false, true), tflip = GENERATE(false, true), smooth = GENERATE(false, true);
@@ -95,7 +95,7 @@ TEST_CASE("free elastic bodies stay bounded up to the bound on the step, and not
   CHECK(beyond > 1e3);
 }
 
-TEST_CASE("with the other interpolators too, free elastic bodies stay bounded up to the bound on the step")
+TEST_CASE("with the other interpolators too, free elastic bodies stay bounded up to the bound on the step", "[slow]")
 {
   const auto body = GENERATE(FreeBody{"block", 2, 4}, FreeBody{"ball", 3, 3});
   Scene scene = free_body(body, GENERATE(false, true));
@@ -109,7 +109,7 @@ TEST_CASE("with the other interpolators too, free elastic bodies stay bounded up
   CHECK(beyond > 1e3);
 }
 
-TEST_CASE("free elastic bodies stay bounded up to the bound on the step with transfers that filter too")
+TEST_CASE("free elastic bodies stay bounded up to the bound on the step with transfers that filter too", "[slow]")
 {
   const auto body = GENERATE(FreeBody{"block", 2, 4}, FreeBody{"block", 3, 2.5});
   const bool viscous = GENERATE(false, true), smooth = GENERATE(false, true);

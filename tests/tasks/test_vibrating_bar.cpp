@@ -97,7 +97,7 @@ Vibration swing(Scene scene, double k, int n_periods)
 
 }  // namespace
 
-TEST_CASE("a bar swings at the frequency of its length and waves, and goes on swinging")
+TEST_CASE("a bar swings at the frequency of its length and waves, and goes on swinging", "[slow]")
 {
   const auto [held, n_cells] = GENERATE(std::pair{false, 48}, std::pair{true, 80});
   const auto [hyperelastic, transfer] = GENERATE(
@@ -118,7 +118,7 @@ TEST_CASE("a bar swings at the frequency of its length and waves, and goes on sw
   CHECK(std::abs(vibration.energy_drift) < 1e-3);
 }
 
-TEST_CASE("whenever stress follows the motion, a bar swings at its frequency in short steps")
+TEST_CASE("whenever stress follows the motion, a bar swings at its frequency in short steps", "[slow]")
 {
   Scene scene = bar(48, false);
   scene.stress_timing = GENERATE(StressTiming::usf, StressTiming::musl);

@@ -169,7 +169,7 @@ TEST_CASE("no wall that it touches at its edges holds what moves away from it")
   CHECK((simulation->report().bodies[0].momentum - before.momentum).norm() < 1e-12 * before.momentum.norm());
 }
 
-TEST_CASE("on a wall that it touches at its edges a disk comes to roll")
+TEST_CASE("on a wall that it touches at its edges a disk comes to roll", "[slow]")
 {
   const double friction = 0.3, radius = 0.1, speed = 1;
   Scene scene = empty_scene(2, {100, 44, 1}, 0.005);
@@ -215,7 +215,7 @@ TEST_CASE("a layer on a wall without slip is sheared by its weight as the wave e
 
 /// G. Lube, H. E. Huppert, R. S. J. Sparks & A. Freundt, Phys. Rev. E 72, 041301, 2005: columns of grains as wide as
 /// high run out by 1.2 times their half width. Experiments with other grains differ by some 15 %.
-TEST_CASE("a column of dry soil runs out on a floor with friction as far as columns of grains do")
+TEST_CASE("a column of dry soil runs out on a floor with friction as far as columns of grains do", "[slow]")
 {
   const auto simulation = Simulation::make(soil_column(0.2, components::RoughWall{0.5}), 2);
 

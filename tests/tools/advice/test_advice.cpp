@@ -55,7 +55,7 @@ TEST_CASE("of a punch that is faster than waves it is said when it is at a side 
                              "of 7 ms\n"));
 }
 
-TEST_CASE("a punch of real steel bounds the step, and one of rubber is too soft to be rigid")
+TEST_CASE("a punch of real steel bounds the step, and one of rubber is too soft to be rigid", "[slow]")
 {
   const std::string steel = "--set /materials/steel/bulk_modulus=160e9 --set /materials/steel/shear_modulus=80e9";
   const std::string rubber = "--set /materials/steel/bulk_modulus=1e9 --set /materials/steel/shear_modulus=1e7";
@@ -65,7 +65,7 @@ TEST_CASE("a punch of real steel bounds the step, and one of rubber is too soft 
              Catch::Contains("more than 1 % off a deformable one's, as it is strained by 19 %"));
 }
 
-TEST_CASE("the slab and the report's settings are told what costs less")
+TEST_CASE("the slab and the report's settings are told what costs less", "[slow]")
 {
   CHECK_THAT(check_of("punch/slab.json"), Catch::Contains("advice  slab: one cell between smooth walls"));
   CHECK_THAT(
@@ -81,7 +81,8 @@ TEST_CASE("the slab and the report's settings are told what costs less")
                  "200 m/s is not known for this scene (`tamp check SCENE --study OUT.json` writes"));
 }
 
-TEST_CASE("the check of the projectile says that it is thin, that it sets the step if deformable, and what turns it")
+TEST_CASE("the check of the projectile says that it is thin, that it sets the step if deformable, and what turns it",
+          "[slow]")
 {
   const std::string rigid = check_of("uxo/quick.json"), deformable = check_of("uxo/table.json");
 
@@ -98,7 +99,7 @@ TEST_CASE("the check of the projectile says that it is thin, that it sets the st
   CHECK_THAT(check_of("uxo/fine.json"), !Catch::Contains("method:"));
 }
 
-TEST_CASE("whoever meets a rigid body by its particles is told of its solid")
+TEST_CASE("whoever meets a rigid body by its particles is told of its solid", "[slow]")
 {
   CHECK_THAT(check_of("uxo/quick.json", "--set /contact/0/normal=regression"),
              Catch::Contains("advice  contact: with \"normal\": \"solid\" sand would touch "
@@ -117,7 +118,8 @@ TEST_CASE("soil that is pressed is told of anti-locking, and not of bodies that 
   CHECK_THAT(said, !Catch::Contains("step:") && !Catch::Contains("box:"));
 }
 
-TEST_CASE("what nobody has measured of a scene is said to be not known, and no other scene's number is given for it")
+TEST_CASE("what nobody has measured of a scene is said to be not known, and no other scene's number is given for it",
+          "[slow]")
 {
   const std::string not_known = "is not known for this scene (`tamp check SCENE --study OUT.json` writes the study";
   const auto cells_line = [](const std::string& said) {
@@ -138,7 +140,7 @@ TEST_CASE("what nobody has measured of a scene is said to be not known, and no o
              Catch::Contains("method: the error of \"quadratic_spline\"") && Catch::Contains(not_known));
 }
 
-TEST_CASE("the check writes the study that tells how far a scene is off, and it runs as it is")
+TEST_CASE("the check writes the study that tells how far a scene is off, and it runs as it is", "[slow]")
 {
   const TemporaryFolder folder;
   const std::string study = (folder.path() / "tells.json").string(), out = (folder.path() / "out").string();

@@ -9,7 +9,7 @@ namespace test_bench_tasks
 
 using namespace tamp::test;
 
-TEST_CASE("the benchmark of tasks compares schedulers in one table and one file")
+TEST_CASE("the benchmark of tasks compares schedulers in one table and one file", "[slow]")
 {
   const TemporaryFolder folder;
   const std::string file = (folder.path() / "tasks.json").string();

@@ -31,7 +31,8 @@ const char* falling_ball = R"({
 
 }  // namespace
 
-TEST_CASE("the benchmark of a scene tells windows from the whole, phases, bounds and bytes, in a table and a file")
+TEST_CASE("the benchmark of a scene tells windows from the whole, phases, bounds and bytes, in a table and a file",
+          "[slow]")
 {
   const TemporaryFolder folder;
   const std::string scene = folder.write("ball.json", falling_ball).string();
@@ -70,7 +71,7 @@ TEST_CASE("the benchmark of a scene tells windows from the whole, phases, bounds
                               Catch::Contains("fit into 16 GB"));
 }
 
-TEST_CASE("on a machine that others keep busy the benchmark says that it was too busy to trust")
+TEST_CASE("on a machine that others keep busy the benchmark says that it was too busy to trust", "[slow]")
 {
   const TemporaryFolder folder;
   // In enough steps to lose the core while they run.

@@ -112,7 +112,7 @@ TEST_CASE("what no benchmark that is asked for looks at is refused with those th
   refused("tasks --particles 400", "--particles: not of tasks; expected it with peers");
 }
 
-TEST_CASE("the benchmark of gains finds tasks on the longest chain and beside it in any scene")
+TEST_CASE("the benchmark of gains finds tasks on the longest chain and beside it in any scene", "[slow]")
 {
   const TemporaryFolder folder;
   const std::string file = (folder.path() / "gains.json").string();

@@ -80,7 +80,7 @@ TEST_CASE("a page of the graph has what a run of the scene took, and its longest
   CHECK(tamp_with(graph + " --format svg").err == "tamp: --run: --format svg; expected --format html or --threads\n");
 }
 
-TEST_CASE("no page and no replay is made of a run on other ranks, or of another scene")
+TEST_CASE("no page and no replay is made of a run on other ranks, or of another scene", "[slow]")
 {
   const TemporaryFolder folder;
   const std::string run = (folder.path() / "run").string(), of_run = " --run " + run;
@@ -133,7 +133,7 @@ TEST_CASE("a step is dealt to threads, and with a run of its scene told how fast
   CHECK(tamp_with("graph " + scene + " --threads 4 --format svg").exit_code == 2);
 }
 
-TEST_CASE("no step is replayed from a run that is another's, damaged or of an earlier version")
+TEST_CASE("no step is replayed from a run that is another's, damaged or of an earlier version", "[slow]")
 {
   const TemporaryFolder folder;
   const std::string run = (folder.path() / "run").string();

@@ -57,7 +57,8 @@ TEST_CASE("every kind of new scene is written as it was made, in all of its geom
   CHECK(written == made);
 }
 
-TEST_CASE("every new scene is sound, needs no other file, and passes the check without a word where it is no space")
+TEST_CASE("every new scene is sound, needs no other file, and passes the check without a word where it is no space",
+          "[slow]")
 {
   for (const Choice& choice : all_scenes) {
     const auto checked = tamp::tools::read_scene(shipped(choice));
@@ -72,7 +73,7 @@ TEST_CASE("every new scene is sound, needs no other file, and passes the check w
   }
 }
 
-TEST_CASE("a new scene runs, and its history has the columns that the command names")
+TEST_CASE("a new scene runs, and its history has the columns that the command names", "[slow]")
 {
   const TemporaryFolder folder;
   for (const Choice& choice : all_scenes) {

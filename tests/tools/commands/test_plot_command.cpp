@@ -38,7 +38,8 @@ Outcome plot_in(const TemporaryFolder& folder, const std::string& arguments)
 
 }  // namespace
 
-TEST_CASE("a force over the depth of a run is drawn by one line, and of two runs with a test beside them by another")
+TEST_CASE("a force over the depth of a run is drawn by one line, and of two runs with a test beside them by another",
+          "[slow]")
 {
   const TemporaryFolder folder;
   sound_run(folder, "loose");
@@ -62,7 +63,7 @@ TEST_CASE("a force over the depth of a run is drawn by one line, and of two runs
   CHECK_THAT(read_text(folder.path() / "curve.png"), Catch::StartsWith("\x89PNG"));
 }
 
-TEST_CASE("a run that the program has made is plotted as it is, with what the machine took")
+TEST_CASE("a run that the program has made is plotted as it is, with what the machine took", "[slow]")
 {
   const TemporaryFolder folder;
   const std::string run = "run " + write_impact(folder).string() + " --steps 3 --threads 1 --quiet --out ";
@@ -78,7 +79,7 @@ TEST_CASE("a run that the program has made is plotted as it is, with what the ma
   CHECK(fs::exists(folder.path() / "wall-over-time.svg"));
 }
 
-TEST_CASE("a plot of what is not there ends with 2, and says where and what there is")
+TEST_CASE("a plot of what is not there ends with 2, and says where and what there is", "[slow]")
 {
   const TemporaryFolder folder;
   sound_run(folder);
@@ -117,7 +118,7 @@ TEST_CASE("a plot without a run or a column ends with 2 and names what is missin
   CHECK_THAT(tamp_with("help plot").out, Contains("Usage: tamp plot [OPTIONS] RUN... X Y\n"));
 }
 
-TEST_CASE("a measured CSV without units, or with others than the columns have, is refused by its line")
+TEST_CASE("a measured CSV without units, or with others than the columns have, is refused by its line", "[slow]")
 {
   const TemporaryFolder folder;
   sound_run(folder);
@@ -136,7 +137,8 @@ TEST_CASE("a measured CSV without units, or with others than the columns have, i
   CHECK_THAT(said_of("depth[mm],force[N]\n1,2\n1,x\n"), Catch::StartsWith("tamp: test.csv:3: \"x\""));
 }
 
-TEST_CASE("a damaged history ends a plot with 4 at its row, and one whose last line is cut off is drawn without it")
+TEST_CASE("a damaged history ends a plot with 4 at its row, and one whose last line is cut off is drawn without it",
+          "[slow]")
 {
   const TemporaryFolder folder;
   run_with(folder, "", "empty");
@@ -155,7 +157,7 @@ TEST_CASE("a damaged history ends a plot with 4 at its row, and one whose last l
   CHECK_THAT(read_text(folder.path() / "step-over-time.svg"), Contains("cut, 2 rows:"));
 }
 
-TEST_CASE("a plot replaces pictures alone, and none of the files that it reads")
+TEST_CASE("a plot replaces pictures alone, and none of the files that it reads", "[slow]")
 {
   const TemporaryFolder folder;
   sound_run(folder);

@@ -27,7 +27,7 @@ TEST_CASE("a profile that is damaged is reported with the key that it lacks")
         "tamp: " + file + ": is damaged: a value is not what it was written as; expected what a run has written\n");
 }
 
-TEST_CASE("a profile is shown by rank, by phase and by patch, and beside that of another run")
+TEST_CASE("a profile is shown by rank, by phase and by patch, and beside that of another run", "[slow]")
 {
   const TemporaryFolder folder;
   const std::string out = (folder.path() / "run").string();
@@ -113,7 +113,7 @@ TEST_CASE("lists of a profile that are none, or empty where no run leaves them s
   CHECK(tamp_with(command + view).exit_code == 4);
 }
 
-TEST_CASE("numbers of a profile that no run comes to are damage, whoever reads them")
+TEST_CASE("numbers of a profile that no run comes to are damage, whoever reads them", "[slow]")
 {
   const TemporaryFolder folder;
   const std::string out = (folder.path() / "run").string();
@@ -150,7 +150,7 @@ TEST_CASE("numbers of a profile that no run comes to are damage, whoever reads t
   damaged_with(instance / 3, 1e308);
 }
 
-TEST_CASE("a profile of a machine that was too busy, and runs that are unlike, are said to be so")
+TEST_CASE("a profile of a machine that was too busy, and runs that are unlike, are said to be so", "[slow]")
 {
   const TemporaryFolder folder;
   const std::string out = (folder.path() / "run").string(), other = (folder.path() / "other").string();
@@ -183,7 +183,7 @@ TEST_CASE("a profile of a machine that was too busy, and runs that are unlike, a
   CHECK_THAT(tamp_with(graph + " --format html").out, Catch::Contains("too busy with other programs"));
 }
 
-TEST_CASE("the page of a run says how it ended, how far to trust it, and where its time went")
+TEST_CASE("the page of a run says how it ended, how far to trust it, and where its time went", "[slow]")
 {
   const TemporaryFolder folder;
   const std::string out = (folder.path() / "run").string();
@@ -206,7 +206,7 @@ TEST_CASE("the page of a run says how it ended, how far to trust it, and where i
   CHECK_THAT(page, !Catch::Contains("https://"));
 }
 
-TEST_CASE("a page is not drawn of damaged files of a run, which are named")
+TEST_CASE("a page is not drawn of damaged files of a run, which are named", "[slow]")
 {
   const TemporaryFolder folder;
   const std::string out = (folder.path() / "run").string();
@@ -240,7 +240,7 @@ TEST_CASE("a page is not drawn of damaged files of a run, which are named")
   CHECK(tamp_with("profile " + out + " --format html").exit_code == 0);
 }
 
-TEST_CASE("the page of a run with damaged fields has no pictures, but all else and the reason")
+TEST_CASE("the page of a run with damaged fields has no pictures, but all else and the reason", "[slow]")
 {
   const TemporaryFolder folder;
   const std::string out = (folder.path() / "run").string();
@@ -255,7 +255,8 @@ TEST_CASE("the page of a run with damaged fields has no pictures, but all else a
   CHECK_THAT(page, Catch::Contains("Step size"));
 }
 
-TEST_CASE("the page of a run says what it cannot draw: a step where none was traced, particles without fields")
+TEST_CASE("the page of a run says what it cannot draw: a step where none was traced, particles without fields",
+          "[slow]")
 {
   const TemporaryFolder folder;
   const std::string out = (folder.path() / "run").string();

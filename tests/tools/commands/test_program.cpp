@@ -52,7 +52,7 @@ TEST_CASE("a command line that cannot be understood ends with 2 and says so on s
   }
 }
 
-TEST_CASE("a number out of its range is refused with the range in words")
+TEST_CASE("a number out of its range is refused with the range in words", "[slow]")
 {
   const std::vector<std::array<std::string, 2>> all{
       {"verify --jobs 0", "--jobs: 0; expected a whole number, at least 1"},
@@ -212,7 +212,7 @@ TEST_CASE("what the check says of the ball fits on a screen: its scene, bodies, 
   CHECK_THAT(outcome.out, !Catch::Contains("\"materials\""));
 }
 
-TEST_CASE("the check prints a scene as JSON alone, which runs and is resolved to itself, and warns on stderr")
+TEST_CASE("the check prints a scene as JSON alone, which runs and is resolved to itself, and warns on stderr", "[slow]")
 {
   const TemporaryFolder folder;
 

@@ -62,7 +62,7 @@ std::string straight_digest()
 
 }  // namespace
 
-TEST_CASE("a call that fails ends a run with 4 and the place, and its last checkpoint restarts")
+TEST_CASE("a call that fails ends a run with 4 and the place, and its last checkpoint restarts", "[slow]")
 {
   const Fault fault = GENERATE(
       Fault{"fwrite", 2, "history.csv", "history.csv: No space left"}, Fault{"fflush", 2, "history.csv", "history.csv"},
@@ -172,7 +172,7 @@ TEST_CASE("a run goes on while a checkpoint is written, and waits for it in the 
   CHECK(fs::exists(out / "checkpoints/step_00000008.h5"));
 }
 
-TEST_CASE("a signal that comes while a checkpoint is written leaves that one and its own")
+TEST_CASE("a signal that comes while a checkpoint is written leaves that one and its own", "[slow]")
 {
   const TemporaryFolder folder;
   const fs::path out = folder.path() / "run", part = out / "checkpoints/step_00000005.h5.part";

@@ -50,7 +50,7 @@ TEST_CASE("a disk that fills while a checkpoint is written ends the run with 4, 
   CHECK(digest_of(kept) == digest_of(folder.path() / "straight"));
 }
 
-TEST_CASE("a run whose disk is full leaves a summary that says so, whatever finds it full")
+TEST_CASE("a run whose disk is full leaves a summary that says so, whatever finds it full", "[slow]")
 {
   // Room for the first fields (0.7 MB). What follows are fields, or checkpoints, or rows to the last byte.
   const auto [options, name] = GENERATE(table<std::string, std::string>(

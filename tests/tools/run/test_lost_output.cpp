@@ -8,7 +8,7 @@ namespace test_lost_output
 
 using namespace tamp::test;
 
-TEST_CASE("a run whose table or fields are gone at its end says so, ends with 4, and has its summary")
+TEST_CASE("a run whose table or fields are gone at its end says so, ends with 4, and has its summary", "[slow]")
 {
   const auto [name, harm, found] =
       GENERATE(table<std::string, std::string, std::string>({{"history.csv", "rm", "was removed"},

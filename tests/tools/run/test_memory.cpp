@@ -9,7 +9,7 @@ namespace test_memory
 
 using namespace tamp::test;
 
-TEST_CASE("what is forecast of memory, what the ledger knows of and what a process grows by agree")
+TEST_CASE("what is forecast of memory, what the ledger knows of and what a process grows by agree", "[slow]")
 {
   const TemporaryFolder folder;
   const std::string run = (folder.path() / "run").string();

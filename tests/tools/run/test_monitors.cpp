@@ -19,7 +19,7 @@ const std::string punch = TAMP_SOURCE_DIR "/inputs/punch/quick.json --quiet --st
 
 }  // namespace
 
-TEST_CASE("each monitor warns beyond the limit that the scene sets, and --strict ends with 3")
+TEST_CASE("each monitor warns beyond the limit that the scene sets, and --strict ends with 3", "[slow]")
 {
   const std::string name =
       GENERATE("looser_than_tested", "filtered_energy", "energy_drift", "null_space", "uneven_pressure");
@@ -42,7 +42,8 @@ TEST_CASE("each monitor warns beyond the limit that the scene sets, and --strict
   CHECK(strict.outcome.exit_code == 3);
 }
 
-TEST_CASE("sand that has dilated is told as looser than tested, and crushed sand as beyond the largest strain")
+TEST_CASE("sand that has dilated is told as looser than tested, and crushed sand as beyond the largest strain",
+          "[slow]")
 {
   const std::string limits = " --set /limits/looser_than_tested=0.005 --set /limits/out_of_range=0.005";
   const Run loose = run_with(punch + limits),
@@ -154,7 +155,7 @@ TEST_CASE("the monitor that is furthest beyond its limit comes first")
   CHECK(n_warning == n_warnings);
 }
 
-TEST_CASE("what samples and rows of the history saw goes on after a restart")
+TEST_CASE("what samples and rows of the history saw goes on after a restart", "[slow]")
 {
   const TemporaryFolder folder;
   const auto straight = folder.path() / "straight", halves = folder.path() / "halves";

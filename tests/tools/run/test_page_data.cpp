@@ -97,7 +97,8 @@ TEST_CASE("in space the plane of symmetry is shown on which a body moves or is d
   CHECK(at(first, "materials", 3, 1) == 1);
 }
 
-TEST_CASE("a run without fields has no pictures, and one with a damaged file of fields has the reason in their place")
+TEST_CASE("a run without fields has no pictures, and one with a damaged file of fields has the reason in their place",
+          "[slow]")
 {
   const TemporaryFolder folder;
   const fs::path run = run_of(folder, TAMP_SOURCE_DIR "/inputs/punch/quick.json --steps 2");
@@ -114,7 +115,7 @@ TEST_CASE("a run without fields has no pictures, and one with a damaged file of 
   CHECK_THAT(page["no_pictures"].get<std::string>(), Catch::Contains("fields.h5: cannot"));
 }
 
-TEST_CASE("a damaged scene of a run is refused by its name")
+TEST_CASE("a damaged scene of a run is refused by its name", "[slow]")
 {
   const TemporaryFolder folder;
   const fs::path run = run_of(folder, TAMP_SOURCE_DIR "/inputs/punch/quick.json --steps 2");
@@ -124,7 +125,7 @@ TEST_CASE("a damaged scene of a run is refused by its name")
   CHECK_THROWS_WITH(page_of(run), Catch::Contains("scene.json: is damaged"));
 }
 
-TEST_CASE("a scene of a run whose domain or cells cannot be is refused by its name")
+TEST_CASE("a scene of a run whose domain or cells cannot be is refused by its name", "[slow]")
 {
   const TemporaryFolder folder;
   const fs::path run = run_of(folder, TAMP_SOURCE_DIR "/inputs/punch/quick.json --steps 2");

@@ -43,7 +43,7 @@ void put_pipe(const fs::path& file)
 
 }  // namespace
 
-TEST_CASE("a run does not go on where a pipe stands for one of its files, and names it")
+TEST_CASE("a run does not go on where a pipe stands for one of its files, and names it", "[slow]")
 {
   const std::string name = GENERATE("history.csv", "machine.csv", "fields.h5", "fields.xdmf", "summary.json",
                                     "profile.json", "trace.json", "scene.json", "summary.json.part", ".tamp-run");
@@ -79,7 +79,7 @@ TEST_CASE("a pipe that stands for the newest checkpoint is passed over, and refu
   CHECK(tamp_in_a_minute(restart).exit_code == 0);
 }
 
-TEST_CASE("a pipe that comes to stand for a file of a run while it goes on ends it with 4")
+TEST_CASE("a pipe that comes to stand for a file of a run while it goes on ends it with 4", "[slow]")
 {
   const std::string name = GENERATE("fields.h5", "fields.xdmf", "summary.json");
   const TemporaryFolder folder;
@@ -99,7 +99,7 @@ TEST_CASE("a pipe that comes to stand for a file of a run while it goes on ends 
   CHECK_THAT(outcome.err, Catch::Contains(name + ": a pipe, a device or a socket; expected a file"));
 }
 
-TEST_CASE("a page is not drawn from a pipe or into one")
+TEST_CASE("a page is not drawn from a pipe or into one", "[slow]")
 {
   const std::string name = GENERATE("fields.h5", "report.html", "page.json", "summary.json", "profile.json");
   const TemporaryFolder folder;

@@ -23,7 +23,8 @@ nlohmann::json summary_of(const std::filesystem::path& run)
 
 }  // namespace
 
-TEST_CASE("a run tries a step that goes wrong again, and ends with 3 and a checkpoint that goes on where it may not")
+TEST_CASE("a run tries a step that goes wrong again, and ends with 3 and a checkpoint that goes on where it may not",
+          "[slow]")
 {
   const TemporaryFolder folder;
   const auto redone = folder.path() / "redone", rescued = folder.path() / "rescued";

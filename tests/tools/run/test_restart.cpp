@@ -129,7 +129,7 @@ TEST_CASE("a run that goes on, on other ranks and threads, ends with the bits of
   CHECK(read_text(run / "history.csv") == straight().history);
 }
 
-TEST_CASE("a run that was begun with an old word goes on under the new one")
+TEST_CASE("a run that was begun with an old word goes on under the new one", "[slow]")
 {
   const TemporaryFolder folder;
   const fs::path run = folder.path() / "run";
@@ -279,7 +279,7 @@ TEST_CASE("a checkpoint of a version that kept other things of the run is refuse
   CHECK_THAT(outcome.err, Catch::Contains("step_00000000.h5: a checkpoint of another version of tamp"));
 }
 
-TEST_CASE("a damaged checkpoint is refused with its reason, and the one before is used")
+TEST_CASE("a damaged checkpoint is refused with its reason, and the one before is used", "[slow]")
 {
   const TemporaryFolder folder;
   const auto run = folder.path() / "run";
@@ -308,7 +308,7 @@ TEST_CASE("a run of which no checkpoint can be read is damaged, and ends with 4"
   CHECK_THAT(outcome.err, Catch::Contains("checksum") && Catch::Contains("none of its checkpoints can be read"));
 }
 
-TEST_CASE("a folder without a whole checkpoint, or of another scene, cannot be gone on with")
+TEST_CASE("a folder without a whole checkpoint, or of another scene, cannot be gone on with", "[slow]")
 {
   const TemporaryFolder folder;
   const auto run = folder.path() / "run";
@@ -391,7 +391,7 @@ TEST_CASE("a run does not go on with data that have changed, and names the file;
   CHECK(names_table);
 }
 
-TEST_CASE("a run that goes on tells what is missing of its history and fields, and keeps the rest")
+TEST_CASE("a run that goes on tells what is missing of its history and fields, and keeps the rest", "[slow]")
 {
   const TemporaryFolder folder;
   const auto run = folder.path() / "run";
@@ -436,7 +436,7 @@ TEST_CASE("a run that goes on tells what is missing of its history and fields, a
   }
 }
 
-TEST_CASE("signals have a run keep its state and leave with 128 and their number")
+TEST_CASE("signals have a run keep its state and leave with 128 and their number", "[slow]")
 {
   const int signal = GENERATE(SIGTERM, SIGINT, SIGHUP, SIGXCPU);
   const TemporaryFolder folder;

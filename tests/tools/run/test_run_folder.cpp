@@ -110,7 +110,7 @@ TEST_CASE("a folder is free where another program has only just looked at its lo
   CHECK_THROWS_WITH(use(folder.write("other/.run.locks", "").parent_path(), begin), Catch::Contains("is not empty"));
 }
 
-TEST_CASE("a folder in use is refused, whatever it is wanted for")
+TEST_CASE("a folder in use is refused, whatever it is wanted for", "[slow]")
 {
   const auto purpose = GENERATE(begin, replace, go_on);
   const TemporaryFolder folder;

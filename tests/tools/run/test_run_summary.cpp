@@ -93,7 +93,7 @@ TEST_CASE("particle updates a second are those that were made in the time of the
   rate_from(summary_of(out)["restarted_at_step"].get<long>());
 }
 
-TEST_CASE("a run that goes on knows the greatest of the rows before")
+TEST_CASE("a run that goes on knows the greatest of the rows before", "[slow]")
 {
   const TemporaryFolder folder;
   const std::string scene = folder.write("thrown.json", thrown).string();
@@ -155,7 +155,7 @@ TEST_CASE("a run that is rigid has no particle that sets its time step")
   CHECK(steps["set_by"]["maximum_step"].get<long>() > 100);
 }
 
-TEST_CASE("a run that goes on knows what set the steps before")
+TEST_CASE("a run that goes on knows what set the steps before", "[slow]")
 {
   const TemporaryFolder folder;
   const std::string scene = folder.write("blocks.json", two_blocks).string();

@@ -51,7 +51,7 @@ TEST_CASE(
              Catch::Contains(fmt::format("{:.3g} times the", wrong.summary["energy_error"].get<double>())));
 }
 
-TEST_CASE("a comparison judges the energy of every step too")
+TEST_CASE("a comparison judges the energy of every step too", "[slow]")
 {
   const TemporaryFolder folder;
 
@@ -97,7 +97,7 @@ TEST_CASE("free fall from rest, whose first velocities are half a step late, has
   CHECK(outcome.exit_code == 0);
 }
 
-TEST_CASE("what is hardly ever meant is warned of")
+TEST_CASE("what is hardly ever meant is warned of", "[slow]")
 {
   const TemporaryFolder folder;
   const auto mega = folder.write("yield.csv", "pressure[Pa],sqrt_J2[Pa]\n-0.001,0\n100,50\n");
@@ -116,7 +116,8 @@ TEST_CASE("what is hardly ever meant is warned of")
   CHECK_FALSE(warns(as_tested, ""));
 }
 
-TEST_CASE("the check says on how many cells a body goes into another one, and the run warns where they are few")
+TEST_CASE("the check says on how many cells a body goes into another one, and the run warns where they are few",
+          "[slow]")
 {
   const Outcome as_shipped = tamp_with("check " + punch);
   const Run coarse = run_with(quiet_punch + "--steps 1 --set /grid/cell_size=0.05");
@@ -127,7 +128,7 @@ TEST_CASE("the check says on how many cells a body goes into another one, and th
   CHECK_THAT(coarse.summary["warnings"][0].get<std::string>(), Catch::Contains("into sand is 3 cells"));
 }
 
-TEST_CASE("a run whose substeps miss their tolerance ends with a warning that says how many do")
+TEST_CASE("a run whose substeps miss their tolerance ends with a warning that says how many do", "[slow]")
 {
   const std::string rough = "--steps 200 --set /materials/sand/tolerance=1e-9 --set /materials/sand/max_substeps=1";
 
@@ -169,7 +170,7 @@ TEST_CASE("soil in kPa, radians and t/m3 is warned of, number by number")
              Catch::Contains("/bodies/soil/pressure: 1e+09 Pa from the start is 15 times the stiffness of soil"));
 }
 
-TEST_CASE("the check warns of contact ahead of touch, and of tips that hold no particle")
+TEST_CASE("the check warns of contact ahead of touch, and of tips that hold no particle", "[slow]")
 {
   const auto checked = [](const std::string& assignments) {
     return tamp_with("check " TAMP_SOURCE_DIR "/inputs/cone/quick.json" + assignments).out;
@@ -206,7 +207,7 @@ TEST_CASE("the check warns of bodies that come to a wall which is touched at its
   CHECK_THAT(checked(" --set /bodies/ball/velocity='[-2,0]'"), Catch::Contains("/boundaries/x-: ball comes"));
 }
 
-TEST_CASE("the check says how a ball gets the mass that it should have")
+TEST_CASE("the check says how a ball gets the mass that it should have", "[slow]")
 {
   const std::string ball = "check " TAMP_SOURCE_DIR "/inputs/savings/ball.json";
   const std::string in_lattice = tamp_with(ball).out,
@@ -226,7 +227,8 @@ TEST_CASE("the check says how a cone gets the mass that it should have")
   CHECK_THAT(tamp_with(rod + " --set /bodies/rod/particles=cut").out, !Catch::Contains("of its mass"));
 }
 
-TEST_CASE("a sand that is taken for another one than was tested is warned of by the check, and not by the run")
+TEST_CASE("a sand that is taken for another one than was tested is warned of by the check, and not by the run",
+          "[slow]")
 {
   CHECK(warns("/materials/sand/density=1700",
               "strains that were measured as engineering ones are read as logarithmic; in "

@@ -24,7 +24,8 @@ const char* const path = "time,F11,F12,F13,F21,F22,F23,F31,F32,F33\n0,1,0,0,0,1,
 
 }  // namespace
 
-TEST_CASE("an output that is one of the inputs, under any of its names, is refused, and the input is left as it was")
+TEST_CASE("an output that is one of the inputs, under any of its names, is refused, and the input is left as it was",
+          "[slow]")
 {
   const TemporaryFolder folder;
   fs::copy(sand, folder.path() / "sand");
@@ -103,7 +104,7 @@ TEST_CASE("a device that is written to stays one")
   CHECK(fs::is_character_file(link));
 }
 
-TEST_CASE("what a run has left is not replaced by what is drawn from it")
+TEST_CASE("what a run has left is not replaced by what is drawn from it", "[slow]")
 {
   const TemporaryFolder folder;
   const fs::path run = folder.path() / "run", page = run / "report.html";

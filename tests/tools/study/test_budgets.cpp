@@ -99,7 +99,7 @@ TEST_CASE("solids without number are refused")
   }
 }
 
-TEST_CASE("support vectors without number are refused")
+TEST_CASE("support vectors without number are refused", "[slow]")
 {
   const TemporaryFolder folder;
   const auto file = folder.write("svr.json", R"({"support_vectors": [)" + repeated("[0,0],", 1'000'000) + "[0,0]]}");

@@ -139,7 +139,8 @@ void a_list(const std::filesystem::path& file)
 
 }  // namespace
 
-TEST_CASE("a rehearsal runs every point for a few steps, fails for no reference, and is not taken for a whole result")
+TEST_CASE("a rehearsal runs every point for a few steps, fails for no reference, and is not taken for a whole result",
+          "[slow]")
 {
   const FlightStudy study;
   const std::string with_reference = R"({
@@ -157,7 +158,7 @@ TEST_CASE("a rehearsal runs every point for a few steps, fails for no reference,
   CHECK(study.run("{}", "--steps 0").exit_code == 2);
 }
 
-TEST_CASE("a study measures its points, and their errors against the exact answer")
+TEST_CASE("a study measures its points, and their errors against the exact answer", "[slow]")
 {
   const FlightStudy study;
 
@@ -197,7 +198,7 @@ TEST_CASE("numbers are taken of the particles' fields")
   CHECK(values["density"].get<double>() == Approx(100 * std::sqrt(mean_square)));
 }
 
-TEST_CASE("what was expected is judged, told and written, and a study that misses it is done")
+TEST_CASE("what was expected is judged, told and written, and a study that misses it is done", "[slow]")
 {
   const FlightStudy study;
   const std::string patch = R"({"expect": [
@@ -216,7 +217,7 @@ TEST_CASE("what was expected is judged, told and written, and a study that misse
   CHECK_THAT(read_text(study.out() / "index.html"), Contains("1 of 2 do not hold"));
 }
 
-TEST_CASE("points of a study with an old word are those with the new one, and the word is noted once")
+TEST_CASE("points of a study with an old word are those with the new one, and the word is noted once", "[slow]")
 {
   const FlightStudy study;
   const auto with = [](const std::string& transfer) {
@@ -235,7 +236,7 @@ TEST_CASE("points of a study with an old word are those with the new one, and th
   }
 }
 
-TEST_CASE("a study that has all its results runs nothing, and writes the same again")
+TEST_CASE("a study that has all its results runs nothing, and writes the same again", "[slow]")
 {
   const FlightStudy study;
   REQUIRE(study.run().exit_code == 0);
@@ -251,7 +252,7 @@ TEST_CASE("a study that has all its results runs nothing, and writes the same ag
   }
 }
 
-TEST_CASE("what a file holds decides whether a result is still one")
+TEST_CASE("what a file holds decides whether a result is still one", "[slow]")
 {
   const FlightStudy study;
   REQUIRE(study.run().exit_code == 0);
@@ -264,7 +265,7 @@ TEST_CASE("what a file holds decides whether a result is still one")
   CHECK(study.results()["points"][0]["values"]["depth"].get<double>() == Approx(0.05).epsilon(1e-9));
 }
 
-TEST_CASE("points that become unstable, take too long or are refused are there with their reasons")
+TEST_CASE("points that become unstable, take too long or are refused are there with their reasons", "[slow]")
 {
   const FlightStudy study;
 
@@ -307,7 +308,7 @@ TEST_CASE("a study in which no point ran ends with 2, and says why on stderr, ea
   }
 }
 
-TEST_CASE("points far slower than the fastest end at its limit, and stay ended")
+TEST_CASE("points far slower than the fastest end at its limit, and stay ended", "[slow]")
 {
   const FlightStudy study;
   const std::string patch = R"({
@@ -337,7 +338,7 @@ TEST_CASE("a study runs within a limit of processor time that it was started wit
   CHECK(study.results()["points"][0]["ended"] == "done");
 }
 
-TEST_CASE("a slow point that was done stays done however its later timings end")
+TEST_CASE("a slow point that was done stays done however its later timings end", "[slow]")
 {
   const FlightStudy study;
   const std::string patch = R"({
@@ -368,7 +369,7 @@ TEST_CASE("a run that somebody kills is no result")
   CHECK(study.n_kept() == 0);
 }
 
-TEST_CASE("a kept point whose files are not what was written is run again, and told of once")
+TEST_CASE("a kept point whose files are not what was written is run again, and told of once", "[slow]")
 {
   const FlightStudy study;
   // Its points are one, so that one is reported.
@@ -406,7 +407,7 @@ TEST_CASE("a kept point whose files are not what was written is run again, and t
   CHECK(study.run(patch).err.empty());
 }
 
-TEST_CASE("what stands in the way of kept points goes")
+TEST_CASE("what stands in the way of kept points goes", "[slow]")
 {
   const FlightStudy study;
   REQUIRE(study.run().exit_code == 0);
@@ -421,7 +422,7 @@ TEST_CASE("what stands in the way of kept points goes")
   CHECK(study.n_kept() == 3);
 }
 
-TEST_CASE("a kept point under another one's name is run again")
+TEST_CASE("a kept point under another one's name is run again", "[slow]")
 {
   const FlightStudy study;
   REQUIRE(study.run().exit_code == 0);
@@ -438,7 +439,7 @@ TEST_CASE("a kept point under another one's name is run again")
         Json::parse(read_text(aside / "summary.json"))["steps"]);
 }
 
-TEST_CASE("a study that is killed goes on where it was")
+TEST_CASE("a study that is killed goes on where it was", "[slow]")
 {
   const FlightStudy study;
   const std::string patch = R"({"sweep": {"/grid/cell_size": [0.2, 0.1, 0.05, 0.04, 0.025, 0.02, 0.0125]}})";
@@ -477,7 +478,7 @@ TEST_CASE("a study that is asked to stop ends the run under way, and says so")
   CHECK_FALSE(is_running(child));
 }
 
-TEST_CASE("results of another program are refused, and removed only when asked")
+TEST_CASE("results of another program are refused, and removed only when asked", "[slow]")
 {
   const FlightStudy study;
   REQUIRE(study.run().exit_code == 0);
@@ -496,7 +497,7 @@ TEST_CASE("results of another program are refused, and removed only when asked")
   CHECK_FALSE(std::filesystem::exists(study.out() / "points" / "old"));
 }
 
-TEST_CASE("paths that are no UTF-8 are reported in JSON with a mark, and are no settings")
+TEST_CASE("paths that are no UTF-8 are reported in JSON with a mark, and are no settings", "[slow]")
 {
   const FlightStudy study;
   const std::string odd = (study.path() / "odd\xff").string(), file = odd + "/st\xfe.json";
@@ -520,7 +521,7 @@ TEST_CASE("paths that are no UTF-8 are reported in JSON with a mark, and are no 
   CHECK_THAT(set.err, Contains("expected a path that is UTF-8"));
 }
 
-TEST_CASE("a mark that says nothing, or something else, is another program's")
+TEST_CASE("a mark that says nothing, or something else, is another program's", "[slow]")
 {
   const FlightStudy study;
   REQUIRE(study.run().exit_code == 0);
@@ -561,7 +562,7 @@ TEST_CASE("results that cannot be written are refused before anything runs")
   CHECK(study.n_kept() == 0);
 }
 
-TEST_CASE("a pointer to nothing ends a study before anything runs")
+TEST_CASE("a pointer to nothing ends a study before anything runs", "[slow]")
 {
   const FlightStudy study;
   const Outcome misspelt = study.run(R"({"sweep": {"/grid/cel_size": [0.1]}})");
@@ -590,7 +591,7 @@ TEST_CASE("a column that the runs do not have ends a study after the first of th
   CHECK_THAT(outcome.err, Contains("there is no column \"sand.q_max[Pa]\"") && Contains("block.depth[m]"));
 }
 
-TEST_CASE("a reference that fails ends a study with 3, after all it has found is written")
+TEST_CASE("a reference that fails ends a study with 3, after all it has found is written", "[slow]")
 {
   const FlightStudy study;
   const Outcome outcome = study.run(R"({
@@ -617,7 +618,7 @@ TEST_CASE("a reference that would be refused ends a study before anything runs")
   CHECK(study.n_kept() == 0);
 }
 
-TEST_CASE("a result that is a link to what the study reads, or to another result, is refused, and both stay")
+TEST_CASE("a result that is a link to what the study reads, or to another result, is refused, and both stay", "[slow]")
 {
   const FlightStudy study;
   REQUIRE(study.run().exit_code == 0);
@@ -636,7 +637,7 @@ TEST_CASE("a result that is a link to what the study reads, or to another result
   CHECK(read_text(link) == before);
 }
 
-TEST_CASE("a pipe in the place of a result of a study is refused before anything runs")
+TEST_CASE("a pipe in the place of a result of a study is refused before anything runs", "[slow]")
 {
   const FlightStudy study;
   REQUIRE(study.run().exit_code == 0);

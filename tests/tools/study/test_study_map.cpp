@@ -98,7 +98,7 @@ TEST_CASE("a run that is done without a finite answer is blown")
   CHECK(map_of(study, points, findings)[0].cells[0].verdict == MapVerdict::blown);
 }
 
-TEST_CASE("a study with a map writes it with the command of each run")
+TEST_CASE("a study with a map writes it with the command of each run", "[slow]")
 {
   const TemporaryFolder folder;
 

@@ -9,7 +9,7 @@ namespace test_console
 
 using namespace tamp::test;
 
-TEST_CASE("a run goes on when nobody listens")
+TEST_CASE("a run goes on when nobody listens", "[slow]")
 {
   const std::string closed = GENERATE(as<std::string>(), ">&-", ">&- 2>&-", "<&- >&- 2>&-", "| true");
   const TemporaryFolder folder;
@@ -32,7 +32,7 @@ TEST_CASE("an error that cannot be told ends a command as one that can")
   CHECK(outcome_of("sh -c '" TAMP_PROGRAM " check " + scene + " --set /time/end=0 2>/dev/full'").exit_code == 2);
 }
 
-TEST_CASE("a command that prints ends quietly when its reader has gone, and with 4 when stdout is full")
+TEST_CASE("a command that prints ends quietly when its reader has gone, and with 4 when stdout is full", "[slow]")
 {
   const TemporaryFolder folder;
   const std::string scene = folder.write("small.json", small_scene).string(), code = folder.path().string() + "/code";

@@ -216,7 +216,7 @@ TEST_CASE("drive refuses rounds of a timing that is not asked for, and ends with
   CHECK(tamp_with(line + " --summary /no/such/folder/summary.json").exit_code == 4);
 }
 
-TEST_CASE("drive draws the curves of a test into a page that holds its rows, and writes the same CSV")
+TEST_CASE("drive draws the curves of a test into a page that holds its rows, and writes the same CSV", "[slow]")
 {
   const TemporaryFolder folder;
   const std::string line = "drive " + sand + " --test triaxial --strain 0.01";

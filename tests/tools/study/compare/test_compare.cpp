@@ -32,7 +32,7 @@ Outcome compare_with(const test::TemporaryFolder& folder, const std::string& arg
 
 }  // namespace
 
-TEST_CASE("a comparison writes its table, its figures and its page")
+TEST_CASE("a comparison writes its table, its figures and its page", "[slow]")
 {
   const test::TemporaryFolder folder;
   const auto scene = test::write_impact(folder);
@@ -60,7 +60,8 @@ TEST_CASE("a comparison writes its table, its figures and its page")
   CHECK_FALSE(std::filesystem::exists(out / "table/alone"));
 }
 
-TEST_CASE("a comparison of several models has the first of them on cells twice as large, unless that is not wanted")
+TEST_CASE("a comparison of several models has the first of them on cells twice as large, unless that is not wanted",
+          "[slow]")
 {
   const test::TemporaryFolder folder;
   const auto scene = test::write_impact(folder);
@@ -76,7 +77,7 @@ TEST_CASE("a comparison of several models has the first of them on cells twice a
   CHECK(Json::parse(test::read_text(without / "compare.json"))["coarser"].is_null());
 }
 
-TEST_CASE("a comparison's page needs no other file and no network")
+TEST_CASE("a comparison's page needs no other file and no network", "[slow]")
 {
   const test::TemporaryFolder folder;
   const auto out = folder.path() / "out";
@@ -150,7 +151,7 @@ TEST_CASE("a scene without sand cannot be compared")
   CHECK(compare_with(folder, scene.string() + " --models table").exit_code == 2);
 }
 
-TEST_CASE("a comparison's folder that is not empty is refused unless force is given")
+TEST_CASE("a comparison's folder that is not empty is refused unless force is given", "[slow]")
 {
   const test::TemporaryFolder folder;
   const auto scene = test::write_impact(folder);

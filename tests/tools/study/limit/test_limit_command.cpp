@@ -68,7 +68,7 @@ class LimitFolder
 
 }  // namespace
 
-TEST_CASE("a scene has the step at which it stops being stable, and how far it is from that as written")
+TEST_CASE("a scene has the step at which it stops being stable, and how far it is from that as written", "[slow]")
 {
   const LimitFolder folder;
 
@@ -91,7 +91,7 @@ TEST_CASE("a scene has the step at which it stops being stable, and how far it i
   CHECK_THAT(read_text(folder.out() / "limit.csv"), Contains("method,written,written_is,last_stable,first_unstable"));
 }
 
-TEST_CASE("a closer bound on the energy is a lower limit")
+TEST_CASE("a closer bound on the energy is a lower limit", "[slow]")
 {
   const LimitFolder folder;
   REQUIRE(folder.run("bar.json", "--limit /time/multiplier --quiet").exit_code == 0);
@@ -110,7 +110,7 @@ TEST_CASE("a closer bound on the energy is a lower limit")
   }
 }
 
-TEST_CASE("each method of a study has a limit, with the first values of its sweep and by its own quantity")
+TEST_CASE("each method of a study has a limit, with the first values of its sweep and by its own quantity", "[slow]")
 {
   const LimitFolder folder;
   folder.write_study(R"({"sweep": {"/time/multiplier": null},
@@ -132,7 +132,8 @@ TEST_CASE("each method of a study has a limit, with the first values of its swee
   }
 }
 
-TEST_CASE("methods that sweep the setting have a limit for each of their other combinations, and others have none")
+TEST_CASE("methods that sweep the setting have a limit for each of their other combinations, and others have none",
+          "[slow]")
 {
   const LimitFolder folder;
   folder.write_study(R"({"methods": [{"name": "gimp"}, {"name": "other", "sweep": {"/transfer": ["flip", "pic"]}}]})");
@@ -148,7 +149,7 @@ TEST_CASE("methods that sweep the setting have a limit for each of their other c
   CHECK(methods[0]["written"] == 0.2);
 }
 
-TEST_CASE("the runs of a limit are kept, and it is found again without them")
+TEST_CASE("the runs of a limit are kept, and it is found again without them", "[slow]")
 {
   const LimitFolder folder;
   REQUIRE(folder.run("bar.json", "--limit /time/multiplier --quiet").exit_code == 0);

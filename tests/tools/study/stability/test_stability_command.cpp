@@ -62,7 +62,7 @@ class Entries
 
 }  // namespace
 
-TEST_CASE("an entry that fails and survives as told ends with 0, and prints the table that is written")
+TEST_CASE("an entry that fails and survives as told ends with 0, and prints the table that is written", "[slow]")
 {
   const Entries entries;
 
@@ -88,7 +88,7 @@ TEST_CASE("an entry that fails and survives as told ends with 0, and prints the 
   CHECK(list[0]["survived"] == true);
 }
 
-TEST_CASE("a run that becomes unstable has failed as told")
+TEST_CASE("a run that becomes unstable has failed as told", "[slow]")
 {
   const Entries entries;
 
@@ -99,7 +99,7 @@ TEST_CASE("a run that becomes unstable has failed as told")
   CHECK_THAT(outcome.out, Contains("| shaken | shaken | unstable |"));
 }
 
-TEST_CASE("an entry that does not fail and survive as told ends with 3, after all are written")
+TEST_CASE("an entry that does not fail and survive as told ends with 3, after all are written", "[slow]")
 {
   const Entries entries;
 
@@ -137,7 +137,7 @@ TEST_CASE("a name that is no entry's is refused, with what was meant")
   CHECK_THAT(outcome.err, Contains("damepd: no study of inputs/stability; did you mean damped?"));
 }
 
-TEST_CASE("FLIP's noise in the null space is among the shipped failures, and fails and survives as told")
+TEST_CASE("FLIP's noise in the null space is among the shipped failures, and fails and survives as told", "[slow]")
 {
   const TemporaryFolder folder;
 

@@ -71,7 +71,7 @@ class Studies
 
 }  // namespace
 
-TEST_CASE("a verification whose expectations hold ends with 0, and prints the table that it writes")
+TEST_CASE("a verification whose expectations hold ends with 0, and prints the table that it writes", "[slow]")
 {
   const Studies studies;
 
@@ -87,7 +87,7 @@ TEST_CASE("a verification whose expectations hold ends with 0, and prints the ta
   CHECK(results["studies"][0]["points"].size() == 3);
 }
 
-TEST_CASE("a verification writes a list of problems and methods where it is asked to")
+TEST_CASE("a verification writes a list of problems and methods where it is asked to", "[slow]")
 {
   const Studies studies;
 
@@ -105,7 +105,7 @@ TEST_CASE("a verification writes a list of problems and methods where it is aske
   CHECK(studies.verify("sound --json inputs/verification/sound.json").exit_code == 2);
 }
 
-TEST_CASE("tamp bench verify is tamp verify, and says so")
+TEST_CASE("tamp bench verify is tamp verify, and says so", "[slow]")
 {
   const Studies studies;
 
@@ -115,7 +115,7 @@ TEST_CASE("tamp bench verify is tamp verify, and says so")
   CHECK(outcome.err == "tamp bench verify is now tamp verify\n");
 }
 
-TEST_CASE("a verification with an expectation that does not hold runs all studies, and ends with 3")
+TEST_CASE("a verification with an expectation that does not hold runs all studies, and ends with 3", "[slow]")
 {
   const Studies studies;
 
@@ -130,7 +130,7 @@ TEST_CASE("a verification with an expectation that does not hold runs all studie
   CHECK(studies.results()["studies"][0]["points"].size() == 1);
 }
 
-TEST_CASE("a verification that misses what is known to be missed ends with 0, and says why it is")
+TEST_CASE("a verification that misses what is known to be missed ends with 0, and says why it is", "[slow]")
 {
   const Studies studies;
 
@@ -148,7 +148,7 @@ TEST_CASE("a verification that misses what is known to be missed ends with 0, an
              Contains("of 2 expectations 1 are known to be missed, 0 of them hold; 0 of the others do not"));
 }
 
-TEST_CASE("a verification in which something holds that is known to be missed ends with 0, and says so")
+TEST_CASE("a verification in which something holds that is known to be missed ends with 0, and says so", "[slow]")
 {
   const Studies studies;
 
@@ -174,7 +174,7 @@ TEST_CASE("a verification that is asked to stop ends the studies under way, and 
   for (const pid_t child : children) CHECK_FALSE(is_running(child));
 }
 
-TEST_CASE("a study that is named twice runs once")
+TEST_CASE("a study that is named twice runs once", "[slow]")
 {
   const Studies studies;
 
