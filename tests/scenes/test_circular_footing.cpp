@@ -54,7 +54,7 @@ Pressed pressed(const std::string& anti_locking, double cell_size)
 }  // namespace
 
 TEST_CASE("a circular footing bears about what limit analysis says with cell averages, too much without",
-          "[scenes][slow]")
+          "[scenes][slow][pinned]")
 {
   const Pressed coarse = pressed("cell_average", 0.1), fine = pressed("cell_average", 0.05),
                 plain = pressed("none", 0.05);
@@ -62,6 +62,7 @@ TEST_CASE("a circular footing bears about what limit analysis says with cell ave
   CAPTURE(least_load, greatest_load, coarse.load, fine.load, plain.load, coarse.energy_error, fine.energy_error,
           plain.energy_error);
   if (is_rehearsal) return;
+  // How far the loads themselves are off is pinned from results/verification/tests_of_axisymmetry.csv.
   CHECK(plain.load > 1.1 * greatest_load);
   CHECK(fine.load < 1.05 * greatest_load);
   CHECK(fine.load < coarse.load);

@@ -15,7 +15,7 @@ using namespace tamp::test;
 namespace
 {
 
-// Made by tools/python/tamp digests --write.
+// Pinned by tools/python/tamp digests --write: a digest has no answer beside the program's.
 nlohmann::json committed_digests()
 {
   return nlohmann::json::parse(std::ifstream(TAMP_SOURCE_DIR "/tests/scenes/digests.json"));
@@ -44,12 +44,12 @@ void check_all_digests()
 }  // namespace
 
 TEST_CASE("every shipped scene ends with its committed digest, whatever the processor and the compiler",
-          "[scenes][slow]")
+          "[scenes][slow][pinned]")
 {
   check_all_digests();
 }
 
-TEST_CASE("digests do not depend on which functions the C library chooses for the processor", "[scenes][slow]")
+TEST_CASE("digests do not depend on which functions the C library chooses for the processor", "[scenes][slow][pinned]")
 {
   setenv("GLIBC_TUNABLES", "glibc.cpu.hwcaps=-FMA,-AVX2", 1);
 

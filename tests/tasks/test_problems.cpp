@@ -60,14 +60,15 @@ constexpr double half_period = 0.01;
 }  // namespace
 
 TEST_CASE("the error against the axis-aligned solution is of second order in the cell size where strains are small",
-          "[slow]")
+          "[slow][pinned]")
 {
   struct Block {
     int dimension, n_axes;
     Interpolator interpolator;
     Transfer transfer;
     std::vector<int> n_cells;
-    /// Bounds of the coarsest block's error, relative to the amplitude.
+    /// Bounds of the coarsest block's error, relative to the amplitude: pinned just above what the program gave
+    /// (results/verification/axis_aligned_quick.csv). The order is held against theory.
     WorstError bound;
   };
   const auto block =
@@ -98,13 +99,14 @@ TEST_CASE("the error against the axis-aligned solution is of second order in the
   }
 }
 
-TEST_CASE("at strains of 16 % particles of constant size keep the error from falling with its second order")
+TEST_CASE("at strains of 16 % particles of constant size keep the error from falling with its second order", "[pinned]")
 {
   // They overlap and leave gaps where the block is strained.
   std::vector<WorstError> errors;
   for (const int n : {8, 16, 32}) errors.push_back(worst_error(aligned_block(2, 2, n, 0.05), half_period));
 
   if (is_rehearsal) return;
+  // Pinned from results/verification/axis_aligned_quick.csv; particles that deform are held to second order below.
   CHECK(errors[0].rms < 0.069 * 0.05);
   CHECK(std::log2(errors[0].rms / errors[1].rms) == Approx(1.87).margin(0.02));
   CHECK(std::log2(errors[1].rms / errors[2].rms) == Approx(1.63).margin(0.02));
@@ -169,7 +171,7 @@ Scene ring_scene(int n_cells, double amplitude)
 
 }  // namespace
 
-TEST_CASE("the error against the vortex falls with the cell size, at rest and carried along alike")
+TEST_CASE("the error against the vortex falls with the cell size, at rest and carried along alike", "[pinned]")
 {
   const Vector<3> velocity = GENERATE(Vector<3>(0, 0, 0), Vector<3>(0.3, -0.2, 0));
 
@@ -178,12 +180,13 @@ TEST_CASE("the error against the vortex falls with the cell size, at rest and ca
   const double fine = worst_error(vortex_scene(60, velocity), 0.5).rms;
 
   if (is_rehearsal) return;
-  // Second order, less what rims across the cells cost with 2 particles an axis.
+  // Second order, less what rims across the cells cost with 2 particles an axis; pinned from an error of 0.062 and an
+  // order of 1.45. The studies vortex and vortex_drifting of inputs/verification hold orders against theory.
   CHECK(coarse < 0.065);
   CHECK(std::log2(coarse / fine) > 1.4);
 }
 
-TEST_CASE("the error against the ring falls with the cell size where strains are small")
+TEST_CASE("the error against the ring falls with the cell size where strains are small", "[pinned]")
 {
   constexpr double amplitude = 1e-3, quarter_period = 0.005;
 
@@ -191,12 +194,14 @@ TEST_CASE("the error against the ring falls with the cell size where strains are
   const double fine = worst_error(ring_scene(64, amplitude), quarter_period).rms / amplitude;
 
   if (is_rehearsal) return;
-  // Its free rims do not lie on nodes.
+  // Its free rims do not lie on nodes. Pinned from an error of 1.54e-3 and an order of 1.72; the study ring of
+  // inputs/verification holds orders against theory.
   CHECK(coarse < 1.6e-3);
   CHECK(std::log2(coarse / fine) > 1.6);
 }
 
-TEST_CASE("parallelograms along the sectors in which particles lie keep their order at hoop strains of 26 %")
+TEST_CASE("parallelograms along the sectors in which particles lie keep their order at hoop strains of 26 %",
+          "[pinned]")
 {
   constexpr double amplitude = 0.1;
   const auto error_of = [&](int n_cells) {
@@ -208,12 +213,14 @@ TEST_CASE("parallelograms along the sectors in which particles lie keep their or
   const double coarse = error_of(32), fine = error_of(64);
 
   if (is_rehearsal) return;
-  // Along the grid they would overlap and leave gaps from the start.
+  // Along the grid they would overlap and leave gaps from the start. The error is pinned; the order is the bar of the
+  // study ring of inputs/verification.
   CHECK(coarse < 0.012);
   CHECK(std::log2(coarse / fine) > 1.7);
 }
 
-TEST_CASE("the error against the compacted column is of second order where it is elastic and strains are small")
+TEST_CASE("the error against the compacted column is of second order where it is elastic and strains are small",
+          "[pinned]")
 {
   constexpr double compaction = 2e-3, displacement = 0.4 * compaction / 2;
   const auto error_of = [&](int n_cells) {
@@ -232,11 +239,13 @@ TEST_CASE("the error against the compacted column is of second order where it is
   const double coarse = error_of(20), fine = error_of(40);
 
   if (is_rehearsal) return;
+  // Pinned from 5.29e-4; the order is held against theory.
   CHECK(coarse < 5.5e-4);
   CHECK(std::log2(coarse / fine) == Approx(2).margin(0.03));
 }
 
-TEST_CASE("the error against the cavity falls with the cell size where strains are small, its rims under pressure")
+TEST_CASE("the error against the cavity falls with the cell size where strains are small, its rims under pressure",
+          "[pinned]")
 {
   constexpr double expansion = 2e-3, displacement = 0.4 * expansion;
   const auto error_of = [&](int n_cells) {
@@ -258,6 +267,7 @@ TEST_CASE("the error against the cavity falls with the cell size where strains a
   const double coarse = error_of(32), fine = error_of(64);
 
   if (is_rehearsal) return;
+  // Pinned from an error of 0.0217 and an order of 1.92; the study cavity of inputs/verification has bars of its own.
   CHECK(coarse < 0.023);
   CHECK(std::log2(coarse / fine) > 1.8);
 }

@@ -81,11 +81,12 @@ TEST_CASE("a rigid sphere slides down an incline as gravity and Coulomb's fricti
   CHECK(std::abs(moved[1]) < 0.02);
 }
 
-TEST_CASE("a rigid sphere with enough friction rolls down an incline", "[slow]")
+TEST_CASE("a rigid sphere with enough friction rolls down an incline", "[slow][pinned]")
 {
   const int dimension = GENERATE(2, 3);
   CAPTURE(dimension);
-  // The finer in cells, the closer: see results/verification/tests_of_contact.csv.
+  // The margins are pinned from results/verification/tests_of_contact.csv: the finer in cells, the closer. The study
+  // cylinder_on_incline of inputs/verification holds the same motion to bars of its own.
   const double radius = dimension == 2 ? 8 : 4, margin = dimension == 2 ? 0.03 : 0.2;
   Scene scene =
       dimension == 2 ? sphere_on_incline(2, {radius, 0.2, 60, 30}) : sphere_on_incline(3, {radius, 0.2, 15, 18});

@@ -75,7 +75,7 @@ double growth(Scene scene, double multiplier)
 
 }  // namespace
 
-TEST_CASE("free elastic bodies stay bounded up to the bound on the step, and not far beyond it", "[slow]")
+TEST_CASE("free elastic bodies stay bounded up to the bound on the step, and not far beyond it", "[slow][pinned]")
 {
   const auto body = GENERATE(FreeBody{"block", 2, 4}, FreeBody{"block", 3, 2.5}, FreeBody{"ball", 3, 3});
   const bool viscous = GENERATE(false, true), tflip = GENERATE(false, true), smooth = GENERATE(false, true);
@@ -86,7 +86,8 @@ TEST_CASE("free elastic bodies stay bounded up to the bound on the step, and not
 
   const double usual = growth(scene, Scene{}.time.multiplier), at_bound = growth(scene, 1);
   // Viscosity acts in half of the steps, while the material closes; the bound counts on all of them. Nor does it count
-  // on what velocity gradients bring back to the nodes, which is more where the weights are smoother.
+  // on what velocity gradients bring back to the nodes, which is more where the weights are smoother. Where bodies blow
+  // up is pinned (results/verification/stable_step.csv); for a bar theory has it, in test_vibrating_bar.cpp.
   const double brought_back = !tflip ? 0 : smooth ? 0.7 : 0.2;
   const double beyond = growth(scene, (viscous ? 1.8 : 1.5) + brought_back);
   if (is_rehearsal) return;

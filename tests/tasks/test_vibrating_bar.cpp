@@ -200,13 +200,15 @@ double error_of_hanging(int n_cells, double head_start, Transfer transfer)
 
 }  // namespace
 
-TEST_CASE("errors are of second order in cell and step, and of first where the first kick is not half a step")
+TEST_CASE("errors are of second order in cell and step, and of first where the first kick is not half a step",
+          "[pinned]")
 {
   const auto [transfer, bound] = GENERATE(std::pair{Transfer("flip"), 2.5e-3}, std::pair{Transfer("tflip"), 1.5e-3});
   const auto error = [t = transfer](int n_cells, double head_start) {
     return error_of_hanging(n_cells, head_start, t);
   };
   const double coarse = error(16, 0), middle = error(32, 0), fine = error(64, 0);
+  // The bounds are pinned; the orders are held against theory.
   CHECK(std::abs(coarse) < bound);
   CHECK(std::log2(coarse / middle) == Approx(2).margin(0.1));
   CHECK(std::log2(middle / fine) == Approx(2).margin(0.1));

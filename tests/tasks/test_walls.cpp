@@ -82,7 +82,7 @@ TEST_CASE("on a wall with enough friction a block stays")
   CHECK(way(*simulation) < 4 * sheared);
 }
 
-TEST_CASE("what is thrown at a wall with friction leaves it again")
+TEST_CASE("what is thrown at a wall with friction leaves it again", "[pinned]")
 {
   const bool at_edges = GENERATE(false, true);
   CAPTURE(at_edges);
@@ -96,6 +96,7 @@ TEST_CASE("what is thrown at a wall with friction leaves it again")
   advance_to(*simulation, 0.06);
 
   const BodySums block = simulation->report().bodies[0];
+  // Pinned from results/verification/tests_of_walls.csv, 0.72; without any loss it would be 1.
   CHECK(block.momentum.y() > 0.7 * block.mass);
   CHECK(block.momentum.y() == Approx(leaving).epsilon(1e-5));
   CHECK(simulation->grid_totals().impulse[1] == Approx(block.momentum.y() + block.mass).epsilon(1e-10));

@@ -171,12 +171,13 @@ Errors mean_errors(int n_planes)
 
 }  // namespace
 
-TEST_CASE("logistic regression finds the plane between half spaces better than the surface gradient")
+TEST_CASE("logistic regression finds the plane between half spaces better than the surface gradient", "[pinned]")
 {
   const Errors plane = mean_errors<2>(200), space = mean_errors<3>(200);
 
   CAPTURE(plane.gradient, plane.discriminant, plane.logistic, space.gradient, space.discriminant, space.logistic);
   CHECK(space.logistic < space.discriminant);
+  // Pinned from results/verification/contact_normals.csv, 0.68 in the plane and 0.69 in space.
   CHECK(plane.logistic < 0.75 * plane.gradient);
   CHECK(space.logistic < 0.75 * space.gradient);
 }
@@ -201,7 +202,8 @@ TEST_CASE("as two materials move through the grid together their normal by regre
   CHECK(by_regression < by_gradient);
 }
 
-TEST_CASE("the gap between layers of particles is found, between cut ones it is a quarter of a cell too small")
+TEST_CASE("the gap between layers of particles is found, between cut ones it is a quarter of a cell too small",
+          "[pinned]")
 {
   const double gap = GENERATE(0.0, 0.5);
   const auto below = [](const Vector<3>& x) { return x[0] < 0; };
@@ -209,6 +211,7 @@ TEST_CASE("the gap between layers of particles is found, between cut ones it is 
   const Around<3> layers{particles<3>(Matrix<3>::Identity(), Vector<3>::Zero(), below),
                          particles<3>(Matrix<3>::Identity(), Vector<3>::Zero(), above)};
 
+  // The margins are pinned: theory knows the gap, but not how far off it is found.
   CHECK(layers.gap(layers.plane(2)) == Approx(gap).margin(0.05));
   std::mt19937 random(3);
   std::uniform_real_distribution<double> offset(-0.7, 0.7);
