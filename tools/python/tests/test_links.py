@@ -14,7 +14,8 @@ ELSEWHERE = re.compile(r"[a-z]+:")
 
 
 def pages(root):
-    return [root / "README.md", root / "CONTRIBUTING.md", root / "CHANGELOG.md", *sorted(root.glob("docs/**/*.md"))]
+    return [root / "README.md", root / "CONTRIBUTING.md", root / "CHANGELOG.md", root / "tests/recipes/README.md",
+            *sorted(root.glob("docs/**/*.md"))]
 
 
 def anchors(page):
