@@ -3,7 +3,8 @@
 results/index.json lists the tables: file, title, the command that makes it, the program (commit at which the table was
 last entered) and its date, processor and instructions (AVX-512, AVX2), and inputs, which are scenes, studies, data and
 tests by the SHA-256 that they had at that commit. "not stated" stands for what was not written down; a note is added
-where the numbers need one. The exit code is 1 where the index and the files do not agree.
+where the numbers need one. Where a command writes the table, made_by says how (`make-results`); of these tables program
+is the commit that it was built of. The exit code is 1 where the index and the files do not agree.
 """
 
 import csv
@@ -12,10 +13,11 @@ import pathlib
 import re
 
 from tamp import files, program
+from tamp.research.make_results import recipe
 
 FOLDER = program.ROOT / "results"
 TEXTS = ["file", "title", "command", "program", "date", "processor", "instructions"]
-KEYS = {*TEXTS, "inputs", "note"}
+KEYS = {*TEXTS, "inputs", "note", "made_by"}
 PATTERNS = {"program": r"[0-9a-f]{12,40}", "date": r"\d{4}-\d{2}-\d{2}"}
 SHA256 = re.compile(r"[0-9a-f]{64}")
 
@@ -34,6 +36,18 @@ def faults_of_entry(entry):
     if not isinstance(inputs, dict):
         return found + ['"inputs" is no object']
     return found + [f"{path}: no SHA-256" for path, known in inputs.items() if not SHA256.fullmatch(str(known))]
+
+
+def faults_of_recipe(path, entry, entries, pointer):
+    """What is wrong with made_by, and whether the table has the columns that it makes."""
+    found = [f"index.json#{pointer}{fault}" for fault in recipe.faults(entry, entries)]
+    if found or not path.is_file():
+        return found
+    with open(path, encoding="utf-8", errors="replace", newline="") as file:
+        heading = next(csv.reader(file), [])
+    if not recipe.fits_heading(recipe.recipe_of(entry, entries), heading):
+        found.append(f"index.json#{pointer}/made_by/columns: other names than {','.join(heading)}; expected those")
+    return found
 
 
 def faults_of_table(path):
@@ -61,6 +75,8 @@ def faults(folder):
         name = entry.get("file") if isinstance(entry, dict) else None
         names.append(str(name or f"index.json, entry {k}"))
         found += [(names[-1], what) for what in faults_of_entry(entry)]
+        if name and "made_by" in entry:
+            found += [(names[-1], what) for what in faults_of_recipe(folder / str(name), entry, entries, f"/{k}")]
     found += [(name, "twice in index.json") for name in sorted(set(names)) if names.count(name) > 1]
     there = {path.relative_to(folder).as_posix() for path in folder.rglob("*") if path.is_file()} - {"index.json"}
     found += [(name, "not in index.json") for name in sorted(there - set(names))]
@@ -102,5 +118,7 @@ def main(options):
     for entry, paths in stale:
         more = f" and {len(paths) - 3} more" if len(paths) > 3 else ""
         print(f"  {entry['file']}, {entry['date']}, {entry['program'][:9]}: {', '.join(paths[:3])}{more}")
+    n_made = sum("made_by" in entry for entry in entries)
+    print(f"{n_made} are written by a command (make-results), {len(entries) - n_made} were collected by hand.")
     print(f"{len(entries)} results, {len(stale)} with inputs that have changed since.")
     return 0

@@ -1,0 +1,1 @@
+"""How commands write the tables of results/."""
