@@ -25,10 +25,11 @@ FOR_USERS = {
 RESEARCH = {
     "cavity": "material.cavity", "companion": "material.companion", "concrete-sand": "concrete_sand",
     "failure": "failure_chart", "hugoniot": "material.hugoniot", "localisation": "methods.localisation",
-    "material-paths": "material.material_paths", "modulus-sizes": "material.modulus_sizes",
-    "pressed-block": "methods.pressed_block", "pressure-alternation": "methods.pressure_alternation",
-    "projectile": "methods.projectile", "report": "report.command", "return-path": "material.return_path",
-    "separation": "methods.separation", "smooth-sand": "material.smooth_sand", "stable-step": "methods.stable_step",
+    "make-results": "make_results.command", "material-paths": "material.material_paths",
+    "modulus-sizes": "material.modulus_sizes", "pressed-block": "methods.pressed_block",
+    "pressure-alternation": "methods.pressure_alternation", "projectile": "methods.projectile",
+    "report": "report.command", "return-path": "material.return_path", "separation": "methods.separation",
+    "smooth-sand": "material.smooth_sand", "stable-step": "methods.stable_step",
     "stress-tolerance": "methods.stress_tolerance",
 }
 CHECKS = {name: name.replace("-", "_") for name in [

@@ -37,11 +37,11 @@ def command(tamp, *words, ranks=1):
     return [*launcher, str(tamp), *map(str, words)]
 
 
-def answer(tamp, *words, ranks=1, environment=ENVIRONMENT):
-    """How a call ended: exit code and texts."""
+def answer(tamp, *words, ranks=1, environment=ENVIRONMENT, folder=None):
+    """How a call ended: exit code and texts. It is called in a folder, by default where Python is."""
     try:
         return subprocess.run(command(tamp, *words, ranks=ranks), env=environment, capture_output=True, text=True,
-                              errors="replace")
+                              errors="replace", cwd=folder)
     except OSError as error:
         raise Refusal(tamp, error.strerror, "TAMP") from None
 
