@@ -5,6 +5,7 @@
 Ends with exit code 77, as skipped, where there is no Chromium."""
 
 import argparse
+import html
 import importlib.util
 import json
 import pathlib
@@ -16,7 +17,9 @@ import tempfile
 import unittest
 
 from tamp import program
+from tamp.charts.formatting import si_text
 from tamp.checks import look_at_page
+from tests.page_tags import Tags
 
 SCENE = program.INPUTS / "punch/quick.json"
 TAMP = program.USUAL
@@ -24,6 +27,36 @@ BROWSERS = ["chromium", "chromium-browser", "google-chrome"]
 BROWSER = next((found for found in map(shutil.which, BROWSERS) if found), None)
 SKIPPED = 77
 PHONE, HEIGHT = 390, 2000
+MOST_BYTES = 5_000_000  # of a report
+INTERVAL = 1e-5  # s, between outputs of fields
+
+# Takes the slider of a page to each of its times, then to the start and by the button to the end, and leaves in the
+# body of the outer page what is shown each time.
+MOVE = """<!DOCTYPE html><html><body><iframe src="PAGE" style="width:900px;height:900px"></iframe><script>
+const frame = document.querySelector("iframe");
+frame.onload = async () => {
+  const page = frame.contentDocument, seen = [];
+  const slider = page.querySelector("input[type=range]");
+  const look = async () => {
+    const image = page.querySelector(".quantity:not([hidden]) .drawing.broad img");
+    if (!image.complete) await new Promise(done => image.addEventListener("load", done, {once: true}));
+    seen.push({at: Number(slider.value), picture: image.src.split(",")[1], width: image.naturalWidth,
+               said: page.querySelector("output").textContent});
+  };
+  const move = async to => {
+    slider.value = to;
+    slider.dispatchEvent(new Event("input"));
+    await look();
+  };
+  for (let k = 0; k <= Number(slider.max); ++k) await move(k);
+  await move(0);
+  page.querySelector("button").click();
+  while (page.querySelector("button").textContent === "Stop") await new Promise(done => setTimeout(done, 50));
+  await look();
+  document.body.textContent = JSON.stringify(seen);
+};
+</script></body></html>
+"""
 
 
 def made(*words):
@@ -43,13 +76,38 @@ class Opened:
         return len(re.findall(pattern, self.text))
 
 
+def moved(page, folder):
+    """What the picture and the words of a report are at each time of its slider, at the start again, and at the end to
+    which its button has led."""
+    outer = folder / "moved.html"
+    outer.write_text(MOVE.replace("PAGE", page.resolve().as_uri()))
+    opened = Opened(outer)
+    seen = re.search(r"<body>(\[.*\])</body>", opened.text)
+    return opened.complaints, json.loads(html.unescape(seen[1])) if seen else []
+
+
+def shows(seen, pictures):
+    """Whether the slider, and then the button, have led through these pictures to the last one."""
+    shown = [one["picture"] for one in seen if one["width"] > 0]
+    return shown == [*pictures, pictures[0], pictures[-1]]
+
+
+def from_elsewhere(text):
+    """What a page would load that is not in it."""
+    links = [link for link in Tags(text).sources() if link and not link.startswith(("data:", "#"))]
+    styles = re.findall(r"@import[^;]*|url\((?![\"']?(?:#|data:))[^)]*\)", text)
+    scripts = re.findall(r"\b(?:fetch|import|importScripts|EventSource|WebSocket|Worker|XMLHttpRequest)\(", text)
+    return links + styles + scripts
+
+
 class Pages(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
         cls.holder = tempfile.TemporaryDirectory()
         cls.folder = pathlib.Path(cls.holder.name)
         cls.report, cls.graph = cls.folder / "run/report.html", cls.folder / "graph.html"
-        made("run", SCENE, "--steps", "60", "--quiet", "--out", cls.folder / "run")
+        made("run", SCENE, "--steps", "60", "--quiet", "--out", cls.folder / "run",
+             "--set", f"/output/fields_interval={INTERVAL}")
         made("profile", cls.folder / "run", "--format", "html")
         made("graph", SCENE, "--run", cls.folder / "run", "--format", "html", "--out", cls.graph)
 
@@ -87,6 +145,45 @@ class Pages(unittest.TestCase):
             self.assertEqual(len(shown), 2)
             self.assertEqual(opened.count("<output>[^<]*contact force on punch"), 1)
             self.assertEqual(opened.count('<div class="controls">'), 1)
+
+    @unittest.skipUnless(importlib.util.find_spec("h5py"), "h5py is not here")
+    def test_the_slider_of_the_report_leads_through_all_pictures_to_the_last_output(self):
+        import h5py
+        with h5py.File(self.folder / "run/fields.h5") as file:
+            times = sorted(float(output.attrs["time"][()]) for output in file.values())
+        text = self.report.read_text(encoding="utf-8")
+        data = json.loads(re.search('id="movie-data">(.*?)</script>', text, re.DOTALL)[1])
+
+        complaints, seen = moved(self.report, self.folder)
+
+        self.assertEqual(complaints, [])
+        self.assertGreater(len(times), 4)
+        self.assertEqual([one["at"] for one in seen], [*range(len(times)), 0, len(times) - 1])
+        self.assertTrue(shows(seen, data["pictures"]["p"]))
+        self.assertEqual(len({one["picture"] for one in seen}), len(times))
+        for one, time in zip(seen, [*times, times[0], times[-1]]):
+            self.assertEqual(one["said"].split(";")[0], si_text(time, "s"))
+
+    @unittest.skipUnless(importlib.util.find_spec("h5py"), "h5py is not here")
+    def test_a_slider_that_does_not_move_its_picture_is_found_out(self):
+        text = self.report.read_text(encoding="utf-8")
+        pictures = json.loads(re.search('id="movie-data">(.*?)</script>', text, re.DOTALL)[1])["pictures"]["p"]
+        still = self.folder / "still.html"
+        for was, becomes in [("data.pictures[chosen][k]", "data.pictures[chosen][0]"),
+                             ("const k = Number(slider.value);", "const k = Math.min(slider.value, slider.max - 1);")]:
+            self.assertIn(was, text)
+            still.write_text(text.replace(was, becomes), encoding="utf-8")
+            self.assertFalse(shows(moved(still, self.folder)[1], pictures), becomes)
+
+    def test_the_report_is_one_small_file_that_loads_nothing(self):
+        text = self.report.read_text(encoding="utf-8")
+
+        self.assertLess(self.report.stat().st_size, MOST_BYTES)
+        self.assertEqual(from_elsewhere(text), [])
+        for added in ['<img src="picture.png">', '<script src="https://example.org/a.js"></script>',
+                      "<style>@import 'a.css';</style>", '<p style="background: url(a.png)">',
+                      "<script>fetch(1)</script>"]:
+            self.assertEqual(len(from_elsewhere(text.replace("</body>", added + "</body>"))), 1, added)
 
     def test_the_page_of_a_drive_has_each_curve_twice(self):
         for opened in self.looks(self.drive):
