@@ -75,6 +75,8 @@ class Columns(InAFolder):
         run = self.run_of(machine="step,time[s],wall[s]\n0,0,1\n")
 
         for word, said in [("ball.dept", "such as ball.depth"), ("wal", "such as wall"),
+                           ("bal.depht", "such as ball.depth"),
+                           ("force", "such as ball.contact_force_y"), ("depth", "such as ball.depth"),
                            ("xyz", "expected one of step, time, ball.depth, ball.contact_force_y, wall"),
                            ("ball.depth[mm]", "expected ball.depth[m]")]:
             text = self.refused(Refusal, self.column, run, word)

@@ -10,6 +10,7 @@ from tamp import files
 from tamp.failure import Failure, Refusal, say
 
 N_NEAR = 3
+LEAST_PART = 3  # letters that tell a part of a name
 # Units of the quantities of which half a scene has half (docs/reference/output.md).
 OF_THE_PART = {"N", "N m", "N s", "J", "kg", "particles"}
 
@@ -132,8 +133,13 @@ def expected(run, word):
     plain = list(dict.fromkeys(split(name)[0] for name in names))
     if split(word)[0] in plain:  # with another unit
         return names[[split(name)[0] for name in names].index(split(word)[0])]
-    near = difflib.get_close_matches(word, plain, N_NEAR, 0.5)
+    near = with_part(word, plain)[:N_NEAR] or difflib.get_close_matches(word, plain, N_NEAR, 0.5)
     return f"one of its columns, such as {' or '.join(near)}" if near else f"one of {', '.join(plain)}"
+
+
+def with_part(word, names):
+    """Names in which a word stands: `ball.contact_force_y` for `force`."""
+    return [name for name in names if word in name] if len(word) >= LEAST_PART else []
 
 
 def part_of_whole(run):
