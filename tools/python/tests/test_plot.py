@@ -215,6 +215,11 @@ class ThePicture(unittest.TestCase):
         self.assertIn("force between 0 N and 1 N", self.content(Curve("a", x, y)).decode())
         self.assertIn(5003, curves.corners(x, y))
 
+    def test_by_itself_is_no_wider_than_a_window(self):
+        svg = curves.content(Plot("a", "m", "b", "N", [Curve("c", [0, 1], [0, 2])]), ".svg").decode()
+
+        self.assertRegex(svg, r'<svg [^>]*style="max-width: 100%; height: auto"[^>]* width="480pt"')
+
 
 class TheCommand(InAFolder):
     def test_the_same_runs_give_the_same_picture(self):

@@ -83,7 +83,9 @@ def within_page(picture):
 
 
 def file_text(picture):
-    return '<?xml version="1.0" encoding="utf-8"?>\n' + picture.svg
+    """No wider than a window that shows it by itself."""
+    fitting = picture.svg.replace("<svg ", '<svg style="max-width: 100%; height: auto" ', 1)
+    return '<?xml version="1.0" encoding="utf-8"?>\n' + fitting
 
 
 def write_files(picture, folder, name):
