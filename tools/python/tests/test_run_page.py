@@ -272,6 +272,12 @@ class OverTime(unittest.TestCase):
         self.assertEqual(plane["Depth"].y_unit, "m")
         self.assertIn("between 2 kN/m and 3 kN/m", over_time.describe(plane["Force on punch against its depth"]))
 
+    def test_axes_end_at_round_numbers_or_a_little_beyond(self):
+        for values, limits in [((0, 183), (0, 200)), ((-0.8, 183), (-0.8, 200)), ((-20, 183), (-50, 200)),
+                               ((-10, -1), (-10, 0)), ((0, 203), (0, 203)), ((0, 240), (0, 250)), ((0, 0), (0, 1))]:
+            self.assertEqual(over_time.round_limits(*values, over_time.SLACK), limits)
+        self.assertEqual(over_time.round_limits(-0.8, 183), (-50, 200))
+
     def test_forces_are_drawn_through_a_blow_and_energies_whole(self):
         through = {title for title, plot in self.plots(dimension=3).items() if plot.through_blow}
 

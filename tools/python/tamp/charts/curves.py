@@ -6,7 +6,7 @@ from tamp.charts import picture
 from tamp.charts.axes import Entry, Layout, Sheet, linear_ticks, marker_style, room_for_ticks, set_ticks
 from tamp.charts.curve import corners, with_room_for_last_tick
 from tamp.charts.formatting import counted, si_text
-from tamp.charts.over_time import N_MARKERS, round_limits, style_of
+from tamp.charts.over_time import N_MARKERS, SLACK, round_limits, style_of
 from tamp.charts.theme import LIGHT, Style
 
 # As wide as a phone shows without making the letters too small to read.
@@ -42,7 +42,8 @@ def title(plot):
 
 
 def draw(plot):
-    x_limits, y_limits = (round_limits(*ends([getattr(curve, which) for curve in plot.curves])) for which in "xy")
+    x_limits, y_limits = (round_limits(*ends([getattr(curve, which) for curve in plot.curves]), SLACK)
+                          for which in "xy")
     x_text, y_text = tick_text(x_limits, plot.x_unit), tick_text(y_limits, plot.y_unit)
     legend = [Entry(curve.name, style(plot, curve)) for curve in plot.curves]
     sheet = Sheet(LAYOUT, title(plot), "", plot.x_name, legend, left=room_for_ticks(y_limits, y_text, False))

@@ -18,6 +18,7 @@ N_POINTS, N_ROWS, N_MARKERS = 400, 10, 7
 # A blow is what is more than three times as high as the curve on nine tenths of its way; of an axis that it goes beyond
 # the curve fills two thirds.
 BLOW, PART_OF_WAY, ROOM = 3, 0.9, 1.5
+SLACK = 0.1  # of the way between two ticks, by which a curve may go beyond the last one
 
 
 class Line(NamedTuple):
@@ -89,17 +90,24 @@ def y_limits(plot):
         low, high = log_limits([low, high], 0.3)
         ticks = log_ticks(low, high)[0]
         return min([low, *ticks]), max([high, *ticks])
-    return round_limits(low, high)
+    return round_limits(low, high, SLACK)
 
 
-def round_limits(low, high):
-    """Round numbers that enclose the values. Zero belongs to them unless that would flatten what there is to see."""
+def round_limits(low, high, slack=0):
+    """Round numbers that enclose the values, or go a little beyond such a number where the values do. Zero belongs to
+    them unless that would flatten what there is to see."""
     low = 0 if 0 < low < 0.7 * high else low
     high = high if high > low else low + (abs(low) or 1)
     ticks = linear_ticks(low, high, 5)
     spacing = ticks[1] - ticks[0] if len(ticks) > 1 else high - low
-    return (ticks[0] if low >= ticks[0] * (1 - 1e-9) else ticks[0] - spacing,
-            ticks[-1] if high <= ticks[-1] * (1 + 1e-9) else ticks[-1] + spacing)
+    below, above = (beyond if beyond <= slack * spacing else spacing
+                    for beyond in (past(-ticks[0], -low), past(ticks[-1], high)))
+    return ticks[0] - below, ticks[-1] + above
+
+
+def past(tick, value):
+    """How far a value is above a tick, but for round-off."""
+    return value - tick if value - tick > 1e-9 * abs(tick) else 0
 
 
 def highest(plot, line):
