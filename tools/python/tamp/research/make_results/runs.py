@@ -142,8 +142,9 @@ class Runs:
 
     def run(self, words, place):
         if recipe.is_python(words):
+            python = sys.executable if words[0] == "python3" else words[0]
             own = [] if self.tamp == program.USUAL else ["--tamp", self.tamp]
-            return Output(place, program.call(sys.executable, *words[1:], *own, folder=program.ROOT).stdout)
+            return Output(place, program.call(python, *words[1:], *own, folder=program.ROOT).stdout)
         if words[1] in recipe.STUDIES:
             return self.run_studies(words, place)
         option, name = recipe.FILES.get(words[1], ("--out", "run"))
