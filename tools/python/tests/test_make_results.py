@@ -72,11 +72,12 @@ class TheTable(unittest.TestCase):
         self.assertEqual(rows, [["12.5"]])
 
     def test_rows_become_one_by_a_key_of_the_recipe_s_own(self):
-        _, rows = table({"keys": {"transfer": {"of": "method", "match": ".*, (.*)"}}, "by": ["transfer"], "columns": [
-            {"name": "transfer", "of": "transfer"}, {"name": "finest", "of": "work", "where": {"steps": 200}}]},
-            POINTS, "")
+        keys = {"transfer": {"of": "method", "match": ".*, (.*)"}, "both": {"of": ["transfer", "transfer"]}}
 
-        self.assertEqual(rows, [["flip", "13.25"]])
+        _, rows = table({"keys": keys, "by": ["transfer"], "columns": [
+            {"name": "of all", "of": "both"}, {"name": "finest", "of": "work", "where": {"steps": 200}}]}, POINTS, "")
+
+        self.assertEqual(rows, [["flip, flip", "13.25"]])
 
     def test_a_column_for_each_heading_and_a_row_for_each_heading(self):
         rows = [{"run": "a", "1 ms": "2 / 3", "2 ms": ""}, {"run": "b", "1 ms": "4 / 5", "2 ms": "6 / 7"}]

@@ -10,7 +10,8 @@ at        in JSON the pointer to a list, on whose way * is each element; in Mark
 each      headings, * standing for any text, such as "* ms": for each that fits the row comes once, with that text as
           "each" and what is below as "cell", but for empty ones
 where     {key: value or list of values}: which rows count
-keys      {key: what a column has but its name}: keys that these rows get besides
+keys      {key: what a column has but its name}: keys that these rows get besides; "of" may be a list of keys, whose
+          texts have ", " between them
 by        keys. Rows in which these are the same become one row of the table; without, each row is one
 order     names of columns by which rows are sorted: numbers, or else as they come first; without, as they come
 columns   of the table, objects of
@@ -94,6 +95,7 @@ COLUMN = {
     "as": (is_format, 'a format of one number, such as "{:.2f} %"'), "words": (is_words, "an object of texts"),
 }
 KEY = {name: expected for name, expected in COLUMN.items() if name not in ("name", "where")}
+KEY["of"] = (lambda value: isinstance(value, str) or is_list_of_texts(value), "a key or a list of them")
 
 
 def faults_of_object(value, known, needed, place):

@@ -115,9 +115,13 @@ def number_in(place, row, key, text):
     return number
 
 
+def keys_in(of):
+    return of if isinstance(of, list) else [of]
+
+
 def cell_of(column, row, place):
     """What a column of the table takes from a row."""
-    text = row.get(column["of"], "")
+    text = ", ".join(row.get(key, "") for key in keys_in(column["of"]))
     if "match" in column:
         found = re.fullmatch(column["match"], text)
         text = (found[1] or "") if found else ""
@@ -187,7 +191,8 @@ def expect_keys(recipe, columns, keys, place):
     """That what the recipe speaks of is in the rows."""
     parts = [(f"columns/{k}", column) for k, column in columns]
     parts += [(f"keys/{name}", key) for name, key in recipe.get("keys", {}).items()]
-    asked = [(f"{where}/{key}", part[key]) for where, part in parts for key in ("of", "or", "over") if key in part]
+    asked = [(f"{where}/{word}", key) for where, part in parts for word in ("of", "or", "over") if word in part
+             for key in keys_in(part[word])]
     asked += [(f"{where}/where", key) for where, part in [*parts, ("", recipe)] for key in part.get("where", {})]
     asked += [("by", key) for key in recipe.get("by", [])]
     for where, key in asked:
