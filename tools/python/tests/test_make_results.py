@@ -6,7 +6,10 @@ import argparse
 import contextlib
 import io
 import json
+import os
 import pathlib
+import shutil
+import subprocess
 import sys
 import tempfile
 import types
@@ -166,11 +169,20 @@ class TheRecipe(unittest.TestCase):
                                                          "the making adds"])
 
 
+@unittest.skipUnless(shutil.which("git"), "no git")
 class AFolder(unittest.TestCase):
     """A folder of results with one table, which a program of our own makes."""
 
     def setUp(self):
         self.place = scratch(self)
+        # A history of one commit, as a copy of the sources may have none.
+        history = {"GIT_DIR": str(self.place / "git"), "GIT_WORK_TREE": str(self.place)}
+        patch = unittest.mock.patch.dict(os.environ, history)
+        patch.start()
+        self.addCleanup(patch.stop)
+        subprocess.run(["git", "init", "--quiet"], check=True)
+        subprocess.run(["git", "-c", "user.name=nobody", "-c", "user.email=nobody@localhost", "commit", "--quiet",
+                        "--allow-empty", "--message", "Nothing"], check=True)
         self.results = self.place / "results"
         self.results.mkdir()
         self.entry = {"file": "work.csv", "title": "Work", "command": "tamp drive sand.json path.csv",
