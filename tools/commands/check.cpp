@@ -36,6 +36,7 @@ struct CheckArguments {
   std::vector<std::string> assignments;
   std::string study;
   bool json = false;
+  bool no_trial = false;
 };
 
 /// The report for people: on stdout, or on stderr where the scene's JSON has stdout to itself.
@@ -137,12 +138,12 @@ void report_bodies(const tasks::Scene& scene, const CheckReport& report)
 }
 
 /// Throws InputError where the machine has no room for the run.
-Forecast expected_forecast(const CheckedScene& checked)
+Forecast expected_forecast(const CheckedScene& checked, bool with_trial)
 {
   Forecast forecast = tools::forecast(checked.scene);
   expect_room(checked, forecast);
   add_copies(forecast);
-  add_pace(checked.scene, {}, forecast);
+  if (with_trial) add_pace(checked.scene, {}, forecast);
   return forecast;
 }
 
@@ -177,7 +178,7 @@ void check(const CheckArguments& options)
   report.warn(plausibility_warnings(checked));
   report.warn(material_warnings(checked));
   report.warn(contact_warnings(checked));
-  const Forecast forecast = expected_forecast(checked);
+  const Forecast forecast = expected_forecast(checked, !options.no_trial);
   report.line("  {}", description(forecast));
   report_advice(checked, forecast, report);
   if (!options.study.empty()) write_study(checked, options, report);
@@ -194,6 +195,8 @@ CLI::App* add_check_command(CLI::App& app)
   add_assignments(*command, options->assignments, "scene");
   command->add_flag("--json", options->json,
                     "print the scene as JSON with every default filled in; what else is said goes to stderr");
+  command->add_flag("--no-trial", options->no_trial,
+                    "try no steps on coarser cells: no forecast of steps and time, no advice that needs it");
   command
       ->add_option(
           "--study", options->study,

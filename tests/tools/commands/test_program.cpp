@@ -210,6 +210,11 @@ TEST_CASE("what the check says of the ball fits on a screen: its scene, bodies, 
     CHECK_THAT(outcome.out, Catch::Contains(line));
   }
   CHECK_THAT(outcome.out, !Catch::Contains("\"materials\""));
+
+  const Outcome quick = tamp_with("check --no-trial " + ball);
+  CHECK(quick.exit_code == 0);
+  CHECK_THAT(quick.out, Catch::Contains("  forecast: 11620 particles, ") && Catch::Contains("  advice  cells: ball"));
+  CHECK_THAT(quick.out, !Catch::Contains("steps, ") && !Catch::Contains("core-seconds"));
 }
 
 TEST_CASE("the check prints a scene as JSON alone, which runs and is resolved to itself, and warns on stderr", "[slow]")

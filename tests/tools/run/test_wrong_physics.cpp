@@ -18,7 +18,7 @@ const std::string quiet_punch = punch + " --quiet ";
 
 bool warns(const std::string& assignment, const std::string& words)
 {
-  const Outcome outcome = tamp_with("check " + punch + " --set " + assignment);
+  const Outcome outcome = tamp_with("check --no-trial " + punch + " --set " + assignment);
   INFO(outcome.out << outcome.err);
   CHECK(outcome.exit_code == 0);
   return outcome.out.find("tamp: warning: ") != std::string::npos && outcome.out.find(words) != std::string::npos;
@@ -119,7 +119,7 @@ TEST_CASE("what is hardly ever meant is warned of", "[slow]")
 TEST_CASE("the check says on how many cells a body goes into another one, and the run warns where they are few",
           "[slow]")
 {
-  const Outcome as_shipped = tamp_with("check " + punch);
+  const Outcome as_shipped = tamp_with("check --no-trial " + punch);
   const Run coarse = run_with(quiet_punch + "--steps 1 --set /grid/cell_size=0.05");
 
   CHECK_THAT(as_shipped.out, Catch::Contains("6.0 cells to its half width, on its way into sand"));
@@ -152,7 +152,7 @@ TEST_CASE("soil in kPa, radians and t/m3 is warned of, number by number")
     "bodies": { "soil": { "material": "soil", "geometry": { "type": "box", "lower": [0, 0], "upper": [1, 0.5] } } }
   })");
   const auto checked = [&](const std::string& assignments) {
-    return tamp_with("check " + scene.string() + assignments).out;
+    return tamp_with("check --no-trial " + scene.string() + assignments).out;
   };
   const std::string right = checked("");
   const std::string wrong = checked(
@@ -173,7 +173,7 @@ TEST_CASE("soil in kPa, radians and t/m3 is warned of, number by number")
 TEST_CASE("the check warns of contact ahead of touch, and of tips that hold no particle", "[slow]")
 {
   const auto checked = [](const std::string& assignments) {
-    return tamp_with("check " TAMP_SOURCE_DIR "/inputs/cone/quick.json" + assignments).out;
+    return tamp_with("check --no-trial " TAMP_SOURCE_DIR "/inputs/cone/quick.json" + assignments).out;
   };
   const std::string own = checked(" --set /contact/0/normal=steel"), as_shipped = checked(""),
                     blunt = checked(
@@ -196,7 +196,7 @@ TEST_CASE("the check warns of bodies that come to a wall which is touched at its
     "bodies": { "ball": { "material": "gel", "geometry": { "type": "ball", "centre": [0.5, 0.5], "radius": 0.21 } } }
   })");
   const auto checked = [&](const std::string& assignments) {
-    return tamp_with("check " + scene.string() + assignments).out;
+    return tamp_with("check --no-trial " + scene.string() + assignments).out;
   };
   const std::string comes = "/boundaries/y-: ball comes to this wall, and is stopped as soon as its particles reach";
 
@@ -209,7 +209,7 @@ TEST_CASE("the check warns of bodies that come to a wall which is touched at its
 
 TEST_CASE("the check says how a ball gets the mass that it should have", "[slow]")
 {
-  const std::string ball = "check " TAMP_SOURCE_DIR "/inputs/savings/ball.json";
+  const std::string ball = "check --no-trial " TAMP_SOURCE_DIR "/inputs/savings/ball.json";
   const std::string in_lattice = tamp_with(ball).out,
                     on_rings = tamp_with(ball + " --set /bodies/ball/particles=rings").out;
 
@@ -220,7 +220,7 @@ TEST_CASE("the check says how a ball gets the mass that it should have", "[slow]
 
 TEST_CASE("the check says how a cone gets the mass that it should have")
 {
-  const std::string rod = "check " TAMP_SOURCE_DIR "/inputs/savings/rod.json --set /grid/cell_size=0.004";
+  const std::string rod = "check --no-trial " TAMP_SOURCE_DIR "/inputs/savings/rod.json --set /grid/cell_size=0.004";
 
   CHECK_THAT(tamp_with(rod).out,
              Catch::Contains("of its mass") && Catch::Contains("with \"particles\": \"cut\" it is right"));
