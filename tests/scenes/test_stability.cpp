@@ -27,6 +27,7 @@ double share_of_limit(const Json& entries, const std::string& monitor, const std
 
 TEST_CASE("every entry of the failure catalogue fails and survives as told, on any machine", "[slow]")
 {
+  draw_no_pages();
   const TemporaryFolder folder;
   const std::string out = (folder.path() / "out").string();
 

@@ -13,6 +13,7 @@ using Json = nlohmann::json;
 
 TEST_CASE("short verifications hold what they expect, and say which errors and orders they found", "[slow]")
 {
+  draw_no_pages();
   const TemporaryFolder folder;
   const std::string out = (folder.path() / "out").string();
 

@@ -31,6 +31,17 @@ inline Outcome tamp_with(const std::string& arguments)
   return outcome_of(std::string(TAMP_PROGRAM) + " " + arguments);
 }
 
+/// Has the program draw no pages, which take more time than small studies, for tests that look at none.
+inline void draw_no_pages()
+{
+  setenv("TAMP_PYTHON", "true", 1);
+}
+
+inline void draw_pages()
+{
+  unsetenv("TAMP_PYTHON");
+}
+
 /// Tells Open MPI to take more ranks than cores, to leave them unbound, and to run for root, as in a container.
 inline void allow_ranks_anywhere()
 {

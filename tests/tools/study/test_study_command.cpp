@@ -28,6 +28,7 @@ class FlightStudy
  public:
   FlightStudy()
   {
+    draw_no_pages();
     folder_.write("flight.json", R"({
       "dimension": 2, "grid": { "upper": [1, 1], "cell_size": 0.1 }, "time": { "end": 1e-3 },
       "materials": { "steel": { "type": "hypoelastic", "density": 8000, "bulk_modulus": 1e9, "shear_modulus": 7e8 } },
@@ -201,6 +202,7 @@ TEST_CASE("numbers are taken of the particles' fields")
 TEST_CASE("what was expected is judged, told and written, and a study that misses it is done", "[slow]")
 {
   const FlightStudy study;
+  draw_pages();
   const std::string patch = R"({"expect": [
     {"quantity": "depth", "error_at_most": 1e-9, "why": "nothing acts on it"},
     {"quantity": "depth", "methods": ["flight"], "error_at_least": 0.5}], "refine": "/grid/cell_size"})";
@@ -621,6 +623,7 @@ TEST_CASE("a reference that would be refused ends a study before anything runs")
 TEST_CASE("a result that is a link to what the study reads, or to another result, is refused, and both stay", "[slow]")
 {
   const FlightStudy study;
+  draw_pages();
   REQUIRE(study.run().exit_code == 0);
   const auto [name, target] = GENERATE(table<std::string, std::string>(
       {{"points.csv", "../flight.json"}, {"study.json", "../study.json"}, {"index.html", "study.json"}}));

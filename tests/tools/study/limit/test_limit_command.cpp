@@ -37,7 +37,11 @@ constexpr const char* viscous_bar = R"({
 class LimitFolder
 {
  public:
-  LimitFolder() { folder_.write("bar.json", viscous_bar); }
+  LimitFolder()
+  {
+    draw_no_pages();
+    folder_.write("bar.json", viscous_bar);
+  }
 
   /// `tamp study FILE` with these options.
   Outcome run(const std::string& file, const std::string& options) const

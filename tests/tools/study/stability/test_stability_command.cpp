@@ -19,6 +19,7 @@ class Entries
  public:
   Entries()
   {
+    draw_no_pages();
     folder_.write("inputs/stability/scenes/fall.json", R"({
       "dimension": 2, "grid": { "upper": [0.4, 1.2], "cell_size": 0.1 }, "gravity": [0, -10], "time": { "end": 0.2 },
       "materials": { "soft": { "type": "hypoelastic", "density": 1000, "bulk_modulus": 1e5, "shear_modulus": 5e4 } },

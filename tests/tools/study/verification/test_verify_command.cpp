@@ -20,6 +20,7 @@ class Studies
  public:
   explicit Studies(const std::string& time = R"({ "end": 1e-3 })")
   {
+    draw_no_pages();
     folder_.write("inputs/verification/scenes/flight.json", R"({
       "dimension": 2, "grid": { "upper": [1, 1], "cell_size": 0.1 },
       "materials": { "steel": { "type": "hypoelastic", "density": 8000, "bulk_modulus": 1e9, "shear_modulus": 7e8 } },
