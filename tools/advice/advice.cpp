@@ -60,8 +60,8 @@ std::string depth_if_rigid(const Rigidity& rigidity)
     return fmt::format("its depth is more than 1 % off a deformable one's, as it is strained by {:.0f} %",
                        100 * rigidity.strain);
   }
-  return fmt::format("its depth is {} of a deformable one's, some {:.2g} % off",
-                     rigidity.is_safe() ? "within 1 %" : "not within 1 %", 100 * rigidity.depth_error());
+  return fmt::format("its depth is {} {:.2g} % off a deformable one's", rigidity.is_safe() ? "only some" : "some",
+                     100 * rigidity.depth_error());
 }
 
 /// Advises on a body that bounds the step, where a body that goes into another is rigid or could be.
@@ -127,14 +127,11 @@ void advise_on_cells(const CheckedScene& checked, const tasks::SceneBody& body, 
                      Lines& lines)
 {
   const auto error = force_error(checked, body, penetration);
-  std::string line = fmt::format(
-      "cells: {} has {:.1f} to its half width, and needs {:.0f}; by how much the force on "
-      "it is too large is {}",
-      body.name, penetration.cells(), least_cells_per_half_width, not_known);
-  if (error) {
-    line = fmt::format("cells: {} has {:.1f} to its half width, and needs {:.0f}; the force on it is {} too large ({})",
-                       body.name, penetration.cells(), least_cells_per_half_width, error->text(), error->command);
-  }
+  std::string line =
+      fmt::format("cells: {} has {:.1f} to its half width, and {} {:.0f}; ", body.name, penetration.cells(),
+                  penetration.is_coarse() ? "needs" : "needs no more than", least_cells_per_half_width);
+  line += error ? fmt::format("the force on it is {} too large ({})", error->text(), error->command)
+                : fmt::format("by how much the force on it is too large is {}", not_known);
   if (penetration.is_coarse()) {
     const tasks::Scene& scene = checked.scene;
     const double finer = scene.grid.cell_size / penetration.fine_cell_size();

@@ -160,7 +160,7 @@ CLI::App* add_drive_command(CLI::App& app)
   CLI::Option* summary =
       command->add_option("--summary", options->summary, "write what the updates cost to this file, as JSON")
           ->type_name("FILE");
-  command->add_option("--repeat", options->repeat, "rounds that the updates are timed in for --summary, by default 5")
+  command->add_option("--repeat", options->repeat, "rounds that the updates are timed in for --summary")
       ->check(is_whole_from_to(1, 1000))
       ->needs(summary);
   command->footer(examples(

@@ -166,11 +166,13 @@ CLI::App* add_graph_command(CLI::App& app)
       ->check(is_not_empty());
   command->add_option("--out", options->out, "write to this file")->type_name("FILE");
   CLI::Option* const patch = command->add_option("--patch", options->patch, "only this patch and what it touches (dot)")
-                                 ->check(is_whole_from(0));
+                                 ->check(is_whole_from(0))
+                                 ->default_str("");
   command
       ->add_option("--threads", options->n_threads,
                    "in place of the graph, what so many threads of each rank have of it, and how much may run at once")
       ->check(is_whole_from_to(1, most_threads))
+      ->default_str("")
       ->excludes(format)
       ->excludes(patch);
   command->footer(examples(

@@ -70,16 +70,18 @@ void expect_nothing_at(const std::filesystem::path& file)
   throw InputError({file.string(), "is there already", "expected the name of a new file"});
 }
 
-/// Prints the commands to run the scene, and where its curve of force against depth will be.
+/// Prints the commands to run the scene and to draw its force over depth, and where these figures will be.
 void print_next_steps(const std::string& kind, const std::string& geometry, const std::filesystem::path& file)
 {
   const std::string scene = shell_word(file.string());
-  const std::string history = shell_word("runs/" + file.stem().string() + "/history.csv");
+  const std::string run = "runs/" + file.stem().string();
   const char* const up = geometry == "space" ? "z" : "y";
   write_out(without_controls(fmt::format("{0}\n  tamp check {0}\n  tamp run {0}\n", scene)));
+  write_out(without_controls(
+      fmt::format("  tamp plot {} {}.depth {}.contact_force_{} --out curve.svg\n", shell_word(run), kind, kind, up)));
   write_out(without_controls(fmt::format(
-      "The run takes some seconds. {} then has the columns time[s], {}.depth[m] and {}.contact_force_{}[N].\n", history,
-      kind, kind, up)));
+      "The run takes some seconds. {} then has the columns time[s], {}.depth[m] and {}.contact_force_{}[N].\n",
+      shell_word(run + "/history.csv"), kind, kind, up)));
 }
 
 void write_new_scene(const NewArguments& options)

@@ -163,7 +163,7 @@ CLI::App* add_run_command(CLI::App& app)
   command->add_flag("--strict", options->run.strict, "let a run that completes with warnings end with exit code 3");
   command->add_flag("--quiet", options->run.quiet, "print no progress and no table");
   command->footer(examples(
-      {{"tamp run inputs/punch/quick.json --out runs/punch", "the punch, half a minute on two cores"},
+      {{"tamp run inputs/punch/quick.json --out runs/punch", "the punch, some seconds on two cores"},
        {"tamp run inputs/punch/quick.json --set /materials/sand/modulus/type=svr", "with another model of the sand"},
        {"mpirun -np 2 tamp run inputs/uxo/quick.json", "over two ranks"},
        {"tamp run inputs/punch/quick.json --restart runs/punch", "go on from its newest checkpoint"}}));

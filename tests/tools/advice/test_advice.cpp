@@ -29,9 +29,10 @@ TEST_CASE("the check of the quick punch says what a rigid punch, finer cells and
 
   CHECK_THAT(said, Catch::Contains("advice  step: sand sets it (waves of 1573 m/s in punch, 909 in sand); rigid, punch "
                                    "would take about "));
-  CHECK_THAT(said, Catch::Contains("its depth is not within 1 % of a deformable one's, some 2.5 % off"));
-  CHECK_THAT(said, Catch::Contains("advice  cells: punch has 6.0 to its half width, and needs 6; the force on it "
-                                   "is 8 % too large (tamp study inputs/studies/penetration_punch.json)\n"));
+  CHECK_THAT(said, Catch::Contains("its depth is some 2.5 % off a deformable one's"));
+  CHECK_THAT(said,
+             Catch::Contains("advice  cells: punch has 6.0 to its half width, and needs no more than 6; "
+                             "the force on it is 8 % too large (tamp study inputs/studies/penetration_punch.json)\n"));
   CHECK_THAT(said, Catch::Contains("advice  box: waves in sand (909 m/s) are at its side x- after 0.38 ms and back at "
                                    "punch after 0.77 ms, of 7 ms\n"));
   CHECK_THAT(said, !Catch::Contains("method:") && !Catch::Contains("rule:") && !Catch::Contains("slab:"));
@@ -41,7 +42,7 @@ TEST_CASE("for a short time a smaller box and a rigid punch would do")
 {
   const std::string said = check_of("punch/quick.json", "--set /time/end=1e-4");
 
-  CHECK_THAT(said, Catch::Contains("its depth is within 1 % of a deformable one's, some 0.72 % off"));
+  CHECK_THAT(said, Catch::Contains("its depth is only some 0.72 % off a deformable one's"));
   CHECK_THAT(said, Catch::Contains("box: waves in sand (909 m/s) travel 0.091 m in 0.1 ms and do not return to punch "
                                    "from any side; 0.36 of the cells are enough, with /grid/lower=[0.2,0.325] "
                                    "/grid/upper=[0.8,0.8] /grid/patches=[2,1] /bodies/sand/geometry/lower=[0.2,0.325] "
@@ -86,9 +87,8 @@ TEST_CASE("the check of the projectile says that it is thin, that it sets the st
 {
   const std::string rigid = check_of("uxo/quick.json"), deformable = check_of("uxo/table.json");
 
-  CHECK_THAT(rigid,
-             Catch::Contains("advice  step: sand sets it, projectile is rigid (waves of 5489 m/s in projectile, "
-                             "731 in sand); its depth is not within 1 % of a deformable one's, some 14 % off\n"));
+  CHECK_THAT(rigid, Catch::Contains("advice  step: sand sets it, projectile is rigid (waves of 5489 m/s in projectile, "
+                                    "731 in sand); its depth is some 14 % off a deformable one's\n"));
   CHECK_THAT(deformable, Catch::Contains("advice  step: projectile sets it "));
   CHECK_THAT(rigid, Catch::Contains("advice  cells: projectile has 1.2 to its half width, and needs 6; by how much the "
                                     "force on it is too large is not known for this scene (`tamp check SCENE --study "

@@ -41,7 +41,8 @@ std::string details_of(const CLI::Option& option)
     details.push_back(fmt::format("{}", fmt::join(choices, ", ")));
   }
   const std::string by_default = option.get_default_str();
-  if (!by_default.empty() && by_default != "[]" && !value_of(option).empty()) {
+  const bool is_told = option.get_description().find("by default") != std::string::npos;
+  if (!is_told && !by_default.empty() && by_default != "[]" && !value_of(option).empty()) {
     details.push_back("by default " + by_default);
   }
   for (const CLI::Option* other : option.get_excludes()) details.push_back("not with " + other->get_name());
