@@ -52,13 +52,36 @@ rlimit limit_of(double seconds)
   return {std::min(whole, own.rlim_max), std::min(whole + 30, own.rlim_max)};
 }
 
-[[noreturn]] void become(const ExecArguments& arguments, const char* errors, const rlimit& limit, pid_t parent)
+/// Holds all signals back while it lives. A child begins with its parent's handlers: one that only notes a signal, in
+/// memory that is gone with exec, would lose the request to stop.
+class SignalsHeldBack
+{
+ public:
+  SignalsHeldBack()
+  {
+    sigset_t all;
+    sigfillset(&all);
+    pthread_sigmask(SIG_SETMASK, &all, &before_);
+  }
+  ~SignalsHeldBack() { release(); }
+  SignalsHeldBack(const SignalsHeldBack&) = delete;
+  SignalsHeldBack& operator=(const SignalsHeldBack&) = delete;
+
+  void release() const { pthread_sigmask(SIG_SETMASK, &before_, nullptr); }
+
+ private:
+  sigset_t before_{};
+};
+
+[[noreturn]] void become(const ExecArguments& arguments, const char* errors, const rlimit& limit, pid_t parent,
+                         const SignalsHeldBack& signals)
 {
   prctl(PR_SET_PDEATHSIG, SIGKILL);
   // A signal that comes before the program handles it ends the program.
   for (const int signal : {SIGTERM, SIGINT, SIGHUP, SIGXCPU}) {
     if (std::signal(signal, SIG_DFL) == SIG_IGN) std::signal(signal, SIG_IGN);
   }
+  signals.release();
   const int out = open("/dev/null", O_WRONLY);
   const int err = *errors == '\0' ? STDERR_FILENO : open(errors, O_WRONLY | O_CREAT | O_TRUNC, 0666);
   const bool ready = getppid() == parent && out >= 0 && err >= 0 && dup2(out, STDOUT_FILENO) >= 0 &&
@@ -77,9 +100,10 @@ pid_t start(const Child& child)
   const ExecArguments arguments(child);
   const std::string errors = child.errors.string();
   const pid_t parent = getpid();
+  const SignalsHeldBack signals;
   const pid_t pid = fork();
   if (pid < 0) throw ResourceError(std::string("cannot start a process: ") + std::strerror(errno));
-  if (pid == 0) become(arguments, errors.c_str(), limit_of(child.cpu_limit), parent);
+  if (pid == 0) become(arguments, errors.c_str(), limit_of(child.cpu_limit), parent, signals);
   return pid;
 }
 
