@@ -122,6 +122,26 @@ TEST_CASE("the scene as resolved reads back as the same scene, from any folder")
   CHECK(std::get<components::TabularCap>(again.scene.materials.at(1).model).crush_pressure(0.1) == 2e7);
 }
 
+TEST_CASE("Bolton's sand has the density of its relative density, and at rest the stress across that Jaky found")
+{
+  const TemporaryFolder folder;
+  const auto file = folder.write("small.json", small_scene);
+  const std::string sand =
+      R"(/materials/steel={"type":"bolton_sand","relative_density":0.75,"grain_density":2640,"e_min":0.6,"e_max":0.8,)"
+      R"("critical_friction_angle":30,"shear_modulus_number":125,"poisson_ratio":0.2})";
+
+  const auto checked = read_scene(file, {sand, "/gravity=[0,-10]", "/bodies/block/geometry/upper=[2,1]",
+                                         "/boundaries/y+=open", "/bodies/block/initial_stress=true"});
+  const auto again = read_scene(folder.write("again.json", tools::printed(checked.resolved)));
+
+  // e = 0.8 - 0.75 (0.8 - 0.6) = 0.65
+  CHECK(checked.scene.materials[0].density == Approx(1600));
+  CHECK(checked.resolved["materials"]["steel"]["density"] == checked.scene.materials[0].density);
+  CHECK(again.scene.materials[0].density == checked.scene.materials[0].density);
+  REQUIRE(checked.scene.bodies[0].k0);
+  CHECK(*checked.scene.bodies[0].k0 == Approx(0.5));
+}
+
 TEST_CASE("strata that start settled meet by the normal of the flatter surface, unless the scene has another")
 {
   const TemporaryFolder folder;

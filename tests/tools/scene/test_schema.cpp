@@ -50,7 +50,7 @@ TEST_CASE("the schema tells an editor unit, default and range of a key")
   const tools::Json& material = schema.at("/definitions/material/else"_json_pointer);
   CHECK(material.at("/properties/type/enum/0"_json_pointer) == "hypoelastic");
   CHECK(material.at("/allOf/0/then/properties/density/description"_json_pointer) ==
-        "of the unstrained material [kg/m³]");
+        "of the unstrained material [kg/m³]; default: compulsory, but with `relative_density`");
 }
 
 TEST_CASE("the schema names the pages that the text of a key links")

@@ -4,9 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "components/errors.hpp"
 #include "components/geometry/ball.hpp"
+#include "components/portable_math.hpp"
 #include "tasks/method.hpp"
 #include "tasks/set_up/body_sites.hpp"
 #include "tools/scene/bodies/cut_solid.hpp"
@@ -207,6 +209,14 @@ std::optional<components::PolarLayout> read_rings(const components::Solid<D>& so
   return std::nullopt;
 }
 
+/// The usual k0 of a sand at rest (J. Jaky, 1944); none where an elastic layer's stands for it.
+std::optional<double> k0_at_rest(const tasks::SceneMaterial& material)
+{
+  const auto* sand = std::get_if<components::BoltonSand>(&material.model);
+  if (sand == nullptr) return std::nullopt;
+  return 1 - portable::sin(std::numbers::pi / 180 * sand->critical_friction_angle);
+}
+
 template <int D>
 std::optional<tasks::SceneBody> read(const std::string& name, JsonReader& reader, const tasks::Scene& scene,
                                      const std::vector<std::string>& material_names, bool grid_is_good)
@@ -282,7 +292,7 @@ std::optional<tasks::SceneBody> read(const std::string& name, JsonReader& reader
   }
   body.axis = axis;
   body.initial_stress = initial_stress;
-  body.k0 = k0;
+  body.k0 = initial_stress && !k0 ? k0_at_rest(scene.materials[static_cast<std::size_t>(number)]) : k0;
   body.pressure = std::move(pressure);
   if (axis) check_axis<D>(*axis, *solid, scene.grid.cell_size / scene.particles_per_axis_of(number), reader);
   if (initial_stress) check_rests(body, reader);

@@ -128,9 +128,9 @@ const ObjectKeys& body_keys()
        {"k0",
         Number{above_zero},
         "",
-        {nullptr, "ν / (1 - ν)"},
-        "with `initial_stress`, the stress across over that along the vertical; by default that of an elastic layer "
-        "that cannot widen"},
+        {nullptr, "ν / (1 - ν); 1 - sin(`critical_friction_angle`) of `bolton_sand`"},
+        "with `initial_stress`, the horizontal over the vertical stress; by default that of an elastic layer that "
+        "cannot widen, and of Bolton's sand that of Jaky (1944)"},
        {"pressure", Object{pressure_keys}, "", none,
         "an object: a pressure on the surface of a body that is not rigid, see below"},
        {"problem", Object{problem_keys}, "", none,

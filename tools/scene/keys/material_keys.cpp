@@ -100,6 +100,16 @@ std::vector<Key> keys_of()
 }
 
 template <>
+std::vector<Key> keys_of<components::BoltonSand>()
+{
+  std::vector<Key> keys = keys_of_parameters<components::BoltonSand>();
+  keys.insert(keys.begin(), {"relative_density", Number{{.lower = 0, .upper = 1}}, "", none,
+                             "I_D = (e_max - e) / (e_max - e_min), from 0, loosest, to 1, densest: in place of "
+                             "`density`, which then follows from it"});
+  return keys;
+}
+
+template <>
 std::vector<Key> keys_of<components::TabularCap>()
 {
   using components::ElasticUpdate, components::TabularCapParameters;
@@ -181,16 +191,19 @@ std::vector<TypeKeys> types_of(const std::variant<Model...>*)
 
 const ObjectKeys& material_keys()
 {
-  static const ObjectKeys keys{
-      .name = "material",
-      .keys = {{"density", Number{above_zero}, "kg/m^3", compulsory, "of the unstrained material"},
-               {"particles_per_axis",
-                WholeNumber{1, most_particles_per_axis},
-                "",
-                {nullptr, "the scene's"},
-                "the number of its particles along each axis of a cell"}},
-      .types = types_of(static_cast<const components::MaterialModel*>(nullptr)),
-      .may_be_a_file = true};
+  static const ObjectKeys keys{.name = "material",
+                               .keys = {{"density",
+                                         Number{above_zero},
+                                         "kg/m^3",
+                                         {nullptr, "compulsory, but with `relative_density`"},
+                                         "of the unstrained material"},
+                                        {"particles_per_axis",
+                                         WholeNumber{1, most_particles_per_axis},
+                                         "",
+                                         {nullptr, "the scene's"},
+                                         "the number of its particles along each axis of a cell"}},
+                               .types = types_of(static_cast<const components::MaterialModel*>(nullptr)),
+                               .may_be_a_file = true};
   return keys;
 }
 

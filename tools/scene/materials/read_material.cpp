@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "components/errors.hpp"
 #include "components/materials/tabular_cap.hpp"
@@ -161,6 +162,22 @@ struct Surroundings {
   bool in_plane_strain;
 };
 
+/// The density that a sand has been given, or that which it has at the relative density that it has been given.
+double density_of(JsonReader& reader, const components::BoltonSand& sand, double density)
+{
+  const std::optional<double> relative = reader.optional_number("relative_density");
+  if (!relative) return density;
+  const double void_ratio = sand.e_max - *relative * (sand.e_max - sand.e_min);
+  const double own = sand.grain_density / (1 + void_ratio);
+  const double stated = reader.number("density", own);
+  constexpr double round_off = 1e-6;
+  if (std::abs(stated / own - 1) > round_off) {
+    reader.add_problem("relative_density", fmt::format("{} beside a density of {}", *relative, stated),
+                       fmt::format("expected one of the two, or {:.6g} kg/m^3", own));
+  }
+  return own;
+}
+
 /// A model that consists of numbers.
 template <class Model>
 std::optional<tasks::MaterialModel> read_model(JsonReader& reader, const Surroundings& around)
@@ -171,7 +188,7 @@ std::optional<tasks::MaterialModel> read_model(JsonReader& reader, const Surroun
   if (reader.document().problems.size() > n_problems) return std::nullopt;
   try {
     if constexpr (requires { model.check(); }) model.check();
-    if constexpr (requires { model.fill(around.density); }) model.fill(around.density);
+    if constexpr (requires { model.fill(around.density); }) model.fill(density_of(reader, model, around.density));
     if constexpr (requires { model.choose_strength(true); }) model.choose_strength(around.in_plane_strain);
   } catch (const components::BadParameter& bad) {
     reader.add_problem(bad.key, bad.found, "expected " + bad.expected);
@@ -203,9 +220,11 @@ std::optional<tasks::SceneMaterial> read_material(const std::string& name, JsonR
   reader.expect_numbers_to_multiply();
   const std::string type = reader.type();
   if (type.empty()) return std::nullopt;
-  const double density = reader.number("density");
+  const bool is_relative = type == components::BoltonSand::type && reader.has("relative_density");
+  double density = is_relative ? 0 : reader.number("density");
   const auto model =
       read_model(type, reader, {density, in_plane_strain}, static_cast<const tasks::MaterialModel*>(nullptr));
+  if (is_relative && model) density = reader.number("density");
   std::optional<int> particles_per_axis;
   if (reader.has("particles_per_axis")) particles_per_axis = reader.whole_number("particles_per_axis");
   reader.finish();
