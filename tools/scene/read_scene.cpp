@@ -130,8 +130,9 @@ class SceneReader
       return 1;
     }
     if (std::abs(cells - whole) > 1e-9 * whole) {
+      const double next = lower + std::ceil(cells) * scene_.grid.cell_size;
       reader.add_problem("cell_size", fmt::format("{:.10g} cells along {}", cells, "xyz"[axis]),
-                         "expected the grid's edges to be whole numbers of cells");
+                         fmt::format("expected a whole number of them, as with {:.8g} m in /grid/upper", next));
     }
     return static_cast<int>(whole);
   }

@@ -31,7 +31,7 @@ TEST_CASE("keys that are missing or unknown are refused, and values of a wrong t
 
 TEST_CASE("a grid that is no whole number of cells, or not divided by its patches, is refused")
 {
-  const std::string whole = "; expected the grid's edges to be whole numbers of cells";
+  const std::string whole = "; expected a whole number of them, as with 2.1 m in /grid/upper";
 
   check_rows(
       problems_with,
