@@ -165,17 +165,23 @@ struct Surroundings {
 /// The density that a sand has been given, or that which it has at the relative density that it has been given.
 double density_of(JsonReader& reader, const components::BoltonSand& sand, double density)
 {
-  const std::optional<double> relative = reader.optional_number("relative_density");
-  if (!relative) return density;
-  const double void_ratio = sand.e_max - *relative * (sand.e_max - sand.e_min);
-  const double own = sand.grain_density / (1 + void_ratio);
-  const double stated = reader.number("density", own);
-  constexpr double round_off = 1e-6;
-  if (std::abs(stated / own - 1) > round_off) {
-    reader.add_problem("relative_density", fmt::format("{} beside a density of {}", *relative, stated),
-                       fmt::format("expected one of the two, or {:.6g} kg/m^3", own));
+  const double loosest = sand.e_max, range = sand.e_max - sand.e_min;
+  if (const std::optional<double> relative = reader.optional_number("relative_density")) {
+    const double own = sand.grain_density / (1 + loosest - *relative * range);
+    density = reader.number("density", own);
+    constexpr double round_off = 1e-6;
+    if (std::abs(density / own - 1) > round_off) {
+      reader.add_problem("relative_density", fmt::format("{} beside a density of {}", *relative, density),
+                         fmt::format("expected one of the two, or {:.6g} kg/m^3", own));
+    }
+    density = own;
   }
-  return own;
+  const double void_ratio = sand.grain_density / density - 1;
+  reader.document().remarks.push_back(
+      fmt::format("{}: {:.5g} kg/m3, a void ratio of {:.3g}, a relative density of "
+                  "{:.2f}",
+                  reader.place("density"), density, void_ratio, (loosest - void_ratio) / range));
+  return density;
 }
 
 /// A model that consists of numbers.
