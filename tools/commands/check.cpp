@@ -188,20 +188,19 @@ void check(const CheckArguments& options)
 
 CLI::App* add_check_command(CLI::App& app)
 {
-  CLI::App* command =
-      app.add_subcommand("check", "Check a scene, sum it up, forecast what it takes and advise; print it resolved");
+  CLI::App* command = app.add_subcommand("check", "Check and summarise a scene, estimate its cost, and give advice");
   const auto options = std::make_shared<CheckArguments>();
   command->add_option("SCENE", options->scene, "the scene's JSON file")->type_name("FILE")->required();
   add_assignments(*command, options->assignments, "scene");
   command->add_flag("--json", options->json,
-                    "print the scene as JSON with every default filled in; what else is said goes to stderr");
+                    "print the scene as JSON with every default filled in; all other output goes to stderr");
   command->add_flag("--no-trial", options->no_trial,
                     "try no steps on coarser cells: no forecast of steps and time, no advice that needs it");
   command
       ->add_option(
           "--study", options->study,
-          "write a study that tells how far the scene is off, for `tamp study`: on three grids, beside a method "
-          "that is on the front")
+          "write a study that tells how far the scene is off, for `tamp study`: on three grids, compared with a "
+          "method on the front of cost and error")
       ->type_name("OUT.json");
   command->footer(examples(
       {{"tamp check inputs/punch/quick.json",

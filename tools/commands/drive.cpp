@@ -130,11 +130,12 @@ void add_test_options(CLI::App& command, CLI::Option* path, LaboratoryTest& test
   };
   add("--pressure", test.pressure, "axial stress at the start, of isotropic at the end; Pa, compression positive")
       ->check(is_at_least_zero());
-  add("--k0", test.lateral_ratio, "lateral over axial stress at the start")->check(is_at_least_zero());
+  add("--k0", test.lateral_ratio,
+      "lateral over axial stress at the start, for triaxial, simple_shear (both also undrained) and constant_p")
+      ->check(is_at_least_zero());
   add("--strain", test.strain, "axial shortening over length, or shear displacement over height, at the end")
       ->check(is_from_to(-0.9, 0.9));
-  add("--cycles", test.n_cycles, "ways to the end and back to the start; 0 is only to the end")
-      ->check(is_whole_from_to(0, 10'000));
+  add("--cycles", test.n_cycles, "load-unload cycles; 0 means loading only")->check(is_whole_from_to(0, 10'000));
 }
 
 }  // namespace

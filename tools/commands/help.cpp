@@ -38,7 +38,7 @@ CLI::App* add_version_command(CLI::App& app)
 
 CLI::App* add_completion_command(CLI::App& app)
 {
-  CLI::App* command = app.add_subcommand("completion", "Print a script that lets a shell complete tamp's words");
+  CLI::App* command = app.add_subcommand("completion", "Print a shell completion script");
   const auto shell = std::make_shared<std::string>();
   command->add_option("SHELL", *shell, "the shell")->required()->check(is_one_of({"bash", "zsh"}));
   command->footer(examples({{"source <(tamp completion bash)", "for this shell"},

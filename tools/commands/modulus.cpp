@@ -173,8 +173,7 @@ void answer(const ModulusArguments& options)
 
 CLI::App* add_modulus_command(CLI::App& app)
 {
-  CLI::App* command = app.add_subcommand(
-      "modulus", "Ask a material, or a model's file by itself, for pressure and moduli at given strains, as CSV");
+  CLI::App* command = app.add_subcommand("modulus", "Print the pressure and moduli of a material or model file");
   const auto options = std::make_shared<ModulusArguments>();
   command
       ->add_option("FILE", options->file,

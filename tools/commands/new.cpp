@@ -67,7 +67,7 @@ void expect_nothing_at(const std::filesystem::path& file)
 {
   std::error_code none;
   if (!std::filesystem::exists(std::filesystem::symlink_status(file, none))) return;
-  throw InputError({file.string(), "is there already", "expected the name of a new file"});
+  throw InputError({file.string(), "already exists", "expected the name of a new file"});
 }
 
 /// Prints the commands to run the scene and to draw its force over depth, and where these figures will be.
@@ -103,12 +103,14 @@ CLI::App* add_new_command(CLI::App& app)
   command->add_option("KIND", options->kind, "what goes into the ground")
       ->required()
       ->check(is_one_of(names_of_scene_kinds()));
-  command->add_option("OUT", options->out, "the scene's JSON file, which is not there yet")
+  command->add_option("OUT", options->out, "the file to write; it must not exist")
       ->type_name("FILE")
       ->required()
       ->check(is_not_empty());
   command
-      ->add_option("--in", options->geometry, "the plane, the plane turned about an axis, or space; no cone in plane")
+      ->add_option("--in", options->geometry,
+                   "plane, axisymmetric or space; no cone in plane; punch in axisymmetric is a round flat plate that "
+                   "falls freely, such as the pad of a lander")
       ->check(is_one_of({"plane", "axisymmetric", "space"}))
       ->default_str("axisymmetric for ball and cone, plane for punch and footing");
   command->footer(

@@ -53,7 +53,7 @@ void draw_plot(const PlotArguments& options)
 CLI::App* add_plot_command(CLI::App& app)
 {
   CLI::App* command =
-      app.add_subcommand("plot", "Draw a column of runs over another, and what was measured, as SVG or PNG");
+      app.add_subcommand("plot", "Plot one column against another, for one or more runs, with measurements");
   const auto options = std::make_shared<PlotArguments>();
   command
       ->add_option("RUN", options->words,

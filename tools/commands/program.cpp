@@ -54,7 +54,7 @@ int run_program(int argc, char** argv, const runtime::Communicator& ranks)
   add_man_command(app);
   app.footer(examples({{"tamp new ball ball.json", "a scene to start from"},
                        {"tamp run inputs/punch/quick.json", "the punch, into runs/quick"},
-                       {"tamp help run", "all that a command takes, with examples"}}));
+                       {"tamp help run", "all options of a command, with examples"}}));
 
   if (is_old_verify(argc, argv)) {
     if (runtime::Communicator::world().is_first()) print_err("tamp bench verify is now tamp verify\n");

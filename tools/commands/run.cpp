@@ -54,13 +54,14 @@ void apply_schedule(const std::string& schedule, RunOptions& run)
 
 void add_checkpoint_options(CLI::App& command, CheckpointPolicy& policy)
 {
-  command.add_option("--checkpoint-steps", policy.steps, "keep the state every so many steps")
+  command.add_option("--checkpoint-steps", policy.steps, "write a checkpoint every so many steps")
       ->check(is_whole_from(1))
       ->default_str("never");
-  command.add_option("--checkpoint-time", policy.simulated, "and every so many seconds of simulated time")
+  command
+      .add_option("--checkpoint-time", policy.simulated, "write a checkpoint every so many seconds of simulated time")
       ->check(is_above_zero())
       ->default_str("never");
-  command.add_option("--checkpoint-wall", policy.wall, "and every so many seconds of the clock")
+  command.add_option("--checkpoint-wall", policy.wall, "write a checkpoint every so many seconds of wall time")
       ->check(is_above_zero());
   command.add_option("--checkpoint-keep", policy.keep, "how many checkpoints stay, the newest")
       ->check(is_whole_from_to(1, 1000));
@@ -135,7 +136,7 @@ CLI::App* add_run_command(CLI::App& app)
   CLI::Option* force =
       command->add_flag("--force", options->run.force, "replace what an earlier run left in the folder");
   CLI::Option* restart =
-      command->add_option("--restart", options->restart, "go on in this run's folder, from its newest checkpoint")
+      command->add_option("--restart", options->restart, "resume the run in this folder from its newest checkpoint")
           ->type_name("DIR")
           ->check(is_not_empty())
           ->excludes(out)
@@ -143,11 +144,11 @@ CLI::App* add_run_command(CLI::App& app)
   add_checkpoint_options(*command, options->run.checkpoints);
   command
       ->add_option("--balance", options->run.balance_interval,
-                   "steps between two looks at the load of the ranks; 0: patches stay where they are")
+                   "check the load balance every so many steps; 0: patches stay where they are")
       ->check(is_whole_from(0));
   command
       ->add_option("--stall-limit", options->run.executor.stall.limit,
-                   "seconds in which nothing completes, after which the run tells what it waits for, and ends")
+                   "end the run, saying what it waits for, if no task completes for so many seconds")
       ->check(is_above_zero());
   command
       ->add_option("--wall-limit", options->run.wall_limit,
@@ -155,9 +156,10 @@ CLI::App* add_run_command(CLI::App& app)
       ->check(is_above_zero())
       ->default_str("no limit");
   command
-      ->add_option("--trace-steps", options->trace_steps,
-                   "steps that trace.json shows task by task: how many of the first, FIRST:LAST (both in it, step 1 is "
-                   "the first), as many as fit into some 100 MB; slowest; none: it is not written")
+      ->add_option(
+          "--trace-steps", options->trace_steps,
+          "which steps to trace, in trace.json: N (the first N), FIRST:LAST (both included; the first step is 1), "
+          "slowest, or none; at most about 100 MB")
       ->type_name("STEPS")
       ->check(is_trace_choice());
   command->add_flag("--strict", options->run.strict, "let a run that completes with warnings end with exit code 3");

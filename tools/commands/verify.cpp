@@ -11,8 +11,7 @@ namespace tamp::tools
 
 CLI::App* add_verify_command(CLI::App& app)
 {
-  CLI::App* command = app.add_subcommand(
-      "verify", "Hold the methods against exact answers: the studies of inputs/verification, and what they expect");
+  CLI::App* command = app.add_subcommand("verify", "Compare the methods with exact solutions");
   const auto batch = std::make_shared<study::StudyBatch>(study::StudyBatch{"verification", "runs/verify"});
   add_batch_options(*command, *batch, "verification.json and verification.md",
                     "a list of problems and methods, with orders and errors");

@@ -116,7 +116,7 @@ TEST_CASE("what is there already is not replaced by a new scene")
     const Outcome outcome = tamp_with("new ball " + there);
     CHECK(outcome.exit_code == 2);
     CHECK(outcome.out.empty());
-    CHECK(outcome.err == "tamp: " + there + ": is there already; expected the name of a new file\n");
+    CHECK(outcome.err == "tamp: " + there + ": already exists; expected the name of a new file\n");
   }
   CHECK(read_text(file) == "mine");
   CHECK_FALSE(fs::exists(folder.path() / "nowhere.json"));
