@@ -227,10 +227,9 @@ void check_width(const tasks::Scene& scene, const tasks::SceneBody& body, Warnin
   const auto penetration = penetration_of(scene, body);
   if (!penetration || !penetration->is_coarse()) return;
   warnings.push_back(
-      fmt::format("/bodies/{}/geometry: half its width across its way into {} is {:.3g} cells; with fewer than {} the "
-                  "force on it tends to be a tenth or more too large; cells of at most {:.2g} m are fine enough",
-                  body.name, penetration->into->name, penetration->cells(), least_cells_per_half_width,
-                  penetration->fine_cell_size()));
+      fmt::format("/bodies/{}/geometry: half its width is only {:.3g} cells; with fewer than {} the force on it "
+                  "tends to be a tenth or more too large; cells of at most {:.2g} m are fine enough",
+                  body.name, penetration->cells(), least_cells_per_half_width, penetration->fine_cell_size()));
 }
 
 void check_mass(const CheckedScene& checked, const tasks::SceneBody& body, Warnings& warnings)

@@ -156,7 +156,7 @@ std::string advice_on_box(const tasks::Scene& scene, const tasks::SceneBody& bod
     line += fmt::format("are outrun by {}, which is at its side {} after {} ms, of {} ms", body.name, first.name(),
                         two_digits(1e3 * first.there), two_digits(1e3 * T));
   } else if (first.back < T) {
-    line += fmt::format("are at its side {} after {} ms and back at {} after {} ms, of {} ms", first.name(),
+    line += fmt::format("reach its side {} after {} ms and are back at {} after {} ms, of {} ms", first.name(),
                         two_digits(1e3 * first.there), body.name, two_digits(1e3 * first.back), two_digits(1e3 * T));
   } else {
     line += fmt::format("travel {:.2g} m in {} ms and do not return to {} from any side", c * T, two_digits(1e3 * T),

@@ -123,7 +123,7 @@ void report_cells(const tasks::Scene& scene, const tasks::SceneBody& body, const
 {
   const auto penetration = penetration_of(scene, body);
   if (!penetration) return;
-  report.line("        {:.1f} cells to its half width, on its way into {}", penetration->cells(),
+  report.line("        {:.1f} cells across its half width, going into {}", penetration->cells(),
               penetration->into->name);
 }
 

@@ -279,9 +279,9 @@ std::string body_text(const std::string& name, const Json& body)
   text += fmt::format(", {:.4g} m/s", std::hypot(v[0], v[1], v[2]));
   if (body.contains("largest_force") && !body["largest_force"].is_null()) {
     const Json& force = body["largest_force"];
-    text += fmt::format("; force along {} at most {:.4g} N at {}, now {:.4g} N", force["axis"].get<std::string>(),
-                        force["value_N"].get<double>(), in_words(force["time_s"].get<double>()),
-                        force["now_N"].get<double>());
+    text += fmt::format("; force along {} at most {:.4g} N at {}, now {:.4g} N (means over the history interval)",
+                        force["axis"].get<std::string>(), force["value_N"].get<double>(),
+                        in_words(force["time_s"].get<double>()), force["now_N"].get<double>());
   }
   return text + "\n";
 }
@@ -289,7 +289,7 @@ std::string body_text(const std::string& name, const Json& body)
 /// A line on how far the worst of the monitors is from its limit.
 std::string monitors_text(const Json& monitors)
 {
-  std::string text = "  of their limits:";
+  std::string text = "  closest to their limits:";
   int n_shown = 0;
   for (const auto& [name, monitor] : monitors.items()) {
     if (!monitor.is_object() || n_shown++ == 4) break;
@@ -317,7 +317,7 @@ std::string summary_text(const Json& summary)
   }
   const Json& output = summary["output"];
   const auto seconds = [&](const char* name) { return output[name].get<double>(); };
-  text += fmt::format("  output delayed the steps by {:.2g} s, {:.2g} s of it to wait for the writer\n",
+  text += fmt::format("  output delayed the steps by {:.2g} s, {:.2g} s of it waiting for the writer\n",
                       seconds("history_s") + seconds("fields_s") + seconds("checkpoints_s") + seconds("waited_s"),
                       seconds("waited_s"));
   text += fmt::format(

@@ -65,7 +65,7 @@ TEST_CASE("a punch with few cells to its half width is warned of, with cells tha
 {
   const std::string coarse = warnings_with({}), fine = warnings_with({"/grid/cell_size=0.05"});
 
-  CHECK_THAT(coarse, Catch::Contains("/bodies/punch/geometry: half its width across its way into ground is 3 cells") &&
+  CHECK_THAT(coarse, Catch::Contains("/bodies/punch/geometry: half its width is only 3 cells") &&
                          Catch::Contains("cells of at most 0.05 m"));
   CHECK(fine.empty());
 }

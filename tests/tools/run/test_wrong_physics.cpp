@@ -122,10 +122,10 @@ TEST_CASE("the check says on how many cells a body goes into another one, and th
   const Outcome as_shipped = tamp_with("check --no-trial " + punch);
   const Run coarse = run_with(quiet_punch + "--steps 1 --set /grid/cell_size=0.05");
 
-  CHECK_THAT(as_shipped.out, Catch::Contains("6.0 cells to its half width, on its way into sand"));
+  CHECK_THAT(as_shipped.out, Catch::Contains("6.0 cells across its half width, going into sand"));
   CHECK_FALSE(warns("/grid/cell_size=0.025", "half its width"));
   REQUIRE(coarse.summary["warnings"].size() == 1);
-  CHECK_THAT(coarse.summary["warnings"][0].get<std::string>(), Catch::Contains("into sand is 3 cells"));
+  CHECK_THAT(coarse.summary["warnings"][0].get<std::string>(), Catch::Contains("half its width is only 3 cells"));
 }
 
 TEST_CASE("a run whose substeps miss their tolerance ends with a warning that says how many do", "[slow]")
