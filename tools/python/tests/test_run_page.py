@@ -156,8 +156,8 @@ class Pictures(unittest.TestCase):
         materials, speeds = particles.views(self.DATA)
 
         self.assertEqual(particles.describe(materials),
-                         "The particles at 2 ms, x across and z upwards: 2 colours. steel: 40 % of what is drawn, x "
-                         "from 1.5 m to 2.5 m, z from 500 mm to 1 m. sand: 60 % of what is drawn, x from 1 m to "
+                         "The particles at 2 ms, x across and z upwards: 2 colours. steel: 40 % of the area drawn, x "
+                         "from 1.5 m to 2.5 m, z from 500 mm to 1 m. sand: 60 % of the area drawn, x from 1 m to "
                          "2.5 m, z from 0 m to 500 mm.")
         self.assertEqual(materials.caption, "Particles within half a cell of y = 50 mm.")
         self.assertEqual(speeds.names[0], "0 m/s to 5 m/s")

@@ -233,8 +233,8 @@ class ThePictures(InAFolder):
         self.assertAlmostEqual(float(p[rows // 4, columns * 3 // 4]), 2e3 * 1.75, delta=40)
         self.assertTrue(np.isnan(p[-2, 2]))
         self.assertEqual(found.still.kind[-2, 2], 0)
-        self.assertIn("At 2 ms, the output of fields nearest to the greatest contact force on punch, 5 kN/m at 1.9 ms",
-                      html)
+        self.assertIn("At 2 ms, the output of fields nearest to the greatest contact force on punch, 5 kN/m at 1.9 ms "
+                      "(a mean over the history interval).", html)
         for title in ["Pressure p at 2 ms; compression positive", "Density at 2 ms", "steel, rigid", "kg/m³",
                       "Plastic volumetric strain at 2 ms; compaction"]:
             self.assertIn(title, html)
@@ -297,7 +297,8 @@ class ThePictures(InAFolder):
         run["scene"]["bodies"]["punch"]["rigid"] = False
         html = sand_charts.section(sand.read(sand.wanted(run)))
 
-        self.assertIn("Beyond the bar, in the colour of its end: up to 8\u202f000 kg/m³.", html)
+        self.assertIn("Values beyond the colour bar (up to 8\u202f000 kg/m³) take its end colour; they are often those "
+                      "of single particles, such as ones thrown up, or of another material.", html)
         self.assertIn("1\u202f700 kg/m³", html)
 
 

@@ -75,8 +75,7 @@ def said(sand, frame):
 
 def caption(sand, scales, share):
     n = len(sand.frames)
-    text = "One scale for all times" + ("; what is beyond it has the colour of its end." if any_beyond(sand, scales)
-                                        else ".")
+    text = "One scale for all times" + ("; values beyond it take its end colour." if any_beyond(sand, scales) else ".")
     if n < sand.n_outputs:
         text += f" Thinned: {n} of {counted(sand.n_outputs, 'output')} of fields are here."
     if share < 1:
@@ -101,4 +100,4 @@ def figures(sand):
         rows.append([si_text(frame.time, "s"),
                      *(sand_charts.range_text(of_sand(frame, one.field), one.unit) for one in sand.shown)])
     table = page.as_html(Table(["time", *(one.short for one in sand.shown)], rows))
-    return f"<details><summary>The figures of these pictures</summary>\n{table}</details>\n"
+    return f"<details><summary>Data of these pictures</summary>\n{table}</details>\n"

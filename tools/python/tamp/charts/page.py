@@ -71,7 +71,7 @@ def figure_of(name, drawings, caption, table):
     caption = f"<figcaption>{escaped(caption)}</figcaption>\n" if caption else ""
     details = ""
     if table.rows:
-        details = f"<details><summary>The figures of this chart</summary>\n{as_html(table)}</details>\n"
+        details = f"<details><summary>Data of this chart</summary>\n{as_html(table)}</details>\n"
     return f'<figure class="chart" id="chart-{name}">\n{drawings}{caption}{details}</figure>\n'
 
 

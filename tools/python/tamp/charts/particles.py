@@ -188,11 +188,11 @@ def describe(view):
     sentences = [f"{view.title}, {first} across and {second} upwards: {counted(n, 'colour')}."]
     for k, share in covered(view):
         across, up = ranges(view, k)
-        sentences.append(f"{view.names[k]}: {percent_text(share, 2)} of what is drawn, {first} from {across}, {second} "
-                         f"from {up}.")
+        sentences.append(f"{view.names[k]}: {percent_text(share, 2)} of the area drawn, {first} from {across}, "
+                         f"{second} from {up}.")
     return " ".join(sentences)
 
 
 def table(view):
-    return Table(["", "of what is drawn", *(axis["name"] for axis in view.axes)],
+    return Table(["", "share of the area drawn", *(axis["name"] for axis in view.axes)],
                  [[view.names[k], percent_text(share, 2), *ranges(view, k)] for k, share in covered(view)])

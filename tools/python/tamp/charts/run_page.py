@@ -67,7 +67,7 @@ def below_sand(run):
     content += of(run, "trace.json", lambda: one_step(run["step"]))
     content += of(run, "profile.json", lambda: tasks_and_waits(profile))
     levels = of(run, "summary.json", lambda: memory_levels(summary))
-    content += "<h2>What the memory is for</h2>\n"
+    content += "<h2>Memory use</h2>\n"
     content += of(run, "machine.csv", lambda: charts(memory_plots(run["machine"], levels), "memory"))
     return content + of(run, "profile.json", lambda: page.as_html(memory(profile)))
 
@@ -134,12 +134,12 @@ def pictures(views, why=None):
 
 
 def bodies(scene):
-    return "; ".join(f"{name} is {described(body)}" for name, body in scene["bodies"].items()) + "."
+    return "; ".join(f"{name}: {described(body)}" for name, body in scene["bodies"].items()) + "."
 
 
 def described(body):
     speed = speed_text(body)
-    return body["material"] + (", rigid" if body["rigid"] else "") + (f", at first with {speed}" if speed else "")
+    return ("rigid " if body["rigid"] else "") + body["material"] + (f", initial speed {speed}" if speed else "")
 
 
 def speed_text(body):
@@ -255,9 +255,9 @@ def force_against_depth(history, body, axes="xyz"):
 
 def time_of_steps(profile):
     text = (f"A step takes {si_text(profile['step_s'], 's')} on average; no number of threads makes it shorter than "
-            f"its longest chain of tasks, {si_text(profile.get('longest_chain_s'), 's')}. Between two steps pass "
-            f"{si_text(profile.get('between_s'), 's')}, for output and the history. Scheduler overhead is "
-            f"{percent_text(profile['overhead'])} of the workers' time in steps.")
+            f"its longest chain of tasks, {si_text(profile.get('longest_chain_s'), 's')}. "
+            f"{si_text(profile.get('between_s'), 's')} pass between two steps, for output and the history. "
+            f"Scheduler overhead is {percent_text(profile['overhead'])} of the workers' time in steps.")
     if profile.get("too_busy"):
         text += (" The machine was too busy to trust these times: other programs had its cores for "
                  f"{percent_text(1 - profile['core_share'])} of the time of tasks.")
@@ -281,7 +281,7 @@ def tasks(profile):
     rows = [[t["name"], f"{t['count']}", si_text(t["mean_s"], "s"), si_text(t["p95_s"], "s"), percent_text(t["share"]),
              number_text(t["imbalance"]), percent_text(t.get("step_gain_if_a_tenth_faster")),
              percent_text(t.get("step_gain_if_free"))] for t in profile["tasks"]]
-    return Table(["task", "count", "mean", "95 % are below", "share", "imbalance", "gain at -10 %", "gain if free"],
+    return Table(["task", "count", "mean", "95th percentile", "share", "imbalance", "gain at -10 %", "gain if free"],
                  rows)
 
 

@@ -104,7 +104,7 @@ def describe(sand, quantity, values):
     if not len(values):
         return f"{first} across and {second} upwards: no sand here."
     low, middle, high = (si_text(float(v), quantity.unit) for v in np.quantile(values, [0, 0.5, 1]))
-    return (f"{first} across and {second} upwards: from {low} to {high}, half of what is drawn above {middle}.")
+    return (f"{first} across and {second} upwards: from {low} to {high}, median {middle}.")
 
 
 def beyond(values, scale):
@@ -113,7 +113,10 @@ def beyond(values, scale):
         return ""
     low, high = float(values.min()), float(values.max())
     said = [f"down to {scale.text(low)}"] * (low < scale.low) + [f"up to {scale.text(high)}"] * (high > scale.high)
-    return f"Beyond the bar, in the colour of its end: {' and '.join(said)}." if said else ""
+    if not said:
+        return ""
+    return (f"Values beyond the colour bar ({' and '.join(said)}) take its end colour; they are often those of single "
+            "particles, such as ones thrown up, or of another material.")
 
 
 def table(sand, quantity):
@@ -121,7 +124,7 @@ def table(sand, quantity):
     for k, values in values_of(sand, sand.still, quantity.field).items():
         at = np.quantile(values, [0, 0.05, 0.5, 0.95, 1])
         rows.append([sand.wanted.names[k], *(si_text(float(v), quantity.unit) for v in at)])
-    return Table(["material", "least", "5 % are below", "middle", "5 % are above", "greatest"], rows)
+    return Table(["material", "least", "5th percentile", "median", "95th percentile", "greatest"], rows)
 
 
 def lead(sand):
@@ -129,6 +132,7 @@ def lead(sand):
     time, moment = si_text(sand.still.time, "s"), sand.wanted.moment
     if moment:
         text = f"At {time}, the output of fields nearest to {moment.text}"
+        text += " (a mean over the history interval)" if moment.kind == "force" else ""
         then, is_less = moment.at(sand.still.time), moment.at(sand.still.time) < NEARLY * moment.at(moment.time)
         text += f"; it is {si_text(then, moment.unit)} then." if is_less else "."
     else:

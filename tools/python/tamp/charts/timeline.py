@@ -196,8 +196,8 @@ def describe(step):
 
 
 def caption(step):
-    text = (f"Of {counted(step.n_traced, 'traced step')} the one whose time, {si_text(step.duration, 's')}, is the "
-            "median. Each bar is a task on a patch; its name shows under the mouse.")
+    text = (f"The median of the {counted(step.n_traced, 'traced step')} ({si_text(step.duration, 's')}). "
+            "Each bar is a task on a patch; its name shows under the mouse.")
     if sum(map(len, first_lanes(step).values())) > MOST_BARS:
         text += " Short neighbours are drawn as one."
     if len(step.lanes) > MOST_LANES:
