@@ -169,7 +169,7 @@ def every_new_scene():
     """`ball`, `ball --in plane` and so on; a kind that a geometry has not is refused."""
     text = " ".join(helped("new").split())
     kinds, geometries = (re.search(pattern, text)[1].split(", ") for pattern in
-                         [r"what goes into the ground \(([^)]*)\)", r"no cone in plane \(([^;]*?); by"])
+                         [r"what goes into the ground \(([^)]*)\)", r"pad of a lander \(([^;]*?); by"])
     there = [f"{kind} --in {geometry}" for kind in kinds for geometry in geometries]
     return [*kinds, *(words for words in there if words != "cone --in plane")]
 
