@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <fstream>
+
 #include "runtime/file_error.hpp"
 #include "runtime/storage/whole_file.hpp"
 #include "tools/scene/files/input_file.hpp"
@@ -21,10 +23,15 @@ namespace fs = std::filesystem;
 
 constexpr const char* study_mark = ".tamp-study";
 
-/// This program, by its content.
+/// This program, by its content. With a sanitizer and debug information it is larger than any input may be.
 std::string program_hash()
 {
-  static const std::string hash = hash_of(read_input_file("/proc/self/exe"));
+  static const std::string hash = [] {
+    const fs::path program = "/proc/self/exe";
+    std::string content(fs::file_size(program), '\0');
+    std::ifstream(program, std::ios::binary).read(content.data(), static_cast<std::streamsize>(content.size()));
+    return hash_of(content);
+  }();
   return hash;
 }
 
