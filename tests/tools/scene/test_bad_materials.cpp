@@ -77,7 +77,7 @@ TEST_CASE("sand by density and pressure whose packing or critical angle is that 
        {sand + "/density=null " + sand + "/relative_density=0.5", ""},
        {sand + "/relative_density=0.5",
         sand + "/relative_density: 0.5 beside a density of 1500; expected one of the two, or 1472.22 kg/m^3"},
-       {sand + "/density=null", sand + "/density: missing*"},
+       {sand + "/density=null", sand + "/density: missing; expected a number above 0 [kg/m^3]"},
        {sand + "/density=null " + sand + "/relative_density=1.2",
         sand + "/relative_density: 1.2; expected a number from 0 to 1"},
        {sand + "/e_min=1", sand + "/e_min: 1; expected below e_max, 1"},

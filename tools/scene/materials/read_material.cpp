@@ -159,10 +159,12 @@ std::optional<tasks::MaterialModel> read_tabular_cap(JsonReader& reader)
 /// Facts that a model needs about the scene and the rest of its material.
 struct Surroundings {
   double density;
+  bool density_is_good;
   bool in_plane_strain;
 };
 
-/// The density that a sand has been given, or that which it has at the relative density that it has been given.
+/// The density that a sand has been given, or that which it has at the relative density that it has been given; it
+/// adds a remark on the packing.
 double density_of(JsonReader& reader, const components::BoltonSand& sand, double density)
 {
   const double loosest = sand.e_max, range = sand.e_max - sand.e_min;
@@ -178,9 +180,8 @@ double density_of(JsonReader& reader, const components::BoltonSand& sand, double
   }
   const double void_ratio = sand.grain_density / density - 1;
   reader.document().remarks.push_back(
-      fmt::format("{}: {:.5g} kg/m3, a void ratio of {:.3g}, a relative density of "
-                  "{:.2f}",
-                  reader.place("density"), density, void_ratio, (loosest - void_ratio) / range));
+      fmt::format("{}: {:.5g} kg/m3, a void ratio of {:.3g}, a relative density of {:.2f}", reader.place("density"),
+                  density, void_ratio, (loosest - void_ratio) / range));
   return density;
 }
 
@@ -191,7 +192,7 @@ std::optional<tasks::MaterialModel> read_model(JsonReader& reader, const Surroun
   const std::size_t n_problems = reader.document().problems.size();
   Model model{};
   read_parameters(reader, model);
-  if (reader.document().problems.size() > n_problems) return std::nullopt;
+  if (reader.document().problems.size() > n_problems || !around.density_is_good) return std::nullopt;
   try {
     if constexpr (requires { model.check(); }) model.check();
     if constexpr (requires { model.fill(around.density); }) model.fill(density_of(reader, model, around.density));
@@ -227,9 +228,10 @@ std::optional<tasks::SceneMaterial> read_material(const std::string& name, JsonR
   const std::string type = reader.type();
   if (type.empty()) return std::nullopt;
   const bool is_relative = type == components::BoltonSand::type && reader.has("relative_density");
+  const std::size_t n_before = reader.document().problems.size();
   double density = is_relative ? 0 : reader.number("density");
-  const auto model =
-      read_model(type, reader, {density, in_plane_strain}, static_cast<const tasks::MaterialModel*>(nullptr));
+  const Surroundings around{density, reader.document().problems.size() == n_before, in_plane_strain};
+  const auto model = read_model(type, reader, around, static_cast<const tasks::MaterialModel*>(nullptr));
   if (is_relative && model) density = reader.number("density");
   std::optional<int> particles_per_axis;
   if (reader.has("particles_per_axis")) particles_per_axis = reader.whole_number("particles_per_axis");
